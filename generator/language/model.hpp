@@ -1,0 +1,111 @@
+// A Hamiltonian system as its author stated it: names checked, indexed sums still sums.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/source_text.hpp"
+#include "generator/language/ast.hpp"
+
+namespace hamgen {
+
+struct IndexRange {
+  long first = 1;
+  long last = 1;
+  [[nodiscard]] long size() const { return last - first + 1; }
+  bool operator==(const IndexRange&) const = default;
+};
+
+// A coordinate or a momentum, scalar or array.
+struct Variable {
+  std::string name;
+  std::optional<IndexRange> range;  // empty for a scalar
+  std::string unit;                 // as written between brackets, may be empty
+  std::string comment;              // trailing comment of the declaration
+  bool periodic = false;            // q[last + k] is q[first + k - 1], and so on round
+  std::map<long, NodePtr> beyond;   // values outside the range: "with q[0] = 0, q[N+1] = 0"
+  bool is_time = false;             // the coordinate of `time t`, or its momentum p_t
+  Span span;
+};
+
+struct Parameter {
+  std::string name;
+  std::optional<IndexRange> range;
+  std::vector<NodePtr> values;  // one per element: constant expressions in earlier parameters
+  std::string unit;
+  std::string comment;
+  bool folded = false;  // burnt into the code with its default value
+  Span span;
+};
+
+struct Size {
+  std::string name;
+  long value = 0;
+  std::string comment;
+  Span span;
+};
+
+struct Definition {  // let NAME = ...
+  std::string name;
+  NodePtr value;
+  std::string text;
+  Span span;
+};
+
+struct Invariant {
+  std::string name;
+  NodePtr value;
+  std::string text;
+  std::string comment;
+  Span span;
+};
+
+// One line of a scene: "q = 3.1", "q[i] = sin(pi*i/(N+1))", "q[2] = 1", "q = [1, 0, 0]", "eps = 1".
+struct Setting {
+  std::string name;
+  std::string index;            // name of a free index, empty if there is none
+  NodePtr element;              // fixed subscript, null if there is none
+  std::vector<NodePtr> values;  // one, or one per element for a list
+  bool is_list = false;
+  Span span;
+};
+
+struct Scene {
+  std::string name;
+  std::string comment;
+  std::vector<Setting> settings;     // of coordinates, momenta and parameters, in order
+  NodePtr h;                         // null if not given
+  NodePtr steps;                     // null if not given
+  NodePtr every;                     // null if not given: record every k-th step
+  std::vector<std::string> observe;  // "energy", names of invariants; empty means all of them
+  Span span;
+};
+
+struct Model {
+  SourceText source;
+  std::string name;
+  std::vector<Size> sizes;
+  std::vector<Variable> coordinates;  // the i-th coordinate belongs to the i-th momentum
+  std::vector<Variable> momenta;
+  std::vector<Parameter> parameters;
+  std::vector<Definition> definitions;
+  NodePtr hamiltonian;  // without the p_t that `time t` adds
+  std::string hamiltonian_text;
+  std::vector<Invariant> invariants;
+  std::vector<Scene> scenes;
+  std::vector<Diagnostic> warnings;
+};
+
+// Number of degrees of freedom: elements of all coordinates.
+[[nodiscard]] long degrees_of_freedom(const Model& model);
+// "q", "q[3]": the names of all elements of coordinates (or momenta, parameters), in state order.
+[[nodiscard]] std::vector<std::string> element_names(const std::vector<Variable>& variables);
+[[nodiscard]] std::vector<std::string> element_names(const std::vector<Parameter>& parameters);
+// An expression in the language's own notation, with the fewest parentheses.
+[[nodiscard]] std::string to_text(const NodePtr& node);
+[[nodiscard]] std::string to_text(const Model& model);
+
+}  // namespace hamgen

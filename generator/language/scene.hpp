@@ -1,0 +1,44 @@
+// What a scene means in numbers, once the user's overrides are applied.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/language/model.hpp"
+
+namespace hamgen {
+
+struct SceneRequest {
+  std::string scene;                                         // empty: the first, if there is one
+  std::vector<std::pair<std::string, std::string>> set;      // --set NAME=VALUE, VALUE an expression
+  std::vector<std::pair<std::string, std::string>> initial;  // --initial NAME=VALUE
+  std::optional<std::string> h;
+  std::optional<std::string> steps;
+};
+
+// Initial data of a run.  q, p, parameters in state order (element_names); exact rationals, or
+// 50-digit values of constants such as sqrt(2).
+struct SceneValues {
+  std::string name;
+  std::vector<Rational> q;
+  std::vector<Rational> p;
+  std::vector<Rational> parameters;
+  std::optional<Rational> h;
+  std::optional<long> steps;
+  std::optional<long> every;
+  std::vector<std::string> observe;
+};
+
+// Parameters first (defaults, then the scene's, then --set, each able to use those before), then
+// the state.  A variable nobody sets is 0.  Throws UsageError for a wrong option value (unknown
+// name with its nearest, nan, inf, a wrong count, h = 0, steps < 0 or > 1e15), ModelError for a
+// wrong line of the scene.
+[[nodiscard]] SceneValues scene_values(const Model& model, const SceneRequest& request);
+
+// A constant expression over named values; throws ModelError where it is undefined or not real.
+[[nodiscard]] Rational evaluate_constant(const NodePtr& node, const SourceText& source,
+                                         const std::map<std::string, Rational>& values);
+
+}  // namespace hamgen

@@ -1,0 +1,52 @@
+// The whole of hamgen in one function: a Hamiltonian's text in, files out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/base/source_text.hpp"
+#include "generator/formats/output_files.hpp"
+#include "generator/language/model.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+enum class Scalar { float32, float64, extended, quad };
+
+// What the user asks of the generator.  Texts are as on the command line; empty means default.
+struct Request {
+  std::string scheme;                     // a name of `hamgen list schemes`; empty: the member below
+  std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list
+  std::string solver;                     // newton, fixed-point, sweeps:K
+  std::string scalar;                     // float, double, long-double, quad
+  std::string format;                     // cpp-header, cpp-plugin, cmake-package
+  std::string name_space;                 // of the emitted code; default MODEL::SCHEME
+  std::vector<std::string> fold;          // parameters to burn in
+  std::map<std::string, long> sizes;      // other integer constants than the file's
+  std::string command;                    // as the user typed it, for the header; may be empty
+};
+
+[[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
+
+// The value of one stage as text: "model", "mechanics", "equations", "plan", "program".
+[[nodiscard]] std::string show_stage(const SourceText& source, const Request& request,
+                                     const std::string& stage);
+
+// What a run needs to know of an emitted plugin, without reading its text.
+struct PluginSource {
+  Model model;
+  std::string text;                           // one translation unit, self-contained
+  std::string header_text;                    // the same mathematics as a header for the user
+  std::string scheme_name;                    // "implicit-midpoint", "alpha = 3/10, ..."
+  std::string solver;                         // "Newton of size 1, ..." one line
+  std::vector<std::string> left_out;          // what the planner left out and why
+  std::vector<std::string> parameter_names;   // run-time parameters in interface order
+  std::vector<std::string> invariant_names;
+  bool needs_energy_parameter = false;        // the last parameter is E0
+  bool needs_eigen = false;
+  bool needs_quadmath = false;
+};
+[[nodiscard]] PluginSource generate_plugin(const SourceText& source, const Request& request);
+
+}  // namespace hamgen
