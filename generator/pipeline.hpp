@@ -1,6 +1,7 @@
 // The whole of hamgen in one function: a Hamiltonian's text in, files out.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,6 @@
 #include "generator/base/source_text.hpp"
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
-#include "generator/program/program.hpp"
 
 namespace hamgen {
 

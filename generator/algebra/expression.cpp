@@ -1,0 +1,390 @@
+#include "generator/algebra/expression.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+struct Expression::Node {
+  Kind kind = Kind::number;
+  Rational number;
+  std::string name;
+  int rank = 0;
+  std::vector<Expression> operands;
+  std::size_t hash = 0;
+};
+
+namespace {
+
+std::size_t mix(std::size_t seed, std::size_t value) {
+  return seed ^ (value + 0x9e3779b97f4a7c15ULL + (seed << 6) + (seed >> 2));
+}
+
+std::size_t hash_number(const Rational& value) {
+  return std::hash<std::string>{}(value.get_str(62));
+}
+
+}  // namespace
+
+Expression Expression::make(Kind kind, Rational number, std::string name, int rank,
+                            std::vector<Expression> operands) {
+  auto node = std::make_shared<Node>();
+  node->kind = kind;
+  std::size_t hash = mix(0, static_cast<std::size_t>(kind));
+  if (kind == Kind::number) hash = mix(hash, hash_number(number));
+  if (!name.empty()) hash = mix(hash, std::hash<std::string>{}(name));
+  for (const Expression& operand : operands) hash = mix(hash, operand.hash());
+  node->number = std::move(number);
+  node->name = std::move(name);
+  node->rank = rank;
+  node->operands = std::move(operands);
+  node->hash = hash;
+  return Expression(std::move(node));
+}
+
+Expression::Expression() : Expression(Rational(0)) {}
+Expression::Expression(long value) : Expression(Rational(value)) {}
+Expression::Expression(Rational value) {
+  value.canonicalize();
+  *this = make(Kind::number, std::move(value), {}, 0, {});
+}
+
+Expression Expression::symbol(std::string name, int rank) {
+  return make(Kind::symbol, 0, std::move(name), rank, {});
+}
+
+Expression Expression::apply(std::string function, std::vector<Expression> arguments) {
+  // sqrt and powers are one thing.
+  if (function == "sqrt") return power(arguments.at(0), Rational(1, 2));
+  return make(Kind::function, 0, std::move(function), 0, std::move(arguments));
+}
+
+Kind Expression::kind() const { return node_->kind; }
+bool Expression::is_zero() const { return is_number() && node_->number == 0; }
+bool Expression::is_one() const { return is_number() && node_->number == 1; }
+const Rational& Expression::number() const { return node_->number; }
+const std::string& Expression::name() const { return node_->name; }
+int Expression::rank() const { return node_->rank; }
+std::span<const Expression> Expression::operands() const { return node_->operands; }
+std::size_t Expression::hash() const { return node_->hash; }
+
+bool operator==(const Expression& a, const Expression& b) {
+  if (a.node_ == b.node_) return true;
+  if (a.node_->hash != b.node_->hash || a.node_->kind != b.node_->kind) return false;
+  return a.node_->number == b.node_->number && a.node_->name == b.node_->name &&
+         a.node_->operands == b.node_->operands;
+}
+
+std::strong_ordering operator<=>(const Expression& a, const Expression& b) {
+  if (a.node_ == b.node_) return std::strong_ordering::equal;
+  if (auto c = a.node_->kind <=> b.node_->kind; c != 0) return c;
+  const int number = cmp(a.node_->number, b.node_->number);
+  if (number != 0) return number < 0 ? std::strong_ordering::less : std::strong_ordering::greater;
+  if (auto c = a.node_->rank <=> b.node_->rank; c != 0) return c;
+  if (auto c = a.node_->name.compare(b.node_->name) <=> 0; c != 0) return c;
+  if (auto c = a.node_->operands.size() <=> b.node_->operands.size(); c != 0) return c;
+  for (std::size_t i = 0; i < a.node_->operands.size(); ++i) {
+    if (auto c = a.node_->operands[i] <=> b.node_->operands[i]; c != 0) return c;
+  }
+  return std::strong_ordering::equal;
+}
+
+std::pair<Rational, Expression> Expression::split_coefficient() const {
+  if (is_number()) return {number(), Expression(1)};
+  if (kind() == Kind::product && operands()[0].is_number()) {
+    std::vector<Expression> rest(operands().begin() + 1, operands().end());
+    Expression without =
+        rest.size() == 1 ? rest[0] : make(Kind::product, 0, {}, 0, std::move(rest));
+    return {operands()[0].number(), without};
+  }
+  return {Rational(1), *this};
+}
+
+Expression Expression::sum(std::vector<Expression> terms) {
+  // Collect like terms: constant + sum of coefficient * term.
+  Rational constant = 0;
+  std::vector<std::pair<Expression, Rational>> collected;
+  ExpressionMap<std::size_t> place;
+  auto add = [&](auto&& self, const Expression& term, const Rational& factor) -> void {
+    if (term.kind() == Kind::sum) {
+      for (const Expression& inner : term.operands()) self(self, inner, factor);
+      return;
+    }
+    auto [coefficient, rest] = term.split_coefficient();
+    coefficient *= factor;
+    if (rest.is_one()) {
+      constant += coefficient;
+    } else if (rest.kind() == Kind::sum) {
+      for (const Expression& inner : rest.operands()) self(self, inner, coefficient);
+    } else if (auto [it, fresh] = place.try_emplace(rest, collected.size()); fresh) {
+      collected.emplace_back(rest, coefficient);
+    } else {
+      collected[it->second].second += coefficient;
+    }
+  };
+  for (const Expression& term : terms) add(add, term, Rational(1));
+  std::erase_if(collected, [](const auto& entry) { return entry.second == 0; });
+  std::ranges::sort(collected, [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (collected.empty()) return Expression(constant);
+  if (collected.size() == 1 && constant == 0) {
+    return product({Expression(collected[0].second), collected[0].first});
+  }
+  // Note [sign of a sum]: the leading term (a constant comes first) is made positive, and a factor
+  // common to all coefficients is taken out when they are equal in size, so that h/2*a - h/2*b and
+  // b - a share the node a - b.
+  const Rational leading = constant != 0 ? constant : collected[0].second;
+  Rational outer = leading < 0 ? -1 : 1;
+  const bool same_size =
+      (constant == 0 || abs(constant) == abs(leading)) &&
+      std::ranges::all_of(collected, [&](const auto& e) { return abs(e.second) == abs(leading); });
+  if (same_size) outer = leading;
+  std::vector<Expression> operands;
+  if (constant != 0) operands.emplace_back(Rational(constant / outer));
+  for (auto& [term, coefficient] : collected) {
+    const Rational scaled = coefficient / outer;
+    if (scaled == 1) {
+      operands.push_back(term);
+    } else if (term.kind() == Kind::product) {
+      std::vector<Expression> factors{Expression(scaled)};
+      factors.insert(factors.end(), term.operands().begin(), term.operands().end());
+      operands.push_back(make(Kind::product, 0, {}, 0, std::move(factors)));
+    } else {
+      operands.push_back(make(Kind::product, 0, {}, 0, {Expression(scaled), term}));
+    }
+  }
+  Expression total = make(Kind::sum, 0, {}, 0, std::move(operands));
+  if (outer == 1) return total;
+  return make(Kind::product, 0, {}, 0, {Expression(outer), total});
+}
+
+Expression Expression::product(std::vector<Expression> factors) {
+  // Collect numbers, and equal bases with rational exponents: x * x^(1/2) = x^(3/2).
+  Rational coefficient = 1;
+  std::map<Expression, Rational> exponents;
+  std::vector<Expression> others;
+  auto multiply = [&](auto&& self, const Expression& factor) -> void {
+    if (factor.is_number()) {
+      coefficient *= factor.number();
+    } else if (factor.kind() == Kind::product) {
+      for (const Expression& inner : factor.operands()) self(self, inner);
+    } else if (factor.kind() == Kind::power && factor.operands()[1].is_number()) {
+      exponents[factor.operands()[0]] += factor.operands()[1].number();
+    } else if (factor.kind() == Kind::power) {
+      others.push_back(factor);
+    } else {
+      exponents[factor] += 1;
+    }
+  };
+  for (const Expression& factor : factors) multiply(multiply, factor);
+  if (coefficient == 0) return Expression(0);
+  for (const auto& [base, exponent] : exponents) {
+    if (exponent == 0) continue;
+    const Expression raised = power(base, Expression(exponent));
+    if (raised.is_number()) {
+      coefficient *= raised.number();
+    } else if (raised.kind() == Kind::product) {
+      for (const Expression& inner : raised.operands()) {
+        if (inner.is_number()) {
+          coefficient *= inner.number();
+        } else {
+          others.push_back(inner);
+        }
+      }
+    } else {
+      others.push_back(raised);
+    }
+  }
+  if (others.empty()) return Expression(coefficient);
+  std::ranges::sort(others);
+  if (others.size() == 1 && coefficient == 1) return others[0];
+  std::vector<Expression> operands;
+  if (coefficient != 1) operands.emplace_back(coefficient);
+  operands.insert(operands.end(), others.begin(), others.end());
+  return make(Kind::product, 0, {}, 0, std::move(operands));
+}
+
+Expression Expression::power(const Expression& base, const Expression& exponent) {
+  if (!exponent.is_number()) return make(Kind::power, 0, {}, 0, {base, exponent});
+  const Rational& e = exponent.number();
+  if (e == 0) return Expression(1);
+  if (e == 1) return base;
+  const bool integer = e.get_den() == 1;
+  if (base.is_one()) return base;
+  if (base.is_number() && integer && e.get_num().fits_slong_p()) {
+    if (auto value = integer_power(base.number(), e.get_num().get_si())) return Expression(*value);
+  }
+  // (x^a)^n = x^(a n) and (c x y)^n = c^n x^n y^n hold for integer n only.
+  if (integer && base.kind() == Kind::power && base.operands()[1].is_number()) {
+    return power(base.operands()[0], Expression(Rational(base.operands()[1].number() * e)));
+  }
+  if (integer && base.kind() == Kind::product) {
+    std::vector<Expression> factors;
+    for (const Expression& factor : base.operands()) factors.push_back(power(factor, exponent));
+    return product(std::move(factors));
+  }
+  return make(Kind::power, 0, {}, 0, {base, exponent});
+}
+
+Expression square_root(const Expression& e) {
+  return Expression::power(e, Expression(Rational(1, 2)));
+}
+
+Expression operator+(const Expression& a, const Expression& b) { return Expression::sum({a, b}); }
+Expression operator-(const Expression& a) { return Expression::product({Expression(-1), a}); }
+Expression operator-(const Expression& a, const Expression& b) { return a + (-b); }
+Expression operator*(const Expression& a, const Expression& b) {
+  return Expression::product({a, b});
+}
+Expression operator/(const Expression& a, const Expression& b) {
+  if (b.is_zero()) internal_error("division of expressions by zero");
+  return a * Expression::power(b, Expression(-1));
+}
+
+void collect_symbols(const Expression& e, std::set<std::string>& names) {
+  std::set<const void*> seen;
+  auto visit = [&](auto&& self, const Expression& node) -> void {
+    if (!seen.insert(node.identity()).second) return;
+    if (node.kind() == Kind::symbol) names.insert(node.name());
+    for (const Expression& operand : node.operands()) self(self, operand);
+  };
+  visit(visit, e);
+}
+
+std::set<std::string> symbols(const Expression& e) {
+  std::set<std::string> names;
+  collect_symbols(e, names);
+  return names;
+}
+
+bool depends_on(const Expression& e, const std::string& symbol) {
+  return symbols(e).contains(symbol);
+}
+
+Expression substitute(const Expression& e, const Substitution& replacements) {
+  std::map<const void*, Expression> done;
+  auto visit = [&](auto&& self, const Expression& node) -> Expression {
+    if (node.is_number()) return node;
+    if (node.kind() == Kind::symbol) {
+      const auto it = replacements.find(node.name());
+      return it == replacements.end() ? node : it->second;
+    }
+    if (const auto it = done.find(node.identity()); it != done.end()) return it->second;
+    std::vector<Expression> operands;
+    bool changed = false;
+    for (const Expression& operand : node.operands()) {
+      operands.push_back(self(self, operand));
+      changed = changed || operands.back().identity() != operand.identity();
+    }
+    Expression result = node;
+    if (changed) {
+      switch (node.kind()) {
+        case Kind::sum: result = Expression::sum(std::move(operands)); break;
+        case Kind::product: result = Expression::product(std::move(operands)); break;
+        case Kind::power: result = Expression::power(operands[0], operands[1]); break;
+        case Kind::function: result = Expression::apply(node.name(), std::move(operands)); break;
+        case Kind::number:
+        case Kind::symbol: break;
+      }
+    }
+    done.emplace(node.identity(), result);
+    return result;
+  };
+  return visit(visit, e);
+}
+
+namespace {
+
+// Binding strength of the language's operators.
+enum Level { level_sum = 1, level_product = 2, level_power = 4, level_atom = 5 };
+
+std::string print(const Expression& e, int context);
+
+std::string parenthesised(std::string text, int level, int context) {
+  return level < context ? "(" + text + ")" : text;
+}
+
+std::string print_power(const Expression& base, const Rational& exponent) {
+  if (exponent == 1) return print(base, level_product + 1);
+  if (exponent == Rational(1, 2)) return "sqrt(" + print(base, level_sum) + ")";
+  const std::string text = exponent.get_den() == 1 && exponent > 0
+                               ? to_text(exponent)
+                               : "(" + to_text(exponent) + ")";
+  return print(base, level_atom) + "^" + text;
+}
+
+std::string print_product(const Expression& e) {
+  auto [coefficient, rest] = e.split_coefficient();
+  std::string above = coefficient < 0 ? "-" : "";
+  std::vector<std::string> over;
+  std::vector<std::string> under;
+  const Rational size = abs(coefficient);
+  if (size.get_num() != 1) over.push_back(size.get_num().get_str());
+  const auto factors = rest.kind() == Kind::product ? rest.operands() : std::span(&rest, 1);
+  for (const Expression& factor : factors) {
+    if (factor.is_number()) continue;
+    if (factor.kind() == Kind::power && factor.operands()[1].is_number() &&
+        factor.operands()[1].number() < 0) {
+      under.push_back(print_power(factor.operands()[0], -factor.operands()[1].number()));
+    } else {
+      over.push_back(print(factor, level_product + 1));
+    }
+  }
+  if (size.get_den() != 1) under.insert(under.begin(), size.get_den().get_str());
+  if (over.empty()) over.emplace_back("1");
+  for (std::size_t i = 0; i < over.size(); ++i) above += (i ? "*" : "") + over[i];
+  for (const std::string& factor : under) above += "/" + factor;
+  return above;
+}
+
+std::string print(const Expression& e, int context) {
+  switch (e.kind()) {
+    case Kind::number: {
+      const bool plain = e.number() >= 0 && e.number().get_den() == 1;
+      return parenthesised(to_text(e.number()), plain ? level_atom : level_product, context);
+    }
+    case Kind::symbol:
+      return e.name();
+    case Kind::function: {
+      std::string text = e.name() + "(";
+      for (std::size_t i = 0; i < e.operands().size(); ++i) {
+        text += (i ? ", " : "") + print(e.operands()[i], level_sum);
+      }
+      return text + ")";
+    }
+    case Kind::power:
+      if (e.operands()[1].is_number()) {
+        const Rational& exponent = e.operands()[1].number();
+        if (exponent < 0) return parenthesised(print_product(e), level_product, context);
+        return parenthesised(print_power(e.operands()[0], exponent),
+                             exponent == Rational(1, 2) ? level_atom : level_power, context);
+      }
+      return parenthesised(
+          print(e.operands()[0], level_atom) + "^" + print(e.operands()[1], level_atom),
+          level_power, context);
+    case Kind::product:
+      return parenthesised(print_product(e), level_product, context);
+    case Kind::sum: {
+      std::string text;
+      for (const Expression& term : e.operands()) {
+        const std::string piece = print(term, level_sum);
+        if (text.empty()) {
+          text = piece;
+        } else if (piece.starts_with('-')) {
+          text += " - " + piece.substr(1);
+        } else {
+          text += " + " + piece;
+        }
+      }
+      return parenthesised(text, level_sum, context);
+    }
+  }
+  internal_error("unknown kind of expression");
+}
+
+}  // namespace
+
+std::string to_text(const Expression& e) { return print(e, level_sum); }
+
+}  // namespace hamgen

@@ -1,0 +1,32 @@
+// The border with GiNaC: it derives, it never prints.  Its address-dependent order of terms ends
+// here; everything behind holds Expression.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+
+#include "generator/algebra/expression.hpp"
+
+namespace hamgen {
+
+// GiNaC symbols of one derivation, by name, and the ranks they get on the way back.
+class SymbolTable {
+ public:
+  // The real symbol of that name; made at its first use with the given rank.
+  GiNaC::ex symbol(const std::string& name, int rank);
+  [[nodiscard]] int rank(const std::string& name) const;
+  [[nodiscard]] const GiNaC::symbol& find(const std::string& name) const;
+
+ private:
+  std::map<std::string, std::pair<GiNaC::realsymbol, int>> symbols_;
+};
+
+// Throws std::domain_error if the expression holds something that is not real or not a scalar.
+[[nodiscard]] Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table);
+[[nodiscard]] GiNaC::ex to_ginac(const Expression& e, SymbolTable& table);
+[[nodiscard]] GiNaC::numeric to_ginac(const Rational& value);
+[[nodiscard]] Rational to_rational(const GiNaC::numeric& value);
+
+}  // namespace hamgen
