@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include "generator/equations/step_equations.hpp"
+
+namespace hamgen {
+
+namespace {
+
+const std::string& name_of(const StepEquations& equations, int i) {
+  return equations.mechanics.variables[static_cast<std::size_t>(i)].name;
+}
+
+Substitution state_to_stage(const StepEquations& equations) {
+  Substitution replacements;
+  for (int i = 0; i < 2 * equations.mechanics.degrees_of_freedom; ++i) {
+    replacements.emplace(name_of(equations, i), equations.stage(i));
+  }
+  return replacements;
+}
+
+}  // namespace
+
+Expression step_size() { return Expression::symbol("h", kRankOfStep); }
+
+Expression StepEquations::stage(int i) const {
+  return Expression::symbol("bar(" + name_of(*this, i) + ")", kRankOfVariable + i);
+}
+
+Expression StepEquations::gradient_symbol(int i) const {
+  if (mechanics.gradient[static_cast<std::size_t>(i)].is_zero()) return {};
+  return Expression::symbol("H(" + name_of(*this, i) + ")", kRankOfTemporary + i);
+}
+
+Expression StepEquations::hessian_symbol(int i, int j) const {
+  if (!mechanics.hessian.contains(std::minmax(i, j))) return {};
+  const int n = 2 * mechanics.degrees_of_freedom;
+  const auto [a, b] = std::minmax(i, j);
+  return Expression::symbol("H(" + name_of(*this, a) + "," + name_of(*this, b) + ")",
+                            kRankOfTemporary + n * (a + 1) + b);
+}
+
+Expression StepEquations::stage_gradient(int i) const {
+  return substitute(mechanics.gradient[static_cast<std::size_t>(i)], state_to_stage(*this));
+}
+
+Expression StepEquations::stage_hessian(int i, int j) const {
+  return substitute(mechanics.second_derivative(i, j), state_to_stage(*this));
+}
+
+Expression StepEquations::row(int i) const {
+  std::vector<Expression> terms{mechanics.variable(i)};
+  for (const int k : row_gradients(i)) {
+    terms.push_back(step_size() * stage_matrix.at({i, k}) * gradient_symbol(k));
+  }
+  return Expression::sum(std::move(terms));
+}
+
+std::vector<int> StepEquations::row_gradients(int i) const {
+  std::vector<int> result;
+  for (auto it = stage_matrix.lower_bound({i, 0});
+       it != stage_matrix.end() && it->first.first == i; ++it) {
+    if (!gradient_symbol(it->first.second).is_zero()) result.push_back(it->first.second);
+  }
+  return result;
+}
+
+bool StepEquations::depends(int i, int j) const {
+  for (const int k : row_gradients(i)) {
+    if (mechanics.hessian.contains(std::minmax(k, j))) return true;
+  }
+  return false;
+}
+
+Expression StepEquations::increment(int i) const {
+  const int n = mechanics.degrees_of_freedom;
+  return i < n ? step_size() * gradient_symbol(i + n) : -(step_size() * gradient_symbol(i - n));
+}
+
+StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
+  StepEquations equations{.mechanics = mechanics,
+                          .scheme = scheme,
+                          .stage_matrix = stage_matrix(scheme.member)};
+  std::erase_if(equations.stage_matrix, [](const auto& entry) { return entry.second.is_zero(); });
+  return equations;
+}
+
+std::string to_text(const StepEquations& equations) {
+  std::string text = fmt::format("scheme {}: {}, order {}{}\n", equations.scheme.name,
+                                 equations.scheme.description, equations.scheme.order,
+                                 equations.scheme.symmetric ? ", symmetric" : "");
+  const int n = equations.mechanics.degrees_of_freedom;
+  for (int i = 0; i < 2 * n; ++i) {
+    text += fmt::format("{} = {}\n", to_text(equations.stage(i)), to_text(equations.row(i)));
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    const Expression symbol = equations.gradient_symbol(i);
+    if (symbol.is_zero()) continue;
+    text += fmt::format("{} = {}\n", to_text(symbol), to_text(equations.stage_gradient(i)));
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    text += fmt::format("new {} = {} + ({})\n", name_of(equations, i), name_of(equations, i),
+                        to_text(equations.increment(i)));
+  }
+  return text;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,44 @@
+// The equations of one step, before anyone decides how to solve them.
+//
+//   zbar = z + h B grad H(zbar),   B = (I/2 + C) J,      Z = z + h J grad H(zbar)
+//
+// The unknown is zbar: zero rows of I/2 + C drop unknowns by themselves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/schemes/scheme.hpp"
+
+namespace hamgen {
+
+struct StepEquations {
+  Mechanics mechanics;
+  Scheme scheme;
+  std::map<std::pair<int, int>, Expression> stage_matrix;  // B, nonzero entries
+
+  // Names of the symbols of the step for component i of the state.
+  [[nodiscard]] Expression stage(int i) const;              // zbar_i: "bar(q)"
+  [[nodiscard]] Expression gradient_symbol(int i) const;    // dH/dz_i at zbar: "H(q)"
+  [[nodiscard]] Expression hessian_symbol(int i, int j) const;  // at zbar: "H(q,p)"
+  // dH/dz_i and d2H/dz_i dz_j with the stage values for the state.
+  [[nodiscard]] Expression stage_gradient(int i) const;
+  [[nodiscard]] Expression stage_hessian(int i, int j) const;
+  // zbar_i of the right side: z_i + h sum_k B_ik H(z_k).
+  [[nodiscard]] Expression row(int i) const;
+  // Components of the gradient that row i uses.
+  [[nodiscard]] std::vector<int> row_gradients(int i) const;
+  // Does row i depend on zbar_j?
+  [[nodiscard]] bool depends(int i, int j) const;
+  // Z_i - z_i in gradient symbols.
+  [[nodiscard]] Expression increment(int i) const;
+};
+
+// The step size.
+[[nodiscard]] Expression step_size();
+
+[[nodiscard]] StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme);
+[[nodiscard]] std::string to_text(const StepEquations& equations);
+
+}  // namespace hamgen

@@ -1,0 +1,116 @@
+#include "generator/mechanics/derive.hpp"
+
+#include "generator/language/scene.hpp"
+#include "generator/mechanics/to_ginac.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// Derivatives that vanish identically, such as those of sin^2 + cos^2, are worth a moment's work
+// for small expressions; for large ones only GiNaC's own automatic simplification is used.
+constexpr std::size_t kSmall = 300;
+
+std::size_t node_count(const GiNaC::ex& e, std::size_t limit) {
+  std::size_t count = 1;
+  for (std::size_t i = 0; i < e.nops() && count < limit; ++i) {
+    count += node_count(e.op(i), limit - count);
+  }
+  return count;
+}
+
+bool vanishes(const GiNaC::ex& e) {
+  if (e.is_zero()) return true;
+  return node_count(e, kSmall) < kSmall && e.expand().is_zero();
+}
+
+std::vector<Quantity> quantities(const std::vector<Variable>& variables) {
+  std::vector<Quantity> result;
+  for (const Variable& variable : variables) {
+    for (const std::string& name : element_names(std::vector{variable})) {
+      result.push_back({name, variable.unit, variable.comment, 0});
+    }
+  }
+  return result;
+}
+
+// Parameters that are not folded, with their default values.
+std::vector<Quantity> run_time_parameters(const Model& model) {
+  std::vector<Quantity> result;
+  std::map<std::string, Rational> values;
+  for (const Parameter& parameter : model.parameters) {
+    std::size_t k = 0;
+    for (const std::string& name : element_names(std::vector{parameter})) {
+      const NodePtr& node = parameter.values[std::min(k++, parameter.values.size() - 1)];
+      values[name] = evaluate_constant(node, model.source, values);
+      if (parameter.folded) continue;
+      result.push_back({name, parameter.unit, parameter.comment, values[name]});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Mechanics derive(const Model& model) {
+  SymbolTable table;
+  TreeConverter converter(model, table);
+  Mechanics mechanics;
+  mechanics.name = model.name;
+  mechanics.hamiltonian_text = model.hamiltonian_text;
+  mechanics.degrees_of_freedom = static_cast<int>(degrees_of_freedom(model));
+  mechanics.variables = quantities(model.coordinates);
+  for (Quantity& momentum : quantities(model.momenta)) {
+    mechanics.variables.push_back(std::move(momentum));
+  }
+  mechanics.parameters = run_time_parameters(model);
+
+  const int size = 2 * mechanics.degrees_of_freedom;
+  std::vector<const GiNaC::symbol*> symbols;
+  for (int i = 0; i < size; ++i) {
+    const std::string& name = mechanics.variables[static_cast<std::size_t>(i)].name;
+    table.symbol(name, kRankOfVariable + i);
+  }
+  for (const Quantity& variable : mechanics.variables) symbols.push_back(&table.find(variable.name));
+
+  GiNaC::ex energy = converter.convert(model.hamiltonian);
+  // Extended phase space: H(q, p, t) + p_t makes t advance as t' = 1 and keeps the step symplectic.
+  for (const Variable& momentum : model.momenta) {
+    if (momentum.is_time) energy += table.find(momentum.name);
+  }
+  mechanics.energy = from_ginac(energy, table);
+  std::vector<GiNaC::ex> gradient;
+  for (int i = 0; i < size; ++i) {
+    GiNaC::ex derivative = energy.diff(*symbols[static_cast<std::size_t>(i)]);
+    if (vanishes(derivative)) derivative = 0;
+    mechanics.gradient.push_back(from_ginac(derivative, table));
+    gradient.push_back(std::move(derivative));
+  }
+  for (int i = 0; i < size; ++i) {
+    std::set<std::string> present;
+    collect_symbols(mechanics.gradient[static_cast<std::size_t>(i)], present);
+    for (int j = i; j < size; ++j) {
+      const auto column = static_cast<std::size_t>(j);
+      if (!present.contains(mechanics.variables[column].name)) continue;
+      const GiNaC::ex entry = gradient[static_cast<std::size_t>(i)].diff(*symbols[column]);
+      if (!vanishes(entry)) mechanics.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
+    }
+  }
+  for (const Invariant& invariant : model.invariants) {
+    mechanics.invariants.push_back(
+        {invariant.name, from_ginac(converter.convert(invariant.value), table)});
+  }
+  return mechanics;
+}
+
+Expression scheme_parameter(const Model& model, const std::string& option, const NodePtr& node) {
+  SymbolTable table;
+  TreeConverter converter(model, table);
+  try {
+    return from_ginac(converter.convert(node), table);
+  } catch (const std::domain_error& error) {
+    throw UsageError("--" + option + ": " + error.what());
+  }
+}
+
+}  // namespace hamgen

@@ -1,0 +1,16 @@
+// Model to Mechanics: the symbolic derivatives.
+#pragma once
+
+#include "generator/language/model.hpp"
+#include "generator/mechanics/mechanics.hpp"
+
+namespace hamgen {
+
+// Throws ModelError where the mathematics is undefined or not real, with the place in the source.
+[[nodiscard]] Mechanics derive(const Model& model);
+
+// A free-standing expression over h, E0 and the model's parameters (folded ones by value).
+[[nodiscard]] Expression scheme_parameter(const Model& model, const std::string& option,
+                                          const NodePtr& node);
+
+}  // namespace hamgen

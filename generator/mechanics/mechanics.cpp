@@ -1,0 +1,46 @@
+#include "generator/mechanics/mechanics.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+Expression Mechanics::second_derivative(int i, int j) const {
+  const auto it = hessian.find(std::minmax(i, j));
+  return it == hessian.end() ? Expression(0) : it->second;
+}
+
+bool Mechanics::is_separable() const {
+  for (const auto& [place, value] : hessian) {
+    if (place.first < degrees_of_freedom && place.second >= degrees_of_freedom) return false;
+  }
+  return true;
+}
+
+Expression Mechanics::variable(int i) const {
+  return Expression::symbol(variables[static_cast<std::size_t>(i)].name, kRankOfVariable + i);
+}
+
+std::string to_text(const Mechanics& mechanics) {
+  const int n = mechanics.degrees_of_freedom;
+  std::string text = fmt::format("system {}, {} degree{} of freedom, {}\n", mechanics.name, n,
+                                 n == 1 ? "" : "s",
+                                 mechanics.is_separable() ? "separable" : "not separable");
+  text += "H = " + to_text(mechanics.energy) + "\n";
+  for (int i = 0; i < 2 * n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    text += fmt::format("dH/d{} = {}\n", mechanics.variables[k].name,
+                        to_text(mechanics.gradient[k]));
+  }
+  for (const auto& [place, value] : mechanics.hessian) {
+    text += fmt::format("d2H/d{} d{} = {}\n",
+                        mechanics.variables[static_cast<std::size_t>(place.first)].name,
+                        mechanics.variables[static_cast<std::size_t>(place.second)].name,
+                        to_text(value));
+  }
+  for (const NamedExpression& invariant : mechanics.invariants) {
+    text += fmt::format("invariant {} = {}\n", invariant.name, to_text(invariant.value));
+  }
+  return text;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,56 @@
+// The system as mathematics: H, its gradient and Hessian, in one canonical order.
+//
+// The state is z = (q, p), q first (Hairer, Lubich and Wanner write (p, q)); z' = J grad H with
+// J = [[0, I], [-I, 0]].
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/algebra/expression.hpp"
+
+namespace hamgen {
+
+// A name of the user's with what is said of it in the emitted code.
+struct Quantity {
+  std::string name;  // "eps", "m[2]"
+  std::string unit;
+  std::string comment;
+  Rational value;    // default of a parameter
+};
+
+struct NamedExpression {
+  std::string name;
+  Expression value;
+};
+
+struct Mechanics {
+  std::string name;
+  std::string hamiltonian_text;        // as the user wrote it
+  int degrees_of_freedom = 0;          // n
+  std::vector<Quantity> variables;     // 2n: q1..qn, p1..pn
+  std::vector<Quantity> parameters;    // run-time parameters, in declaration order
+  Expression energy;                   // H(z), sums written out
+  std::vector<Expression> gradient;    // 2n
+  std::map<std::pair<int, int>, Expression> hessian;  // nonzero entries, i <= j
+  std::vector<NamedExpression> invariants;
+
+  // d^2 H / dz_i dz_j, zero where absent.
+  [[nodiscard]] Expression second_derivative(int i, int j) const;
+  // No mixed derivative in q and p.
+  [[nodiscard]] bool is_separable() const;
+  // The symbol of z_i.
+  [[nodiscard]] Expression variable(int i) const;
+};
+
+// Ranks of symbols: they give every sum and product its order.
+inline constexpr int kRankOfStep = -2;       // h
+inline constexpr int kRankOfParameter = 0;   // + position
+inline constexpr int kRankOfVariable = 100000;  // + position in z
+inline constexpr int kRankOfTemporary = 1000000;
+
+[[nodiscard]] std::string to_text(const Mechanics& mechanics);
+
+}  // namespace hamgen

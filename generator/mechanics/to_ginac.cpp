@@ -1,0 +1,185 @@
+#include "generator/mechanics/to_ginac.hpp"
+
+#include <fmt/format.h>
+
+#include "generator/algebra/ginac_functions.hpp"
+#include "generator/language/scene.hpp"
+#include "generator/mechanics/mechanics.hpp"
+
+namespace hamgen {
+
+std::string element_name(const std::string& name, long index) {
+  return fmt::format("{}[{}]", name, index);
+}
+
+TreeConverter::TreeConverter(const Model& model, SymbolTable& table)
+    : model_(model), table_(table) {
+  int rank = kRankOfVariable;
+  for (const auto* group : {&model.coordinates, &model.momenta}) {
+    for (const Variable& variable : *group) {
+      variables_[variable.name] = {&variable, rank};
+      rank += variable.range ? static_cast<int>(variable.range->size()) : 1;
+    }
+  }
+  rank = kRankOfParameter;
+  std::map<std::string, Rational> values;  // of all parameters so far, for the folded ones
+  for (const Parameter& parameter : model.parameters) {
+    parameters_[parameter.name] = {&parameter, rank};
+    const long count = parameter.range ? parameter.range->size() : 1;
+    rank += static_cast<int>(count);
+    for (long k = 0; k < count; ++k) {
+      const std::string name = parameter.range
+                                   ? element_name(parameter.name, parameter.range->first + k)
+                                   : parameter.name;
+      const auto place = std::min<std::size_t>(static_cast<std::size_t>(k),
+                                               parameter.values.size() - 1);
+      values[name] = evaluate_constant(parameter.values[place], model.source, values);
+      if (parameter.folded) folded_[name] = values[name];
+    }
+  }
+}
+
+void TreeConverter::fail(const Span& span, std::string message, std::string help) const {
+  throw ModelError({Diagnostic{Severity::error, span, std::move(message), std::move(help)}},
+                   model_.source);
+}
+
+GiNaC::ex TreeConverter::convert(const NodePtr& node) { return convert(node, {}); }
+
+GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
+  try {
+    if (const auto* number = std::get_if<NumberNode>(&node->value)) {
+      return to_ginac(number->value);
+    }
+    if (const auto* name = std::get_if<NameNode>(&node->value)) {
+      return convert_name(*name, node->span, indices);
+    }
+    if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
+      return -convert(negate->operand, indices);
+    }
+    if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
+      return convert_binary(*binary, indices);
+    }
+    if (const auto* call = std::get_if<CallNode>(&node->value)) {
+      GiNaC::exvector arguments;
+      for (const NodePtr& argument : call->arguments) {
+        arguments.push_back(convert(argument, indices));
+      }
+      return ginac_function(call->function, arguments);
+    }
+    return convert_sum(std::get<SumNode>(node->value), 0, indices);
+  } catch (const ModelError&) {
+    throw;
+  } catch (const GiNaC::pole_error&) {
+    fail(node->span, "division by zero", "this is undefined for every state");
+  } catch (const std::exception& error) {
+    fail(node->span, fmt::format("undefined or not real: {}", error.what()));
+  }
+}
+
+GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
+                                      const Indices& indices) {
+  if (name.name == "pi" && !name.subscript) return GiNaC::Pi;
+  if (const auto it = indices.find(name.name); it != indices.end()) return it->second;
+  if (const auto it = variables_.find(name.name); it != variables_.end()) {
+    const auto& [variable, rank] = it->second;
+    if (!variable->range) return table_.symbol(name.name, rank);
+    return element(*variable, integer(name.subscript, indices), span);
+  }
+  if (const auto it = parameters_.find(name.name); it != parameters_.end()) {
+    const auto& [parameter, rank] = it->second;
+    std::string element = name.name;
+    int place = rank;
+    if (parameter->range) {
+      const long index = integer(name.subscript, indices);
+      if (index < parameter->range->first || index > parameter->range->last) {
+        fail(span, fmt::format("{}[{}] does not exist", name.name, index));
+      }
+      element = element_name(name.name, index);
+      place += static_cast<int>(index - parameter->range->first);
+    }
+    if (parameter->folded) return to_ginac(folded_.at(element));
+    return table_.symbol(element, place);
+  }
+  for (const Size& size : model_.sizes) {
+    if (size.name == name.name) return size.value;
+  }
+  for (const Definition& definition : model_.definitions) {
+    if (definition.name != name.name) continue;
+    if (const auto it = definitions_.find(name.name); it != definitions_.end()) return it->second;
+    const GiNaC::ex value = convert(definition.value, {});
+    definitions_.emplace(name.name, value);
+    return value;
+  }
+  if (name.name == "h" || name.name == "E0") return table_.symbol(name.name, kRankOfStep);
+  internal_error("unchecked name " + name.name);
+}
+
+GiNaC::ex TreeConverter::element(const Variable& variable, long index, const Span& span) {
+  const IndexRange& range = *variable.range;
+  if (variable.periodic) {
+    const long offset = ((index - range.first) % range.size() + range.size()) % range.size();
+    index = range.first + offset;
+  }
+  if (index < range.first || index > range.last) {
+    const auto it = variable.beyond.find(index);
+    if (it == variable.beyond.end()) {
+      fail(span, fmt::format("{}[{}] does not exist", variable.name, index),
+           fmt::format("the array is {}[{}..{}]", variable.name, range.first, range.last));
+    }
+    return convert(it->second, {});
+  }
+  const int rank = variables_.at(variable.name).second + static_cast<int>(index - range.first);
+  return table_.symbol(element_name(variable.name, index), rank);
+}
+
+GiNaC::ex TreeConverter::convert_binary(const BinaryNode& node, const Indices& indices) {
+  const GiNaC::ex left = convert(node.left, indices);
+  const GiNaC::ex right = convert(node.right, indices);
+  switch (node.operation) {
+    case BinaryOperator::add: return left + right;
+    case BinaryOperator::subtract: return left - right;
+    case BinaryOperator::multiply: return left * right;
+    case BinaryOperator::divide:
+      if (right.expand().is_zero()) fail(node.right->span, "division by zero");
+      return left / right;
+    case BinaryOperator::power: {
+      const bool negative = GiNaC::is_a<GiNaC::numeric>(right) && right.info(GiNaC::info_flags::negative);
+      if (left.expand().is_zero() && (negative || right.is_zero())) {
+        fail(node.left->span, negative ? "division by zero" : "0^0 is undefined");
+      }
+      const GiNaC::ex value = GiNaC::pow(left, right);
+      if (GiNaC::is_a<GiNaC::numeric>(value) && !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) {
+        throw std::domain_error("an even root of a negative number");
+      }
+      return value;
+    }
+  }
+  internal_error("unknown operator");
+}
+
+long TreeConverter::integer(const NodePtr& node, const Indices& indices) const {
+  std::map<std::string, Rational> values;
+  for (const Size& size : model_.sizes) values[size.name] = size.value;
+  for (const auto& [name, value] : indices) values[name] = value;
+  const Rational value = evaluate_constant(node, model_.source, values);
+  if (value.get_den() != 1 || !value.get_num().fits_slong_p()) {
+    fail(node->span, "a subscript must be an integer");
+  }
+  return value.get_num().get_si();
+}
+
+GiNaC::ex TreeConverter::convert_sum(const SumNode& node, std::size_t depth, Indices indices) {
+  if (depth == node.ranges.size()) return convert(node.body, indices);
+  const SumRange& range = node.ranges[depth];
+  const long lower = integer(range.lower, indices);
+  const long upper = integer(range.upper, indices);
+  GiNaC::exvector terms;
+  for (long i = lower; i <= upper; ++i) {
+    indices[range.index] = i;
+    terms.push_back(convert_sum(node, depth + 1, indices));
+  }
+  return GiNaC::add(terms);
+}
+
+}  // namespace hamgen

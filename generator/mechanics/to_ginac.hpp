@@ -1,0 +1,42 @@
+// The user's checked tree as a GiNaC expression, sums written out.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+
+#include "generator/algebra/from_ginac.hpp"
+#include "generator/language/model.hpp"
+
+namespace hamgen {
+
+class TreeConverter {
+ public:
+  TreeConverter(const Model& model, SymbolTable& table);
+  // Throws ModelError with the place of what is undefined: 1/(q - q), log(-1).
+  [[nodiscard]] GiNaC::ex convert(const NodePtr& node);
+
+ private:
+  using Indices = std::map<std::string, long>;
+  [[nodiscard]] GiNaC::ex convert(const NodePtr& node, const Indices& indices);
+  [[nodiscard]] GiNaC::ex convert_name(const NameNode& name, const Span& span,
+                                       const Indices& indices);
+  [[nodiscard]] GiNaC::ex convert_binary(const BinaryNode& node, const Indices& indices);
+  [[nodiscard]] GiNaC::ex convert_sum(const SumNode& node, std::size_t depth, Indices indices);
+  [[nodiscard]] GiNaC::ex element(const Variable& variable, long index, const Span& span);
+  [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const;
+  [[noreturn]] void fail(const Span& span, std::string message, std::string help = {}) const;
+
+  const Model& model_;
+  SymbolTable& table_;
+  std::map<std::string, GiNaC::ex> definitions_;
+  std::map<std::string, std::pair<const Variable*, int>> variables_;   // first rank
+  std::map<std::string, std::pair<const Parameter*, int>> parameters_;
+  std::map<std::string, Rational> folded_;
+};
+
+// "q[3]" for an element of an array, "q" for a scalar.
+[[nodiscard]] std::string element_name(const std::string& name, long index);
+
+}  // namespace hamgen

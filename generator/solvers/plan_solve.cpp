@@ -1,0 +1,264 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/solvers/all_solvers.hpp"
+#include "generator/solvers/blocks.hpp"
+#include "generator/solvers/solve_plan.hpp"
+
+namespace hamgen {
+
+namespace {
+
+const std::string& name_of(const StepEquations& equations, int i) {
+  return equations.mechanics.variables[static_cast<std::size_t>(i)].name;
+}
+
+std::string names_of(const StepEquations& equations, std::vector<int> variables) {
+  std::ranges::sort(variables);
+  std::string text;
+  for (const int i : variables) {
+    if (text.size() > 60) return text + ", ...";
+    text += (text.empty() ? "" : ", ") + name_of(equations, i);
+  }
+  return text;
+}
+
+// Stage values some component of the gradient needs; the others are never computed.
+std::vector<int> needed_stages(const StepEquations& equations) {
+  std::vector<bool> needed(equations.mechanics.variables.size(), false);
+  std::map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < needed.size(); ++i) place[equations.mechanics.variables[i].name] = i;
+  std::set<std::string> names;
+  for (const Expression& component : equations.mechanics.gradient) {
+    collect_symbols(component, names);
+  }
+  for (const std::string& name : names) {
+    if (const auto it = place.find(name); it != place.end()) needed[it->second] = true;
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (needed[i]) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+// Is d2H/dz_i dz_j free of the stage values in the set?
+bool is_free_of(const StepEquations& equations, int i, int j, const std::vector<int>& variables) {
+  const std::set<std::string> present = symbols(equations.mechanics.second_derivative(i, j));
+  return std::ranges::none_of(
+      variables, [&](int v) { return present.contains(name_of(equations, v)); });
+}
+
+// Is row i affine in zbar_j, alone?
+bool is_affine_in(const StepEquations& equations, int i, int j) {
+  return std::ranges::all_of(equations.row_gradients(i),
+                             [&](int k) { return is_free_of(equations, k, j, {j}); });
+}
+
+// Are the block's rows affine in all the block's stage values?
+bool is_affine(const StepEquations& equations, const std::vector<int>& block) {
+  for (const int i : block) {
+    for (const int k : equations.row_gradients(i)) {
+      for (const int j : block) {
+        if (!is_free_of(equations, k, j, block)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool has_constant_matrix(const StepEquations& equations, const std::vector<int>& block) {
+  std::vector<int> all;
+  for (int i = 0; i < 2 * equations.mechanics.degrees_of_freedom; ++i) all.push_back(i);
+  for (const int i : block) {
+    for (const int k : equations.row_gradients(i)) {
+      for (const int j : block) {
+        if (!is_free_of(equations, k, j, all)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// One unknown, its row a polynomial of degree two in it: the third derivative vanishes, that is the
+// second derivative of the gradient is free of the unknown.
+bool is_quadratic(const StepEquations& equations, int i) {
+  for (const int k : equations.row_gradients(i)) {
+    const Expression slope = equations.mechanics.second_derivative(k, i);
+    const std::string& name = name_of(equations, i);
+    // slope = a + b x: evaluated at three points, the second difference vanishes identically.
+    auto at = [&](long x) { return substitute(slope, {{name, Expression(x)}}); };
+    const Expression line = at(0) + (at(1) - at(0)) * equations.mechanics.variable(i);
+    if (!(slope - line).is_zero()) return false;
+  }
+  return true;
+}
+
+Block plan_block(const StepEquations& equations, const std::vector<int>& component,
+                 bool fixed_point) {
+  const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
+  if (component.size() == 1 && !depends(component[0], component[0])) {
+    return {.kind = BlockKind::assign, .unknowns = component};
+  }
+  const int n = equations.mechanics.degrees_of_freedom;
+  auto may_self = [&](int i) { return !fixed_point && is_affine_in(equations, i, i); };
+  // Momenta first: with quadratic kinetic energy they are the cheap ones to eliminate.
+  std::vector<int> momenta_first = component;
+  std::ranges::stable_sort(momenta_first, {}, [&](int i) { return i < n; });
+  std::vector<int> torn = tear(momenta_first, depends, may_self);
+  if (const std::vector<int> other = tear(component, depends, may_self); other.size() > torn.size()) {
+    torn = other;
+  }
+  // An affine block keeps one unknown at least.
+  if (torn.size() == component.size()) torn.erase(std::ranges::find(torn, component[0]));
+  Block block{.kind = BlockKind::newton, .torn = torn};
+  for (const int i : component) {
+    if (std::ranges::find(torn, i) == torn.end()) block.unknowns.push_back(i);
+  }
+  block.constant_matrix = has_constant_matrix(equations, component);
+  if (is_affine(equations, component)) {
+    block.kind = BlockKind::linear;
+  } else if (fixed_point) {
+    block.kind = BlockKind::fixed_point;
+  } else if (component.size() == 1 && is_quadratic(equations, component[0])) {
+    block.kind = BlockKind::quadratic;
+  }
+  return block;
+}
+
+int parse_sweeps(const std::string& solver) {
+  const std::string digits = solver.substr(std::string("sweeps:").size());
+  int sweeps = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), sweeps);
+  if (error != std::errc{} || end != digits.data() + digits.size() || sweeps < 0 || sweeps > 1000) {
+    throw UsageError(fmt::format("--solver {}: K in sweeps:K must be an integer from 0 to 1000",
+                                 solver));
+  }
+  return sweeps;
+}
+
+std::string describe(const StepEquations& equations, const Block& block) {
+  const std::size_t size = block.unknowns.size();
+  const std::string which = names_of(equations, block.unknowns);
+  std::string text;
+  switch (block.kind) {
+    case BlockKind::assign: return "assign " + which;
+    case BlockKind::linear:
+      text = fmt::format("linear solve of size {} for {}{}", size, which,
+                         block.constant_matrix ? ", constant matrix hoisted" : "");
+      break;
+    case BlockKind::quadratic: return "quadratic equation for " + which + ", root in closed form";
+    case BlockKind::newton: text = fmt::format("Newton of size {} on {}", size, which); break;
+    case BlockKind::fixed_point:
+      text = fmt::format("fixed point of size {} on {}", size, which);
+      break;
+  }
+  if (!block.torn.empty()) text += "; " + names_of(equations, block.torn) + " torn out";
+  return text;
+}
+
+std::vector<std::string> what_was_left_out(const SolvePlan& plan) {
+  const StepEquations& equations = plan.equations;
+  const Mechanics& mechanics = equations.mechanics;
+  const int n = mechanics.degrees_of_freedom;
+  std::vector<std::string> list;
+  const Member& member = equations.scheme.member;
+  auto all_zero = [](const std::vector<Expression>& values) {
+    return std::ranges::all_of(values, [](const Expression& e) { return e.is_zero(); });
+  };
+  if (all_zero(member.beta)) list.emplace_back("beta terms: beta = 0");
+  if (all_zero(member.gamma)) list.emplace_back("gamma terms: gamma = 0");
+  const std::vector<int> needed = needed_stages(equations);
+  std::vector<int> cyclic;
+  for (int i = 0; i < 2 * n; ++i) {
+    if (!std::ranges::binary_search(needed, i)) cyclic.push_back(i);
+  }
+  if (!cyclic.empty()) {
+    list.push_back("stage values of " + names_of(equations, cyclic) + ": H does not depend on them");
+  }
+  std::vector<int> kept;
+  for (int i = 0; i < 2 * n; ++i) {
+    if (equations.increment(i).is_zero()) kept.push_back(i);
+  }
+  if (!kept.empty()) list.push_back("updates of " + names_of(equations, kept) + ": constant");
+  std::set<std::string> used;
+  for (const Expression& component : mechanics.gradient) collect_symbols(component, used);
+  for (const auto& [place, value] : equations.stage_matrix) collect_symbols(value, used);
+  std::string unused;
+  for (const Quantity& parameter : mechanics.parameters) {
+    if (!used.contains(parameter.name)) unused += (unused.empty() ? "" : ", ") + parameter.name;
+  }
+  if (!unused.empty()) list.push_back("parameters " + unused + ": the step does not use them");
+  if (plan.is_explicit()) list.emplace_back("equation solver: the step is explicit");
+  if (!plan.sweeps) {
+    std::size_t torn = 0;
+    for (const Block& block : plan.blocks) torn += block.torn.size();
+    if (torn != 0) list.push_back(fmt::format("{} of the unknowns: torn out", torn));
+  }
+  return list;
+}
+
+std::string solver_line(const SolvePlan& plan) {
+  if (plan.sweeps) {
+    return fmt::format("{} fixed-point sweeps (Algorithm 1 of the paper): not symplectic",
+                       *plan.sweeps);
+  }
+  std::vector<std::string> parts;
+  for (const Block& block : plan.blocks) {
+    if (block.kind != BlockKind::assign) parts.push_back(describe(plan.equations, block));
+  }
+  if (parts.empty()) return "explicit";
+  if (parts.size() > 3) {
+    return fmt::format("{} independent or successive blocks, the first: {}", parts.size(), parts[0]);
+  }
+  std::string text = parts[0];
+  for (std::size_t i = 1; i < parts.size(); ++i) text += ", then " + parts[i];
+  return text;
+}
+
+}  // namespace
+
+bool SolvePlan::is_explicit() const {
+  return !sweeps && std::ranges::all_of(
+                        blocks, [](const Block& b) { return b.kind == BlockKind::assign; });
+}
+
+LinearSolver linear_solver(const Block& block) {
+  if (block.unknowns.size() <= 3) return LinearSolver::written_out;
+  return block.unknowns.size() <= 16 ? LinearSolver::elimination : LinearSolver::eigen_dense;
+}
+
+SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {
+  SolvePlan plan{.equations = equations};
+  const std::vector<int> needed = needed_stages(equations);
+  if (solver.starts_with("sweeps:")) {
+    plan.sweeps = parse_sweeps(solver);
+  } else if (!solver.empty() && solver != "newton" && solver != "fixed-point") {
+    throw UsageError(fmt::format("unknown solver '{}'; there are newton, fixed-point, sweeps:K",
+                                 solver));
+  }
+  const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
+  for (const auto& component : strongly_connected_components(needed, depends)) {
+    plan.blocks.push_back(plan_block(equations, component, solver == "fixed-point"));
+  }
+  plan.solver = solver_line(plan);
+  plan.left_out = what_was_left_out(plan);
+  return plan;
+}
+
+std::string to_text(const SolvePlan& plan) {
+  std::string text = "solver: " + plan.solver + "\n";
+  if (plan.sweeps) {
+    text += "predict Z by explicit Euler; sweep all stage values together\n";
+  } else {
+    for (const Block& block : plan.blocks) text += describe(plan.equations, block) + "\n";
+  }
+  text += "left out:\n";
+  for (const std::string& item : plan.left_out) text += "  " + item + "\n";
+  return text;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,46 @@
+// What is solved how: the ordered blocks of the step's equations, and what was left out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/equations/step_equations.hpp"
+
+namespace hamgen {
+
+enum class BlockKind {
+  assign,     // the unknown is given by what is known before it
+  linear,     // affine in its unknowns: one correction is exact
+  quadratic,  // one unknown that enters as a quadratic: its root in closed form
+  newton,
+  fixed_point
+};
+
+// Unknowns solved together.  `torn` are given explicitly by the unknowns (in this order) and are
+// eliminated: they cost no row of the linear system.
+struct Block {
+  BlockKind kind = BlockKind::assign;
+  std::vector<int> unknowns;
+  std::vector<int> torn;
+  bool constant_matrix = false;  // the matrix depends on h and parameters only
+};
+
+// How the linear systems are solved.
+enum class LinearSolver { written_out, elimination, eigen_dense };
+
+struct SolvePlan {
+  StepEquations equations;
+  std::vector<Block> blocks;
+  std::optional<int> sweeps;  // the paper's Algorithm 1 with this many corrector sweeps
+  std::string solver;         // one line for people: "Newton of size 1; p torn out"
+  std::vector<std::string> left_out;
+  [[nodiscard]] bool is_explicit() const;
+};
+
+// solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
+[[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
+[[nodiscard]] LinearSolver linear_solver(const Block& block);
+[[nodiscard]] std::string to_text(const SolvePlan& plan);
+
+}  // namespace hamgen
