@@ -21,8 +21,8 @@ enum class BlockKind {
 // eliminated: they cost no row of the linear system.
 struct Block {
   BlockKind kind = BlockKind::assign;
-  std::vector<int> unknowns;
-  std::vector<int> torn;
+  std::vector<int> unknowns = {};
+  std::vector<int> torn = {};
   bool constant_matrix = false;  // the matrix depends on h and parameters only
 };
 
@@ -31,10 +31,10 @@ enum class LinearSolver { written_out, elimination, eigen_dense };
 
 struct SolvePlan {
   StepEquations equations;
-  std::vector<Block> blocks;
-  std::optional<int> sweeps;  // the paper's Algorithm 1 with this many corrector sweeps
-  std::string solver;         // one line for people: "Newton of size 1; p torn out"
-  std::vector<std::string> left_out;
+  std::vector<Block> blocks = {};
+  std::optional<int> sweeps = {};  // the paper's Algorithm 1 with this many corrector sweeps
+  std::string solver = {};         // one line for people: "Newton of size 1; p torn out"
+  std::vector<std::string> left_out = {};
   [[nodiscard]] bool is_explicit() const;
 };
 

@@ -1,0 +1,36 @@
+// Expressions as C++.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "generator/algebra/expression.hpp"
+#include "generator/formats/scalar.hpp"
+
+namespace hamgen {
+
+class CppExpression {
+ public:
+  using Namer = std::function<std::string(const std::string&)>;
+
+  CppExpression(const ScalarType& scalar, Namer namer)
+      : scalar_(scalar), namer_(std::move(namer)) {}
+
+  // The expression as C++ with the fewest parentheses; notes the functions it calls.
+  [[nodiscard]] std::string operator()(const Expression& e) const;
+  // Functions of <cmath> used so far: they decide the includes.
+  [[nodiscard]] const std::set<std::string>& functions() const { return functions_; }
+
+ private:
+  [[nodiscard]] std::string print(const Expression& e, int context) const;
+  [[nodiscard]] std::string product(const Expression& e) const;
+  [[nodiscard]] std::string power(const Expression& e) const;
+  [[nodiscard]] std::string call(const std::string& function, const std::string& arguments) const;
+
+  const ScalarType& scalar_;
+  Namer namer_;
+  mutable std::set<std::string> functions_;
+};
+
+}  // namespace hamgen

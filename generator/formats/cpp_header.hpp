@@ -1,0 +1,25 @@
+// The format `cpp-header`: one self-contained C++ header.
+#pragma once
+
+#include <string>
+
+#include "generator/formats/scalar.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+struct CppOptions {
+  std::string command;     // as the user typed it
+  std::string model_path;
+  std::string scalar;      // name of a scalar, "" is double
+  std::string name_space;  // "pendulum::implicit_midpoint"
+  bool gradient = false;   // emit gradient() too
+};
+
+[[nodiscard]] std::string cpp_header(const Program& program, const CppOptions& options);
+// The same mathematics with the C interface of runtime/plugin.h around it: one translation unit.
+[[nodiscard]] std::string cpp_plugin(const Program& program, const CppOptions& options);
+
+[[nodiscard]] bool needs_eigen(const Program& program);
+
+}  // namespace hamgen

@@ -1,0 +1,209 @@
+#include "generator/formats/cpp_support.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+std::string cpp_compensated_sum() {
+  return R"(// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
+inline void add(Real& value, Real& carry, Real increment) {
+  const Real wanted = increment + carry;
+  const Real sum = value + wanted;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (wanted - part);
+  value = sum;
+}
+)";
+}
+
+std::string cpp_newton_rule(const ScalarType& scalar) {
+  return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
+
+// When to stop Newton's iteration: at round-off.  Increments shrink as next <= contraction * size^2;
+// the contraction is measured, kept from step to step and measured anew every 64th step.  The last
+// increment still enters the solution, so an iteration may stop when the next one would be lost in
+// rounding; the factor 1/1024 keeps what is cut off below the rounding errors' sum over many steps.
+struct NewtonRule {{
+  Real contraction = {largest};
+  int unmeasured = 0;
+  Real previous = 0;
+  int grown = 0;
+
+  void begin() {{
+    previous = 0;
+    grown = 0;
+    if (++unmeasured >= 64) contraction = {largest};
+  }}
+  Verdict operator()(Real size, Real scale, int iterations) {{
+    if (!(size <= {largest})) return Verdict::failed;
+    const Real round_off = {epsilon} * scale;
+    if (size <= round_off) return Verdict::done;
+    if (previous > 0) {{
+      const Real seen = size / (previous * previous);
+      if (size > 64 * round_off || seen < contraction) {{
+        contraction = seen;
+        unmeasured = 0;
+      }}
+      // No progress twice in a row: this is round-off if it is small, else it may still recover.
+      grown = size < previous ? 0 : grown + 1;
+      if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+    }}
+    if (contraction * size * size * 1024 <= round_off) return Verdict::done;
+    previous = size;
+    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+  }}
+}};
+)",
+                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
+}
+
+std::string cpp_fixed_point_rule(const ScalarType& scalar) {
+  return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
+
+// When to stop a fixed-point iteration: at stagnation with one second chance, that is when no
+// component's increment has decreased twice in a row.
+template <int Size>
+struct FixedPointRule {{
+  Real previous[Size] = {{}};
+  int stuck = 0;
+
+  Progress operator()(const Real (&increment)[Size], Real scale, int iterations) {{
+    bool decreased = false;
+    Real size = 0;
+    for (int i = 0; i < Size; ++i) {{
+      const Real now = increment[i] < 0 ? -increment[i] : increment[i];
+      if (iterations == 1 || now < previous[i]) decreased = true;
+      previous[i] = now;
+      size += now;
+    }}
+    if (!(size <= {largest})) return Progress::failed;
+    if (size <= 0) return Progress::done;
+    stuck = decreased ? 0 : stuck + 1;
+    if (stuck >= 2) return size <= 4096 * {epsilon} * scale ? Progress::done : Progress::failed;
+    return iterations < 500 ? Progress::go_on : Progress::failed;
+  }}
+}};
+)",
+                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
+}
+
+std::string cpp_history(int unknowns) {
+  return fmt::format(R"(// Backward differences of the solutions of earlier steps.  The next solution is extrapolated by the
+// polynomial whose degree, 0 to 4, would have served best in the step before.
+struct History {{
+  static constexpr int unknowns = {unknowns};
+  Real difference[6][unknowns] = {{}};
+  int known = 0;
+
+  void record(const Real (&solution)[unknowns]) {{
+    for (int i = 0; i < unknowns; ++i) {{
+      Real carried = solution[i];
+      for (int degree = 0; degree < 6; ++degree) {{
+        const Real next = carried - difference[degree][i];
+        difference[degree][i] = carried;
+        carried = next;
+      }}
+    }}
+    if (known < 6) ++known;
+  }}
+  void extrapolate(Real (&solution)[unknowns]) const {{
+    int best = 0;
+    Real least = 0;
+    for (int degree = 0; degree + 1 < known; ++degree) {{
+      Real error = 0;
+      for (int i = 0; i < unknowns; ++i) {{
+        const Real d = difference[degree + 1][i];
+        error += d < 0 ? -d : d;
+      }}
+      if (degree == 0 || error < least) {{
+        best = degree;
+        least = error;
+      }}
+    }}
+    for (int i = 0; i < unknowns; ++i) {{
+      Real sum = difference[best][i];
+      for (int degree = best - 1; degree >= 0; --degree) sum += difference[degree][i];
+      solution[i] = sum;
+    }}
+  }}
+}};
+)",
+                     fmt::arg("unknowns", unknowns));
+}
+
+std::string cpp_elimination(const ScalarType&) {
+  return R"(// Solves matrix x = vector in place by elimination with partial pivoting; false if singular.
+template <int Size>
+inline bool eliminate(Real (&matrix)[Size][Size], Real (&vector)[Size]) {
+  for (int c = 0; c < Size; ++c) {
+    int pivot = c;
+    Real largest = 0;
+    for (int r = c; r < Size; ++r) {
+      const Real size = matrix[r][c] < 0 ? -matrix[r][c] : matrix[r][c];
+      if (size > largest) {
+        largest = size;
+        pivot = r;
+      }
+    }
+    if (!(largest > 0)) return false;
+    if (pivot != c) {
+      for (int j = c; j < Size; ++j) {
+        const Real kept = matrix[c][j];
+        matrix[c][j] = matrix[pivot][j];
+        matrix[pivot][j] = kept;
+      }
+      const Real kept = vector[c];
+      vector[c] = vector[pivot];
+      vector[pivot] = kept;
+    }
+    const Real reciprocal = 1 / matrix[c][c];
+    for (int r = c + 1; r < Size; ++r) {
+      const Real factor = matrix[r][c] * reciprocal;
+      for (int j = c + 1; j < Size; ++j) matrix[r][j] -= factor * matrix[c][j];
+      vector[r] -= factor * vector[c];
+    }
+  }
+  for (int r = Size - 1; r >= 0; --r) {
+    for (int j = r + 1; j < Size; ++j) vector[r] -= matrix[r][j] * vector[j];
+    vector[r] /= matrix[r][r];
+  }
+  return true;
+}
+)";
+}
+
+std::string cpp_inverse() {
+  return R"(// The inverse of a matrix that stays the same for the whole run; false if singular.
+template <int Size>
+inline bool invert(const Real (&matrix)[Size][Size], Real (&inverse)[Size][Size]) {
+  for (int c = 0; c < Size; ++c) {
+    Real copy[Size][Size];
+    Real column[Size];
+    for (int i = 0; i < Size; ++i) {
+      for (int j = 0; j < Size; ++j) copy[i][j] = matrix[i][j];
+      column[i] = i == c ? 1 : 0;
+    }
+    if (!eliminate(copy, column)) return false;
+    for (int i = 0; i < Size; ++i) inverse[i][c] = column[i];
+  }
+  return true;
+}
+)";
+}
+
+std::string cpp_eigen_solve() {
+  return R"(// Solves matrix x = vector in place; the result is not finite if the matrix is singular.
+template <int Size>
+inline bool eliminate(Real (&matrix)[Size][Size], Real (&vector)[Size]) {
+  using Matrix = Eigen::Matrix<Real, Size, Size, Eigen::RowMajor>;
+  using Vector = Eigen::Matrix<Real, Size, 1>;
+  Eigen::Map<Matrix> a(&matrix[0][0]);
+  Eigen::Map<Vector> b(&vector[0]);
+  const Vector solution = Eigen::PartialPivLU<Eigen::Ref<Matrix>>(a).solve(b);
+  b = solution;
+  return true;
+}
+)";
+}
+
+}  // namespace hamgen

@@ -1,0 +1,24 @@
+// The parts of an emitted header that do not depend on the mathematics: each is emitted only where
+// a step uses it.
+#pragma once
+
+#include <string>
+
+#include "generator/formats/scalar.hpp"
+
+namespace hamgen {
+
+// Adding with a carry (compensated summation).
+[[nodiscard]] std::string cpp_compensated_sum();
+// When to stop Newton's iteration.
+[[nodiscard]] std::string cpp_newton_rule(const ScalarType& scalar);
+// When to stop a fixed-point iteration of `size` unknowns.
+[[nodiscard]] std::string cpp_fixed_point_rule(const ScalarType& scalar);
+// Start values from earlier steps, for `unknowns` of them.
+[[nodiscard]] std::string cpp_history(int unknowns);
+// Gaussian elimination with partial pivoting; with Eigen where the system is large.
+[[nodiscard]] std::string cpp_elimination(const ScalarType& scalar);
+[[nodiscard]] std::string cpp_inverse();
+[[nodiscard]] std::string cpp_eigen_solve();
+
+}  // namespace hamgen

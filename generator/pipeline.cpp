@@ -1,0 +1,203 @@
+#include "generator/pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/equations/step_equations.hpp"
+#include "generator/formats/all_formats.hpp"
+#include "generator/formats/cpp_header.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/program/names.hpp"
+#include "generator/program/program.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "generator/solvers/solve_plan.hpp"
+
+namespace hamgen {
+
+namespace {
+
+Model read(const SourceText& source, const Request& request) {
+  Model model = read_model(source, request.sizes);
+  for (const std::string& name : request.fold) {
+    const auto it = std::ranges::find(model.parameters, name, &Parameter::name);
+    if (it == model.parameters.end()) {
+      std::vector<std::string> names;
+      for (const Parameter& parameter : model.parameters) names.push_back(parameter.name);
+      const std::string near = nearest(name, names);
+      throw UsageError(fmt::format("--fold {}: the model has no such parameter{}", name,
+                                   near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+    it->folded = true;
+  }
+  return model;
+}
+
+// Splits at commas outside parentheses.
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '(') ++depth;
+    if (c == ')') --depth;
+    if (c == ',' && depth == 0) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::vector<Expression> scheme_parameters(const Model& model, const std::string& option,
+                                          const std::string& text) {
+  std::vector<std::string> names{"h", "E0"};
+  for (const std::string& name : element_names(model.parameters)) names.push_back(name);
+  std::vector<Expression> values;
+  for (const std::string& part : split_list(text)) {
+    const NodePtr node = read_expression("--" + option, part, names);
+    values.push_back(scheme_parameter(model, option, node));
+  }
+  return values;
+}
+
+Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
+  std::string alpha = "1/2";
+  std::string beta = "0";
+  std::string gamma = "0";
+  const NamedScheme* named = nullptr;
+  if (!request.scheme.empty()) {
+    named = find_scheme(request.scheme);
+    if (named == nullptr) {
+      std::vector<std::string> names;
+      for (const NamedScheme& scheme : all_schemes()) names.emplace_back(scheme.name);
+      const std::string near = nearest(request.scheme, names);
+      throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", request.scheme,
+                                   near.empty() ? "" : ", did you mean '" + near + "'?"));
+    }
+    if (!request.alpha.empty() || !request.beta.empty() || !request.gamma.empty()) {
+      throw UsageError("give either --scheme or --alpha, --beta, --gamma");
+    }
+    alpha = named->alpha;
+    beta = named->beta;
+    gamma = named->gamma;
+  }
+  if (!request.alpha.empty()) alpha = request.alpha;
+  if (!request.beta.empty()) beta = request.beta;
+  if (!request.gamma.empty()) gamma = request.gamma;
+  return family_member(mechanics.degrees_of_freedom, scheme_parameters(model, "alpha", alpha),
+                       scheme_parameters(model, "beta", beta),
+                       scheme_parameters(model, "gamma", gamma));
+}
+
+std::string stem(const std::string& path) {
+  const std::string name = std::filesystem::path(path).stem().string();
+  return name.empty() ? "model" : name;
+}
+
+CppOptions cpp_options(const SourceText& source, const Program& program, const Request& request) {
+  CppOptions options{.command = request.command,
+                     .model_path = source.path,
+                     .scalar = request.scalar,
+                     .name_space = request.name_space};
+  if (options.name_space.empty()) {
+    const StepEquations& equations = program.plan.equations;
+    std::string scheme = equations.scheme.name;
+    std::ranges::replace(scheme, '-', '_');
+    options.name_space = identifier(equations.mechanics.name) + "::" + identifier(scheme);
+  }
+  return options;
+}
+
+// The stages, in order: this is the only place that knows it.
+struct Stages {
+  Model model;
+  Mechanics mechanics;
+  StepEquations equations;
+  SolvePlan plan;
+  Program program;
+};
+
+Stages run_stages(const SourceText& source, const Request& request) {
+  Model model = read(source, request);
+  Mechanics mechanics = derive(model);
+  StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, request));
+  SolvePlan plan = plan_solve(equations, request.solver);
+  Program program = build_program(plan);
+  return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
+          std::move(program)};
+}
+
+OutputFiles cmake_package(const SourceText& source, const Program& program,
+                          const CppOptions& options) {
+  const std::string name = stem(source.path);
+  const std::string target = identifier(name);
+  return {{name + ".hpp", cpp_header(program, options)},
+          {"CMakeLists.txt", fmt::format("cmake_minimum_required(VERSION 3.20)\n"
+                                         "project({0} CXX)\n\n"
+                                         "add_library({0} INTERFACE)\n"
+                                         "target_include_directories({0} INTERFACE "
+                                         "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
+                                         "target_compile_features({0} INTERFACE cxx_std_20)\n"
+                                         "{1}",
+                                         target,
+                                         needs_eigen(program)
+                                             ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" +
+                                                   target + " INTERFACE Eigen3::Eigen)\n"
+                                             : "")}};
+}
+
+}  // namespace
+
+OutputFiles generate(const SourceText& source, const Request& request) {
+  const Stages stages = run_stages(source, request);
+  const CppOptions options = cpp_options(source, stages.program, request);
+  const std::string format = request.format.empty() ? "cpp-header" : request.format;
+  const std::string name = stem(source.path);
+  if (format == "cpp-header") return {{name + ".hpp", cpp_header(stages.program, options)}};
+  if (format == "cpp-plugin") return {{name + ".plugin.cpp", cpp_plugin(stages.program, options)}};
+  if (format == "cmake-package") return cmake_package(source, stages.program, options);
+  throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
+}
+
+std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
+  if (stage == "model") return to_text(read(source, request));
+  if (stage == "mechanics") return to_text(derive(read(source, request)));
+  const Stages stages = run_stages(source, request);
+  if (stage == "equations") return to_text(stages.equations);
+  if (stage == "plan") return to_text(stages.plan);
+  if (stage == "program") return to_text(stages.program);
+  throw UsageError(fmt::format(
+      "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
+}
+
+PluginSource generate_plugin(const SourceText& source, const Request& request) {
+  Stages stages = run_stages(source, request);
+  const CppOptions options = cpp_options(source, stages.program, request);
+  PluginSource plugin;
+  plugin.text = cpp_plugin(stages.program, options);
+  plugin.header_text = cpp_header(stages.program, options);
+  plugin.scheme_name = stages.equations.scheme.name;
+  if (plugin.scheme_name == "member") plugin.scheme_name = stages.equations.scheme.description;
+  plugin.solver = stages.plan.solver;
+  plugin.left_out = stages.plan.left_out;
+  std::set<std::string> used;
+  for (const auto& [place, value] : stages.equations.stage_matrix) collect_symbols(value, used);
+  for (const Quantity& parameter : stages.mechanics.parameters) {
+    plugin.parameter_names.push_back(parameter.name);
+  }
+  plugin.needs_energy_parameter = used.contains("E0");
+  if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");
+  for (const NamedExpression& invariant : stages.mechanics.invariants) {
+    plugin.invariant_names.push_back(invariant.name);
+  }
+  plugin.needs_eigen = needs_eigen(stages.program);
+  plugin.needs_quadmath = request.scalar == "quad";
+  plugin.model = std::move(stages.model);
+  return plugin;
+}
+
+}  // namespace hamgen

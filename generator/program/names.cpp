@@ -1,0 +1,94 @@
+#include "generator/program/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+namespace hamgen {
+
+namespace {
+
+// Keywords of C++20, and the names the emitted code uses itself.
+constexpr std::string_view kReserved[] = {
+    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
+    "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
+    "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await",
+    "co_return", "co_yield", "decltype", "default", "delete", "do", "double", "dynamic_cast",
+    "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto",
+    "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq",
+    "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "register",
+    "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static",
+    "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local",
+    "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
+    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
+    // ours
+    "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
+    "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
+    "prepare", "main", "gradient"};
+
+bool is_reserved(std::string_view name) {
+  return std::ranges::find(kReserved, name) != std::end(kReserved);
+}
+
+}  // namespace
+
+std::string identifier(const std::string& name) {
+  // Two underscores and a leading underscore belong to the implementation.
+  std::string text;
+  for (const char c : name) {
+    if (c == '_' && text.ends_with('_')) continue;
+    text += c;
+  }
+  if (is_reserved(text)) text += "_";
+  return text;
+}
+
+ElementName split_element(const std::string& name) {
+  const auto bracket = name.find('[');
+  if (bracket == std::string::npos) return {name, false, 0};
+  return {name.substr(0, bracket), true, std::stol(name.substr(bracket + 1))};
+}
+
+std::string Names::unique(const std::string& wanted) {
+  std::string text = wanted;
+  for (int i = 2; taken_.contains(text) || is_reserved(text); ++i) {
+    text = fmt::format("{}{}{}", wanted, wanted.ends_with('_') ? "" : "_", i);
+  }
+  taken_.insert(text);
+  return text;
+}
+
+void Names::set(const std::string& symbol, const std::string& text) { names_[symbol] = text; }
+
+const std::string& Names::local(const std::string& symbol) {
+  if (const auto it = names_.find(symbol); it != names_.end()) return it->second;
+  std::string text;
+  if (symbol.starts_with('#')) {
+    text = fmt::format("t{}", ++temporaries_);
+    return names_.emplace(symbol, unique(text)).first->second;
+  }
+  std::string source = symbol;
+  const bool renewed = source.ends_with('*');
+  std::string suffix;
+  while (source.ends_with('*')) source.pop_back();
+  if (source.starts_with("bar(")) {
+    source = source.substr(4, source.size() - 5);
+    suffix = "_bar";
+  }
+  if (source.starts_with("1/det")) source = "inverse_det" + source.substr(5);
+  if (renewed) suffix += "_new";
+  for (const char c : source) {
+    const bool letter = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (letter) {
+      text += c;
+    } else if (!text.empty() && !text.ends_with('_')) {
+      text += '_';
+    }
+  }
+  while (text.ends_with('_')) text.pop_back();
+  return names_.emplace(symbol, unique(text + suffix)).first->second;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,74 @@
+// The step as straight-line single-assignment code and one loop per implicit block: what a format
+// writes out.  Symbols are still mathematical ("bar(q)", "H(q)"); a format gives them its names.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/solvers/solve_plan.hpp"
+
+namespace hamgen {
+
+struct Statement {
+  std::string name;
+  Expression value;
+};
+
+// A variable of a solver's loop.
+struct LoopVariable {
+  std::string name;      // "bar(q)", or "H(q)" for sweeps
+  Expression cold;       // its start value when nothing is known from earlier steps
+  Expression next;       // fixed point and sweeps: the new value
+  Expression correction; // Newton, size <= 3: what is added
+};
+
+// A loop, or for a linear system too large to write out a single solve.
+struct Solve {
+  BlockKind kind = BlockKind::newton;
+  LinearSolver linear_solver = LinearSolver::written_out;
+  std::optional<int> sweeps;             // a fixed number of sweeps instead of a stopping rule
+  bool constant_matrix = false;
+  std::vector<LoopVariable> variables;
+  std::vector<Statement> body;           // evaluated once per iteration
+  std::vector<Expression> residual;      // for a linear solve that is not written out: size m
+  std::vector<std::vector<Expression>> matrix;  // m x m
+  std::vector<std::string> corrections;  // symbols of the solution -matrix^-1 residual
+};
+
+struct Stage {
+  std::vector<Statement> before;  // straight-line
+  std::optional<Solve> solve;
+  std::vector<Statement> after;
+};
+
+// A function of the state alone.
+struct Evaluation {
+  std::vector<Statement> statements;
+  std::vector<Expression> results;
+};
+
+struct Cost {
+  int additions = 0;        // + and -
+  int multiplications = 0;
+  int divisions = 0;
+  int functions = 0;        // sqrt, sin, pow, ...
+  bool operator==(const Cost&) const = default;
+};
+
+struct Program {
+  SolvePlan plan;
+  std::vector<Statement> coefficients;  // of h and parameters: once per run
+  std::vector<Stage> stages;
+  std::vector<Expression> increments;   // Z_i - z_i, 2n; zero where nothing changes
+  Evaluation energy;                    // one result
+  Evaluation gradient;                  // 2n results
+  Evaluation invariants;
+};
+
+[[nodiscard]] Program build_program(const SolvePlan& plan);
+[[nodiscard]] Cost cost(const std::vector<Statement>& statements);
+[[nodiscard]] std::string to_text(const Cost& cost);
+[[nodiscard]] std::string to_text(const Program& program);
+
+}  // namespace hamgen
