@@ -1,0 +1,137 @@
+#include "runtime/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <random>
+
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBufferSize = 1 << 16;
+
+// Opens a new file beside the target; sets `temporary` to its name.
+FileDescriptor open_beside(const fs::path& final_path, const fs::path& target,
+                           fs::path& temporary) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    // Long names are cut: the temporary name must fit where the target's name fits.
+    temporary = final_path.parent_path() /
+                fmt::format(".{}.{:08x}.tmp", final_path.filename().string().substr(0, 200),
+                            static_cast<unsigned>(random()));
+    FileDescriptor file(
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
+    if (file.is_open()) return file;
+    if (errno != EEXIST) break;
+  }
+  const int error_number = errno;
+  temporary.clear();
+  throw file_error("write", target, error_number);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
+  std::error_code failed;
+  final_ = fs::weakly_canonical(target, failed);
+  if (failed || final_.empty()) final_ = target;
+  struct stat info {};
+  const bool exists = ::stat(final_.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) throw file_error("write", target_, EISDIR);
+  if (exists && !S_ISREG(info.st_mode)) {
+    file_ = FileDescriptor(::open(final_.c_str(), O_WRONLY | O_CLOEXEC));
+    if (!file_.is_open()) throw file_error("write", target_, errno);
+    return;
+  }
+  // A rename would also replace a file that was protected against writing.
+  if (exists && ::access(final_.c_str(), W_OK) != 0) throw file_error("write", target_, errno);
+  file_ = open_beside(final_, target_, temporary_);
+  if (exists) ::fchmod(file_.get(), info.st_mode & 0777);
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() {
+  file_.close();
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::write(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBufferSize) flush();
+}
+
+void AtomicFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t count = ::write(file_.get(), rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int error_number = errno;
+      buffer_.clear();
+      discard();
+      throw file_error("write", target_, error_number);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::publish() {
+  flush();
+  if (file_.close() != 0) {
+    const int error_number = errno;
+    discard();
+    throw file_error("write", target_, error_number);
+  }
+  if (temporary_.empty()) return;
+  if (std::rename(temporary_.c_str(), final_.c_str()) != 0) {
+    const int error_number = errno;
+    discard();
+    throw file_error("write", target_, error_number);
+  }
+  temporary_.clear();
+}
+
+std::string read_file(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) throw file_error("read", path, errno);
+  std::string text;
+  std::array<char, kBufferSize> buffer;
+  for (;;) {
+    const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw file_error("read", path, errno);
+    if (count == 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+bool atomic_write(const fs::path& path, std::string_view text) {
+  std::error_code failed;
+  const fs::path parent = path.parent_path();
+  if (!parent.empty()) {
+    fs::create_directories(parent, failed);
+    if (failed) throw file_error("create the directory", parent, failed.value());
+  }
+  if (fs::is_regular_file(path, failed) && fs::file_size(path, failed) == text.size() &&
+      read_file(path) == text) {
+    return false;
+  }
+  AtomicFile file(path);
+  file.write(text);
+  file.publish();
+  return true;
+}
+
+}  // namespace hamgen::runtime

@@ -1,0 +1,47 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "runtime/file_descriptor.hpp"
+
+namespace hamgen::runtime {
+
+// Collects text under a temporary name beside the target and renames it in publish(); without
+// publish() nothing is left behind.  A link is followed: the file it points to is replaced.  What
+// is not an ordinary file (a terminal, a pipe, /dev/null) is written directly instead, and never
+// replaced.  All members throw ToolError naming the target.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  void write(std::string_view text);
+  void publish();
+
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+
+ private:
+  void flush();
+  void discard();
+
+  std::filesystem::path target_;     // as given
+  std::filesystem::path final_;      // links followed
+  std::filesystem::path temporary_;  // empty if the target is written directly
+  FileDescriptor file_;
+  std::string buffer_;
+};
+
+// Makes a file hold exactly the text; creates missing directories.  An equal file is not touched,
+// so that nothing that depends on it is rebuilt.  Returns whether the file changed.  Throws
+// ToolError.
+bool atomic_write(const std::filesystem::path& path, std::string_view text);
+
+// The whole file; throws ToolError.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
+}  // namespace hamgen::runtime

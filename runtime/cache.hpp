@@ -1,0 +1,68 @@
+// The cache of compiled plugins: one file KEY.so per plugin, in a directory nobody else can write.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/compile.hpp"
+
+namespace hamgen::runtime {
+
+struct Cache {
+  std::filesystem::path directory;  // absolute; empty if there is none
+  std::string problem;              // why it is not used, as a warning; empty if it is usable
+
+  [[nodiscard]] bool usable() const { return problem.empty(); }
+};
+
+// $HAMGEN_CACHE, else $XDG_CACHE_HOME/hamgen, else $HOME/.cache/hamgen; empty if none is set.
+[[nodiscard]] std::filesystem::path default_cache_directory();
+
+// Creates the directory with mode 0700 if it is missing and checks it.  Never throws for a bad
+// directory: `problem` says what is wrong and the callers go on without a cache.
+[[nodiscard]] Cache open_cache(const std::filesystem::path& directory = default_cache_directory());
+
+// What makes a directory unfit: a link, not a directory, of another owner, writable by others.
+[[nodiscard]] std::string directory_problem(const std::filesystem::path& directory);
+
+// 64 hexadecimal digits: SHA-256 of the texts, the compiler's identity, the flags, the version of
+// the plugin interface and, for -march=native and the like, the processor.
+[[nodiscard]] std::string cache_key(const PluginSource& source, const Compiler& compiler,
+                                    const CompileOptions& options);
+
+// The object of that key if it is there, ours and undamaged.  Marks it as used now.
+[[nodiscard]] std::optional<std::filesystem::path> find_object(const Cache& cache,
+                                                               const std::string& key);
+
+// Moves an object, which must lie in the cache's file system, to its place.  Throws ToolError.
+std::filesystem::path publish_object(const Cache& cache, const std::string& key,
+                                     const std::filesystem::path& object);
+
+struct CacheEntry {
+  std::string key;
+  std::uintmax_t bytes = 0;
+  std::filesystem::file_time_type last_used;
+};
+
+struct CacheRemoval {
+  std::size_t entries = 0;
+  std::uintmax_t bytes = 0;
+};
+
+inline constexpr std::uintmax_t kCacheLimit = 256u << 20;  // bytes
+
+// Most recently used first.  All three leave files alone that hamgen did not make.
+[[nodiscard]] std::vector<CacheEntry> list_cache(const Cache& cache);
+
+// Removes everything, also what interrupted compilations left.
+CacheRemoval clear_cache(const Cache& cache);
+
+// Removes the least recently used entries until `limit` bytes remain, and left-overs older than a
+// day.
+CacheRemoval prune_cache(const Cache& cache, std::uintmax_t limit = kCacheLimit);
+
+}  // namespace hamgen::runtime

@@ -1,0 +1,119 @@
+#include "runtime/compile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include "runtime/atomic_file.hpp"
+#include "runtime/plugin_header.hpp"
+#include "runtime/process.hpp"
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::runtime {
+namespace {
+
+constexpr const char* kObject = "plugin.so";
+constexpr const char* kExports = "exports.map";
+
+// Contraction to fused multiply-adds is off so that every machine takes the same steps; errno is
+// never read.  Nothing else may touch the meaning of the arithmetic: compensated sums need it.
+constexpr std::array<const char*, 8> kFlags = {"-std=c++20",
+                                               "-O2",
+                                               "-w",
+                                               "-fPIC",
+                                               "-shared",
+                                               "-ffp-contract=off",
+                                               "-fno-math-errno",
+                                               "-fno-semantic-interposition"};
+
+// Besides rounding differently, linking with the first three makes GCC set "flush to zero" for the
+// whole process that loads the object.
+constexpr std::array<std::string_view, 8> kRefused = {"-ffast-math",
+                                                      "-Ofast",
+                                                      "-funsafe-math-optimizations",
+                                                      "-fassociative-math",
+                                                      "-ffinite-math-only",
+                                                      "-freciprocal-math",
+                                                      "-fno-signed-zeros",
+                                                      "-fcx-limited-range"};
+
+// Note [one exported symbol]
+// Two plugins of one model define the same inline functions.  Were they visible, the dynamic linker
+// would let the first definition, or one in the host, stand in for the others.
+constexpr const char* kExportsText = "{ global: hamgen_plugin_entry; local: *; };\n";
+
+void check_name(const std::string& name) {
+  if (name.empty() || name.front() == '.' || name.front() == '-' ||
+      name.find_first_of("/\n") != std::string::npos || name == "plugin.h" || name == kObject ||
+      name == kExports) {
+    throw std::invalid_argument(fmt::format("'{}' cannot be the name of a plugin's file", name));
+  }
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.publish();
+}
+
+}  // namespace
+
+std::vector<std::string> compile_flags(const PluginSource& source, const CompileOptions& options) {
+  std::vector<std::string> flags(kFlags.begin(), kFlags.end());
+  for (const std::string& flag : options.extra_flags) {
+    if (std::ranges::find(kRefused, flag) != kRefused.end()) {
+      throw ToolError({.message = fmt::format("the compiler flag '{}' is refused: it changes the "
+                                              "meaning of the arithmetic, and the methods' "
+                                              "properties would not hold",
+                                              flag)});
+    }
+    flags.push_back(flag);
+  }
+  if (source.uses_eigen) {
+    flags.push_back("-isystem");
+    flags.push_back(std::filesystem::absolute(options.eigen_include).string());
+  }
+  if (source.uses_quadmath) flags.push_back("-lquadmath");
+  return flags;
+}
+
+void write_sources(const PluginSource& source, const std::filesystem::path& directory) {
+  check_name(source.name);
+  for (const SourceFile& header : source.headers) check_name(header.name);
+  write_file(directory / "plugin.h", plugin_header_text());
+  write_file(directory / kExports, kExportsText);
+  for (const SourceFile& header : source.headers) write_file(directory / header.name, header.text);
+  write_file(directory / source.name, source.text);
+}
+
+std::filesystem::path compile_sources(const PluginSource& source, const Compiler& compiler,
+                                      const CompileOptions& options,
+                                      const std::filesystem::path& directory) {
+  ProcessRequest request{.command = compiler.command,
+                         .working_directory = directory,
+                         .time_limit = options.time_limit,
+                         .stop = options.stop};
+  // Libraries count only after the files that need them.
+  for (const std::string& word : {std::string("-o"), std::string(kObject), source.name,
+                                  fmt::format("-Wl,--version-script={}", kExports)}) {
+    request.command.push_back(word);
+  }
+  for (const std::string& flag : compile_flags(source, options)) request.command.push_back(flag);
+
+  const ProcessResult result = run_process(request);
+  const std::filesystem::path object = directory / kObject;
+  std::error_code missing;
+  if (result.succeeded() && std::filesystem::is_regular_file(object, missing)) return object;
+  const std::string end = result.succeeded() ? std::string("exit status 0, but no object file")
+                                             : end_text(result, request);
+  throw ToolError(
+      {.message = fmt::format("the compiler did not make the integrator: {}", end),
+       .command = command_text(request.command),
+       .exit_status = result.end == ProcessEnd::exited ? std::optional(result.code) : std::nullopt,
+       .output_tail = tail_of(result.output)});
+}
+
+}  // namespace hamgen::runtime

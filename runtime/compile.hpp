@@ -1,0 +1,50 @@
+// From the text of a plugin to a shared object in a given directory.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/compiler.hpp"
+
+namespace hamgen::runtime {
+
+struct SourceFile {
+  std::string name;  // no directories
+  std::string text;
+};
+
+// The main text may `#include "plugin.h"`, which is always there, and its own headers by name.
+struct PluginSource {
+  std::string text;
+  std::vector<SourceFile> headers;
+  std::string name = "plugin.cpp";  // shown in the compiler's messages
+  bool uses_eigen = false;
+  bool uses_quadmath = false;
+};
+
+struct CompileOptions {
+  std::vector<std::string> extra_flags;  // after the default ones
+  std::string eigen_include = "/usr/include/eigen3";
+  std::chrono::milliseconds time_limit = std::chrono::seconds(120);
+  const std::atomic<bool>* stop = nullptr;  // gives up the compilation when set
+};
+
+// The flags for a source, without file names.  Throws ToolError if an extra flag would change what
+// the arithmetic means (-ffast-math and its parts).
+[[nodiscard]] std::vector<std::string> compile_flags(const PluginSource& source,
+                                                     const CompileOptions& options);
+
+// Writes the texts into the directory.  Throws ToolError.
+void write_sources(const PluginSource& source, const std::filesystem::path& directory);
+
+// Compiles what write_sources wrote and returns the path of the object, in the same directory.
+// Throws ToolError with the command, the exit status and the end of the compiler's output.
+[[nodiscard]] std::filesystem::path compile_sources(const PluginSource& source,
+                                                    const Compiler& compiler,
+                                                    const CompileOptions& options,
+                                                    const std::filesystem::path& directory);
+
+}  // namespace hamgen::runtime

@@ -1,0 +1,118 @@
+#include "runtime/integrator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace hamgen::runtime {
+namespace {
+
+void check_finite(std::string_view what, std::span<const Wide> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i].hi) || !std::isfinite(values[i].lo)) {
+      throw std::invalid_argument(fmt::format("{} value {} is not finite", what, i + 1));
+    }
+  }
+}
+
+std::vector<double> part(const std::vector<Wide>& values, double Wide::*member) {
+  std::vector<double> parts(values.size());
+  std::ranges::transform(values, parts.begin(), member);
+  return parts;
+}
+
+Status status_of(const hamgen_report& report) {
+  switch (report.status) {
+    case HAMGEN_DONE:
+      return Status::done;
+    case HAMGEN_NOT_CONVERGED:
+      return Status::not_converged;
+    case HAMGEN_STOPPED:
+      return Status::stopped;
+    default:
+      return Status::not_finite;
+  }
+}
+
+}  // namespace
+
+std::string_view to_text(Status status) {
+  switch (status) {
+    case Status::done:
+      return "done";
+    case Status::not_converged:
+      return "not converged";
+    case Status::not_finite:
+      return "not finite";
+    case Status::stopped:
+      return "stopped";
+  }
+  return {};
+}
+
+Integrator::Integrator(std::shared_ptr<const Library> library, const InitialValues& start)
+    : library_(std::move(library)),
+      parameters_(part(start.parameters, &Wide::hi)),
+      h_(start.h),
+      run_(nullptr, Destroy{&library_->plugin()}) {
+  library_->check_sizes(start.parameters.size(), start.state.size());
+  check_finite("parameter", start.parameters);
+  check_finite("step size", {&start.h, 1});
+  check_finite("initial state", start.state);
+  const std::vector<double> parameters_lo = part(start.parameters, &Wide::lo);
+  const std::vector<double> state = part(start.state, &Wide::hi);
+  const std::vector<double> state_lo = part(start.state, &Wide::lo);
+  run_.reset(library_->plugin().create(parameters_.data(), parameters_lo.data(), h_.hi, h_.lo,
+                                       state.data(), state_lo.data()));
+  if (!run_) throw std::bad_alloc();
+}
+
+Report Integrator::advance(long long steps, bool watch_energy) {
+  hamgen_report raw{};
+  library_->plugin().advance(run_.get(), steps, watch_energy ? 1 : 0, &raw);
+  Report report{.status = status_of(raw),
+                .steps_done = raw.steps_done,
+                .iterations = raw.iterations,
+                .last_iterations = raw.last_iterations,
+                .last_increment = {},
+                .energy = {}};
+  if (std::isfinite(raw.last_increment)) report.last_increment = raw.last_increment;
+  if (!watch_energy || raw.steps_done == 0) return report;
+  if (std::isfinite(raw.energy_min) && std::isfinite(raw.energy_max) &&
+      std::isfinite(raw.energy_last)) {
+    report.energy =
+        EnergyRange{.min = raw.energy_min, .max = raw.energy_max, .last = raw.energy_last};
+  } else if (report.status == Status::done) {
+    report.status = Status::not_finite;
+  }
+  return report;
+}
+
+std::vector<Wide> Integrator::state() const {
+  std::vector<double> hi(2 * library_->degrees_of_freedom());
+  std::vector<double> lo(hi.size());
+  library_->plugin().get_state(run_.get(), hi.data(), lo.data());
+  std::vector<Wide> values(hi.size());
+  for (std::size_t i = 0; i < hi.size(); ++i) values[i] = {.hi = hi[i], .lo = lo[i]};
+  return values;
+}
+
+std::vector<double> Integrator::rounded_state() const {
+  std::vector<double> values(2 * library_->degrees_of_freedom());
+  library_->plugin().get_state(run_.get(), values.data(), nullptr);
+  return values;
+}
+
+double Integrator::energy() const { return library_->energy(parameters_, rounded_state()); }
+
+std::vector<double> Integrator::invariants() const {
+  return library_->invariants(parameters_, rounded_state());
+}
+
+}  // namespace hamgen::runtime

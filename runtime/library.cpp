@@ -1,0 +1,96 @@
+#include "runtime/library.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::runtime {
+namespace {
+
+[[noreturn]] void throw_not_loaded(const std::filesystem::path& object, const std::string& reason) {
+  throw ToolError({.message = fmt::format("cannot load '{}': {}", object.string(), reason)});
+}
+
+bool is_complete(const hamgen_plugin& plugin) {
+  return plugin.degrees_of_freedom > 0 && plugin.parameter_count >= 0 &&
+         plugin.invariant_count >= 0 && plugin.description != nullptr && plugin.solver != nullptr &&
+         plugin.create != nullptr && plugin.destroy != nullptr && plugin.advance != nullptr &&
+         plugin.get_state != nullptr && plugin.energy != nullptr &&
+         (plugin.invariants != nullptr || plugin.invariant_count == 0) &&
+         plugin.gradient != nullptr;
+}
+
+}  // namespace
+
+void Library::Close::operator()(void* handle) const { ::dlclose(handle); }
+
+Library::Library(const std::filesystem::path& object) {
+  // Without a slash dlopen would search the system's directories.
+  handle_.reset(::dlopen(std::filesystem::absolute(object).c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!handle_) {
+    const char* const reason = ::dlerror();
+    throw_not_loaded(object, reason != nullptr ? reason : "unknown reason");
+  }
+  void* const symbol = ::dlsym(handle_.get(), "hamgen_plugin_entry");
+  if (symbol == nullptr) throw_not_loaded(object, "it is no hamgen plugin");
+  plugin_ = reinterpret_cast<hamgen_plugin_entry_type>(symbol)();
+  if (plugin_ == nullptr) throw_not_loaded(object, "its table of functions is missing");
+  // The version comes first: the other fields mean something only if it is ours.
+  if (plugin_->version != HAMGEN_PLUGIN_VERSION) {
+    throw_not_loaded(object,
+                     fmt::format("it has version {} of the plugin interface, this program has {}",
+                                 plugin_->version, HAMGEN_PLUGIN_VERSION));
+  }
+  if (!is_complete(*plugin_)) throw_not_loaded(object, "its table of functions is incomplete");
+}
+
+Library::~Library() = default;
+
+std::size_t Library::degrees_of_freedom() const {
+  return static_cast<std::size_t>(plugin_->degrees_of_freedom);
+}
+
+std::size_t Library::parameter_count() const {
+  return static_cast<std::size_t>(plugin_->parameter_count);
+}
+
+std::size_t Library::invariant_count() const {
+  return static_cast<std::size_t>(plugin_->invariant_count);
+}
+
+void Library::check_sizes(std::size_t parameters, std::size_t state) const {
+  if (parameters != parameter_count()) {
+    throw std::invalid_argument(fmt::format("{} parameters were given, {} takes {}", parameters,
+                                            plugin_->description, parameter_count()));
+  }
+  if (state != 2 * degrees_of_freedom()) {
+    throw std::invalid_argument(fmt::format("a state of {} values was given, {} has {}", state,
+                                            plugin_->description, 2 * degrees_of_freedom()));
+  }
+}
+
+double Library::energy(std::span<const double> parameters, std::span<const double> state) const {
+  check_sizes(parameters.size(), state.size());
+  return plugin_->energy(parameters.data(), state.data());
+}
+
+std::vector<double> Library::invariants(std::span<const double> parameters,
+                                        std::span<const double> state) const {
+  check_sizes(parameters.size(), state.size());
+  std::vector<double> values(invariant_count());
+  if (!values.empty()) plugin_->invariants(parameters.data(), state.data(), values.data());
+  return values;
+}
+
+std::vector<double> Library::gradient(std::span<const double> parameters,
+                                      std::span<const double> state) const {
+  check_sizes(parameters.size(), state.size());
+  std::vector<double> values(state.size());
+  plugin_->gradient(parameters.data(), state.data(), values.data());
+  return values;
+}
+
+}  // namespace hamgen::runtime

@@ -1,0 +1,49 @@
+// A loaded plugin.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/plugin.h"
+
+namespace hamgen::runtime {
+
+// Keeps the shared object loaded as long as it lives.  Integrators share it.
+class Library {
+ public:
+  // Throws ToolError if the object cannot be loaded, is no plugin, or is of another version.
+  explicit Library(const std::filesystem::path& object);
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+  ~Library();
+
+  [[nodiscard]] const hamgen_plugin& plugin() const { return *plugin_; }
+  [[nodiscard]] std::size_t degrees_of_freedom() const;
+  [[nodiscard]] std::size_t parameter_count() const;
+  [[nodiscard]] std::size_t invariant_count() const;
+
+  // H at a state (2n values: q then p), not finite outside the domain of H.  These three throw
+  // std::invalid_argument if a size is wrong.
+  [[nodiscard]] double energy(std::span<const double> parameters,
+                              std::span<const double> state) const;
+  // invariant_count values.
+  [[nodiscard]] std::vector<double> invariants(std::span<const double> parameters,
+                                               std::span<const double> state) const;
+  // 2n values: H_q then H_p.
+  [[nodiscard]] std::vector<double> gradient(std::span<const double> parameters,
+                                             std::span<const double> state) const;
+
+  void check_sizes(std::size_t parameters, std::size_t state) const;
+
+ private:
+  struct Close {
+    void operator()(void* handle) const;
+  };
+  std::unique_ptr<void, Close> handle_;
+  const hamgen_plugin* plugin_ = nullptr;
+};
+
+}  // namespace hamgen::runtime

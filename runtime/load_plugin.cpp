@@ -1,0 +1,84 @@
+#include "runtime/load_plugin.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "runtime/temporary_directory.hpp"
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BuildDirectory {
+  TemporaryDirectory directory;
+  bool in_cache = false;
+};
+
+// The sources written in a directory inside the cache, from where the object can be renamed to its
+// place; if that fails (a full or read-only disk), in a private one elsewhere.
+BuildDirectory prepare(const PluginSource& source, const Cache& cache,
+                       std::vector<std::string>& warnings) {
+  if (cache.usable()) {
+    try {
+      BuildDirectory build{.directory = TemporaryDirectory(cache.directory, ".build-"),
+                           .in_cache = true};
+      write_sources(source, build.directory.path());
+      return build;
+    } catch (const ToolError& error) {
+      warnings.push_back(std::string("the cache is not used: ") + error.what());
+    }
+  }
+  BuildDirectory build{.directory = private_directory(), .in_cache = false};
+  write_sources(source, build.directory.path());
+  return build;
+}
+
+std::shared_ptr<const Library> load_cached(const Cache& cache, const std::string& key) {
+  const std::optional<fs::path> object = find_object(cache, key);
+  if (!object) return nullptr;
+  try {
+    return std::make_shared<const Library>(*object);
+  } catch (const ToolError&) {
+    // Removed meanwhile by another process, or made for libraries this system no longer has.
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
+                         const CompileOptions& options, const Cache& cache) {
+  LoadedPlugin loaded{.library = nullptr,
+                      .key = cache_key(source, compiler, options),
+                      .from_cache = false,
+                      .compile_seconds = 0.0,
+                      .warnings = {}};
+  // The directory may have changed since the cache was opened.
+  Cache checked = cache;
+  if (checked.usable()) checked.problem = directory_problem(checked.directory);
+  if (!checked.usable()) loaded.warnings.push_back(checked.problem);
+
+  loaded.library = load_cached(checked, loaded.key);
+  loaded.from_cache = loaded.library != nullptr;
+  if (loaded.from_cache) return loaded;
+
+  const BuildDirectory build = prepare(source, checked, loaded.warnings);
+  const auto begin = std::chrono::steady_clock::now();
+  fs::path object = compile_sources(source, compiler, options, build.directory.path());
+  loaded.compile_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (build.in_cache) {
+    try {
+      object = publish_object(checked, loaded.key, object);
+      prune_cache(checked);
+    } catch (const ToolError& error) {
+      loaded.warnings.push_back(std::string("not kept in the cache: ") + error.what());
+    }
+  }
+  loaded.library = std::make_shared<const Library>(object);
+  return loaded;
+}
+
+}  // namespace hamgen::runtime

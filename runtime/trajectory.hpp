@@ -1,0 +1,71 @@
+// Integrates over many steps: records, progress, stopping, and a summary.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "runtime/integrator.hpp"
+
+namespace hamgen::runtime {
+
+struct Record {
+  long long step = 0;
+  double time = 0.0;                   // step * h, from 0
+  std::span<const double> state;       // 2n values: q then p; all finite
+  double energy = 0.0;                 // H of that state; finite
+  std::span<const double> invariants;  // as many as the model has; these may be not finite
+};
+
+struct Progress {
+  long long steps_done = 0;
+  long long steps = 0;  // in all
+  double seconds = 0.0;
+};
+
+struct IntegrateOptions {
+  long long steps = 0;
+  long long every = 0;       // a record at step 0 and after each so many steps; 0 for no records
+  bool watch_energy = true;  // H after every step, else of the records and the last state only
+  std::function<void(const Record&)> on_record;
+  std::function<void(const Progress&)> on_progress;  // about once an interval, and at the end
+  std::chrono::duration<double> progress_interval{0.1};
+  const std::atomic<bool>* stop = nullptr;  // looked at as often as progress is reported
+};
+
+// Over the initial state and those that were watched.  All values are finite.
+struct EnergyStatistics {
+  double initial = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+  double last = 0.0;
+
+  // The largest |E - initial|, max - min, and last - initial.
+  [[nodiscard]] double max_error() const;
+  [[nodiscard]] double spread() const { return max - min; }
+  [[nodiscard]] double final_error() const { return last - initial; }
+};
+
+struct RunSummary {
+  Status status = Status::done;
+  long long steps_done = 0;
+  long long iterations = 0;
+  int last_iterations = 0;  // of the step that failed, or the last one
+  std::optional<double> last_increment;
+  std::optional<EnergyStatistics> energy;  // empty if H of the initial state is not finite
+  long long records = 0;
+  double advance_seconds = 0.0;  // inside the plugin
+  double total_seconds = 0.0;    // with records and progress
+
+  [[nodiscard]] double iterations_per_step() const;   // 0 if no step was done
+  [[nodiscard]] double nanoseconds_per_step() const;  // inside the plugin; 0 likewise
+};
+
+// Advances until the steps are done, a step fails, or `stop` is set.  What it did never depends on
+// how the steps were divided into calls.  An exception from a callback passes through.  Throws
+// std::invalid_argument for a negative `steps` or `every`.
+[[nodiscard]] RunSummary integrate(Integrator& integrator, const IntegrateOptions& options);
+
+}  // namespace hamgen::runtime
