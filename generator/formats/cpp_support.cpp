@@ -20,35 +20,34 @@ std::string cpp_newton_rule(const ScalarType& scalar) {
   return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as next <= contraction * size^2;
-// the contraction is measured, kept from step to step and measured anew every 64th step.  The last
+// the contraction is measured, kept from step to step and checked at least every 64th step.  The last
 // increment still enters the solution, so an iteration may stop when the next one would be lost in
 // rounding; the factor 1/1024 keeps what is cut off below the rounding errors' sum over many steps.
 struct NewtonRule {{
   Real contraction = {largest};
-  int unmeasured = 0;
+  int unchecked = 0;
   Real previous = 0;
   int grown = 0;
 
   void begin() {{
     previous = 0;
     grown = 0;
-    if (++unmeasured >= 64) contraction = {largest};
   }}
   Verdict operator()(Real size, Real scale, int iterations) {{
     if (!(size <= {largest})) return Verdict::failed;
     const Real round_off = {epsilon} * scale;
-    if (size <= round_off) return Verdict::done;
     if (previous > 0) {{
       const Real seen = size / (previous * previous);
-      if (size > 64 * round_off || seen < contraction) {{
-        contraction = seen;
-        unmeasured = 0;
-      }}
+      if (size > 64 * round_off || seen < contraction) contraction = seen;
+      unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
       if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+    }} else {{
+      ++unchecked;
     }}
-    if (contraction * size * size * 1024 <= round_off) return Verdict::done;
+    if (size <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 1024 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}
@@ -88,43 +87,46 @@ struct FixedPointRule {{
 }
 
 std::string cpp_history(int unknowns) {
-  return fmt::format(R"(// Backward differences of the solutions of earlier steps.  The next solution is extrapolated by the
-// polynomial whose degree, 0 to 4, would have served best in the step before.
+  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 4.  With s_d the prediction
+// of degree d and x the solution that came, the next predictions are (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.
 struct History {{
   static constexpr int unknowns = {unknowns};
-  Real difference[6][unknowns] = {{}};
+  static constexpr int degrees = 5;
+  Real predicted[degrees][unknowns] = {{}};
   int known = 0;
+  int best = 0;
+  int age = 0;
 
   void record(const Real (&solution)[unknowns]) {{
+    if (known < degrees || ++age == 16) choose(solution);
     for (int i = 0; i < unknowns; ++i) {{
-      Real carried = solution[i];
-      for (int degree = 0; degree < 6; ++degree) {{
-        const Real next = carried - difference[degree][i];
-        difference[degree][i] = carried;
-        carried = next;
+      Real earlier = 0;
+      for (int degree = 0; degree < degrees; ++degree) {{
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - earlier;
+        earlier += kept;
       }}
     }}
-    if (known < 6) ++known;
+    if (known < degrees) ++known;
   }}
-  void extrapolate(Real (&solution)[unknowns]) const {{
-    int best = 0;
+  void choose(const Real (&solution)[unknowns]) {{
+    age = 0;
     Real least = 0;
-    for (int degree = 0; degree + 1 < known; ++degree) {{
+    for (int degree = 0; degree < known; ++degree) {{
       Real error = 0;
       for (int i = 0; i < unknowns; ++i) {{
-        const Real d = difference[degree + 1][i];
+        const Real d = solution[i] - predicted[degree][i];
         error += d < 0 ? -d : d;
       }}
       if (degree == 0 || error < least) {{
-        best = degree;
         least = error;
+        best = degree;
       }}
     }}
-    for (int i = 0; i < unknowns; ++i) {{
-      Real sum = difference[best][i];
-      for (int degree = best - 1; degree >= 0; --degree) sum += difference[degree][i];
-      solution[i] = sum;
-    }}
+  }}
+  void extrapolate(Real (&solution)[unknowns]) const {{
+    for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
   }}
 }};
 )",

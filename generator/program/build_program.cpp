@@ -144,7 +144,7 @@ class Builder {
   // without cancellation, d = -2 c0 / (c1 + sqrt(c1^2 - 4 c0 c2)).
   void add_quadratic(int i) {
     const Expression z = equations_.mechanics.variable(i);
-    const std::string& bar = equations_.stage(i).name();
+    const std::string bar = equations_.stage(i).name();
     Expression c0(0);
     Expression c1(1);
     Expression c2(0);

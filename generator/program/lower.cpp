@@ -113,7 +113,11 @@ Expression Lowering::temporary(const Expression& value, const Expression& key, i
 }
 
 Expression Lowering::rewrite(const Expression& e, int section) {
-  if (e.is_number() || e.kind() == Kind::symbol) return e;
+  if (e.kind() == Kind::symbol) {
+    const auto it = aliases_.find(e.name());
+    return it == aliases_.end() ? e : it->second;
+  }
+  if (e.is_number()) return e;
   if (const auto it = named_.find(e); it != named_.end()) return it->second;
   if (is_trivial(e)) {
     return Expression::product({e.operands()[0], rewrite(e.operands()[1], section)});
@@ -225,9 +229,17 @@ void Lowering::run() {
   for (const Definition& definition : definitions_) {
     const int where = place(definition.value, definition.section);
     const Expression symbol = Expression::symbol(definition.name, kRankOfTemporary);
-    const auto known = named_.find(definition.value);
-    const Expression value =
-        known != named_.end() ? known->second : rewrite_operands(definition.value, where);
+    if (const auto known = named_.find(definition.value); known != named_.end()) {
+      aliases_[definition.name] = known->second;
+      levels_[definition.name] = level(known->second);
+      continue;
+    }
+    const Expression value = rewrite_operands(definition.value, where);
+    if (is_trivial(value)) {
+      aliases_[definition.name] = value;
+      levels_[definition.name] = level(value);
+      continue;
+    }
     output_[static_cast<std::size_t>(where)].push_back({definition.name, value});
     levels_[definition.name] = where;
     named_.try_emplace(definition.value, symbol);

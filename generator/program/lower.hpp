@@ -63,6 +63,7 @@ class Lowering {
   std::vector<Expression> keep_alive_;
   ExpressionMap<int> uses_;
   ExpressionMap<Expression> named_;
+  Substitution aliases_;  // definitions that turned out to be another value's name
   std::vector<std::vector<Statement>> output_;
   int next_ = 0;
 };
