@@ -1,0 +1,62 @@
+// hamgen check: is the model fine, up to the plan of its step?
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command_line.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/language/scene.hpp"
+
+namespace hamgen::app {
+namespace {
+
+std::string counted(long count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+// Evaluates every scene, so that a mistake in one nobody runs is found too.
+void check_scenes(const Model& model) {
+  std::vector<Diagnostic> mistakes;
+  for (const Scene& scene : model.scenes) {
+    try {
+      SceneRequest request;
+      request.scene = scene.name;
+      static_cast<void>(scene_values(model, request));
+    } catch (const ModelError& error) {
+      mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!mistakes.empty()) throw ModelError(mistakes, model.source);
+}
+
+int check(const MethodOptions& options) {
+  const SourceText source = read_source(options.model);
+  const Request request = request_with_sizes(options, source);
+  const Model model = read_model(source, request.sizes);
+  if (!model.warnings.empty()) print_error(render(model.warnings, source));
+  check_scenes(model);
+  static_cast<void>(show_stage(source, request, "plan"));
+  print(fmt::format(
+      "{}: fine: {}, {}, {}, {}\n", options.model,
+      counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),
+      counted(static_cast<long>(element_names(model.parameters).size()), "parameter", "parameters"),
+      counted(static_cast<long>(model.invariants.size()), "invariant", "invariants"),
+      counted(static_cast<long>(model.scenes.size()), "scene", "scenes")));
+  return done;
+}
+
+}  // namespace
+
+Command add_check(CLI::App& app) {
+  const auto options = std::make_shared<MethodOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "check", "says whether a model is fine: language, derivatives, scenes, plan of the step");
+  add_method_options(*parser, *options);
+  add_repeated(*parser, "--set", options->set, "another value for a size of the model")
+      ->type_name("SIZE=N");
+  return {parser, [options] { return check(*options); }};
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,190 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/language/scene.hpp"
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::app {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// The pieces between the commas that stand outside all brackets.
+std::vector<std::string_view> outermost_pieces(std::string_view text) {
+  std::vector<std::string_view> pieces;
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(' || text[i] == '[') ++depth;
+    if (text[i] == ')' || text[i] == ']') --depth;
+    if (text[i] == ',' && depth == 0) {
+      pieces.push_back(text.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  }
+  pieces.push_back(text.substr(begin));
+  return pieces;
+}
+
+void require_no_member_besides_scheme(const MethodOptions& options) {
+  if (options.scheme.empty()) return;
+  for (const auto& [name, value] :
+       {std::pair{"--alpha", &options.alpha}, std::pair{"--beta", &options.beta},
+        std::pair{"--gamma", &options.gamma}}) {
+    if (value->empty()) continue;
+    throw UsageError(
+        fmt::format("--scheme {} and {} {} both choose the method\nhelp: leave one of them out",
+                    options.scheme, name, *value));
+  }
+}
+
+// A value as a C++ comment can hold it: no line ends, no other control characters.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, MethodOptions& options) {
+  command.add_option("MODEL", options.model, "a .ham file")->required();
+  command.add_option("--scheme", options.scheme, "a method by its name, see `hamgen list schemes`")
+      ->type_name("NAME");
+  command.add_option("--alpha", options.alpha, "member of the family: number, expression or list")
+      ->type_name("X");
+  command.add_option("--beta", options.beta, "likewise, in h, parameters, E0: --beta=-1/400*h")
+      ->type_name("X");
+  command.add_option("--gamma", options.gamma, "likewise; default alpha = 1/2, beta = gamma = 0")
+      ->type_name("X");
+  command
+      .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
+      ->type_name("NAME");
+  command.add_option("--scalar", options.scalar, "float, double (default), long-double or quad")
+      ->type_name("TYPE");
+  add_repeated(command, "--fold", options.fold, "burn a parameter's default value into the code")
+      ->type_name("NAME");
+}
+
+CLI::Option* add_repeated(CLI::App& command, const std::string& name,
+                          std::vector<std::string>& values, const std::string& help) {
+  return command.add_option(name, values, help)->expected(1)->take_all()->allow_extra_args(false);
+}
+
+Assignment split_assignment(std::string_view option, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const std::string_view name = trimmed(text.substr(0, equals));
+  if (equals == std::string_view::npos || name.empty() || trimmed(text.substr(equals + 1)).empty())
+    throw UsageError(
+        fmt::format("{} {}: not an assignment\nhelp: write {} NAME=VALUE", option, text, option));
+  return {std::string(name), std::string(trimmed(text.substr(equals + 1)))};
+}
+
+std::vector<Assignment> split_assignments(std::string_view option, std::string_view text) {
+  std::vector<std::vector<std::string>> groups;  // "NAME=VALUE", then what belongs to its list
+  for (const std::string_view piece : outermost_pieces(text)) {
+    if (piece.find('=') != std::string_view::npos || groups.empty()) groups.emplace_back();
+    groups.back().emplace_back(piece);
+  }
+  std::vector<Assignment> assignments;
+  for (const std::vector<std::string>& group : groups) {
+    auto [name, value] = split_assignment(option, group.front());
+    if (group.size() > 1)
+      value = fmt::format("[{}, {}]", value, fmt::join(group.begin() + 1, group.end(), ","));
+    assignments.emplace_back(std::move(name), std::move(value));
+  }
+  return assignments;
+}
+
+long positive_integer(const std::string& option, const std::string& text) {
+  constexpr long largest = 1'000'000'000'000'000;
+  std::optional<Rational> value;
+  try {
+    value = evaluate_constant(read_expression(option, text, {}), make_source(option, text), {});
+  } catch (const ModelError&) {
+    value.reset();
+  }
+  if (!value || value->get_den() != 1 || *value < 1 || *value > largest)
+    throw UsageError(fmt::format("{} {}: not an integer between 1 and 1e15", option, text));
+  return value->get_num().get_si();
+}
+
+SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set) {
+  SizesAndRest result;
+  for (const std::string& text : set) {
+    const Assignment assignment = split_assignment("--set", text);
+    const auto& [name, value] = assignment;
+    const bool is_size = std::ranges::any_of(
+        model.sizes, [&name = name](const Size& size) { return size.name == name; });
+    if (is_size)
+      result.sizes[name] = positive_integer("--set " + name, value);
+    else
+      result.rest.push_back(assignment);
+  }
+  return result;
+}
+
+Request request_of(const MethodOptions& options) {
+  require_no_member_besides_scheme(options);
+  Request request;
+  request.scheme = options.scheme;
+  request.alpha = options.alpha;
+  request.beta = options.beta;
+  request.gamma = options.gamma;
+  request.solver = options.solver;
+  request.scalar = options.scalar;
+  request.fold = options.fold;
+  return request;
+}
+
+Request request_with_sizes(const MethodOptions& options, const SourceText& source) {
+  Request request = request_of(options);
+  if (options.set.empty()) return request;
+  const SizesAndRest split = split_sizes(read_model(source), options.set);
+  if (!split.rest.empty())
+    throw UsageError(
+        fmt::format("--set {0}={1}: {0} is not a size of {2}\nhelp: `size` constants shape the "
+                    "code and are set "
+                    "here; parameters get their values at run time, with `hamgen run --set`",
+                    split.rest.front().first, split.rest.front().second, source.path));
+  request.sizes = split.sizes;
+  return request;
+}
+
+std::string generate_command(const std::string& model, const Request& request) {
+  std::vector<std::string> words = {"hamgen", "generate", model};
+  // A value that begins with '-' would read as an option after a blank.
+  const auto add = [&words](const std::string& option, const std::string& value) {
+    if (value.empty()) return;
+    if (value.front() == '-') {
+      words.push_back(option + "=" + value);
+    } else {
+      words.push_back(option);
+      words.push_back(value);
+    }
+  };
+  add("--scheme", request.scheme);
+  add("--alpha", request.alpha);
+  add("--beta", request.beta);
+  add("--gamma", request.gamma);
+  add("--solver", request.solver);
+  add("--scalar", request.scalar);
+  for (const std::string& name : request.fold) add("--fold", name);
+  for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
+  add("--format", request.format);
+  add("--namespace", request.name_space);
+  return printable(runtime::command_text(words));
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,81 @@
+// What the subcommands share: their options, how a value is read, how help is laid out.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "generator/pipeline.hpp"
+
+namespace hamgen::app {
+
+enum ExitStatus : int {
+  done = 0,
+  numerical_failure = 1,  // also: `generate --check` found a difference
+  usage_error = 2,
+  model_error = 3,
+  tool_failure = 4,
+  proof_failed = 5,
+};
+
+// A subcommand: how its arguments are read, and what it does once they are (its exit status).
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<int()> run;
+};
+
+[[nodiscard]] Command add_check(CLI::App& app);
+[[nodiscard]] Command add_show(CLI::App& app);
+[[nodiscard]] Command add_generate(CLI::App& app);
+[[nodiscard]] Command add_run(CLI::App& app);
+[[nodiscard]] Command add_list(CLI::App& app);
+[[nodiscard]] Command add_cache(CLI::App& app);
+
+// Which integrator is meant; the texts are kept as typed.
+struct MethodOptions {
+  std::string model;  // path of the .ham file
+  std::string scheme, alpha, beta, gamma, solver, scalar;
+  std::vector<std::string> fold;
+  std::vector<std::string> set;  // NAME=VALUE
+};
+
+// Adds MODEL and the method options, without --set, whose help differs between commands.
+void add_method_options(CLI::App& command, MethodOptions& options);
+// An option that may be given several times, one value at a time.
+CLI::Option* add_repeated(CLI::App& command, const std::string& name,
+                          std::vector<std::string>& values, const std::string& help);
+
+using Assignment = std::pair<std::string, std::string>;
+
+// "eps=0.1" into its two sides, blanks at the ends dropped; throws UsageError naming the option.
+[[nodiscard]] Assignment split_assignment(std::string_view option, std::string_view text);
+// "q=1,p=[2,3],x=1,2": as above at every outermost comma; a piece without '=' belongs to the value
+// before it, which becomes a list.
+[[nodiscard]] std::vector<Assignment> split_assignments(std::string_view option,
+                                                        std::string_view text);
+// A positive integer such as "100" or "1e6"; throws UsageError naming the option.
+[[nodiscard]] long positive_integer(const std::string& option, const std::string& text);
+
+// --set of sizes goes into the request, the rest is handed back in the order given.
+struct SizesAndRest {
+  std::map<std::string, long> sizes;
+  std::vector<Assignment> rest;
+};
+[[nodiscard]] SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set);
+
+// The request without sizes; `rest_of_command` ends the command that is quoted in emitted files.
+// Throws UsageError where the options contradict each other.
+[[nodiscard]] Request request_of(const MethodOptions& options);
+// The request of a command that knows no run-time values: --set is for sizes only.
+[[nodiscard]] Request request_with_sizes(const MethodOptions& options, const SourceText& source);
+// The `hamgen generate` command that emits this request's files: paths as typed, a fixed order of
+// options, no output directory.
+[[nodiscard]] std::string generate_command(const std::string& model, const Request& request);
+
+// Help that fits one screen: one line an option.
+void use_short_help(CLI::App& app);
+
+}  // namespace hamgen::app

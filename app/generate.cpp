@@ -1,0 +1,93 @@
+// hamgen generate: the emitted files, printed, written or compared with what is there.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line.hpp"
+#include "app/difference.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "runtime/atomic_file.hpp"
+
+namespace hamgen::app {
+namespace {
+
+struct GenerateOptions {
+  MethodOptions method;
+  std::string output;  // a directory
+  std::string format;
+  std::string name_space;
+  bool check = false;
+};
+
+std::string path_in(const std::string& directory, const OutputFile& file) {
+  return (std::filesystem::path(directory) / file.path).string();
+}
+
+int compare(const OutputFiles& files, const std::string& directory, const std::string& command) {
+  std::string text;
+  for (const OutputFile& file : files) {
+    const std::string path = path_in(directory, file);
+    if (!std::filesystem::exists(path)) {
+      text += fmt::format("{}: missing\n", path);
+      continue;
+    }
+    text += difference(path, runtime::read_file(path), path + " (generated)", file.text);
+  }
+  if (text.empty()) return done;
+  print(text);
+  print_error(
+      fmt::format("help: to bring {} up to date: {} -o {}\n", directory, command, directory));
+  return numerical_failure;
+}
+
+int write(const OutputFiles& files, const std::string& directory) {
+  for (const OutputFile& file : files) {
+    const std::string path = path_in(directory, file);
+    const bool changed = runtime::atomic_write(path, file.text);
+    print_error(fmt::format("{}{}\n", path, changed ? "" : " (unchanged)"));
+  }
+  return done;
+}
+
+int print_only_file(const OutputFiles& files) {
+  if (files.size() != 1)
+    throw UsageError(fmt::format(
+        "this format has {} files\nhelp: say where they go with -o DIRECTORY", files.size()));
+  print(files.front().text);
+  return done;
+}
+
+int generate_files(const GenerateOptions& options) {
+  if (options.check && options.output.empty())
+    throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
+  const SourceText source = read_source(options.method.model);
+  Request request = request_with_sizes(options.method, source);
+  request.format = options.format;
+  request.name_space = options.name_space;
+  request.command = generate_command(options.method.model, request);
+  const OutputFiles files = generate(source, request);
+  if (options.check) return compare(files, options.output, request.command);
+  return options.output.empty() ? print_only_file(files) : write(files, options.output);
+}
+
+}  // namespace
+
+Command add_generate(CLI::App& app) {
+  const auto options = std::make_shared<GenerateOptions>();
+  CLI::App* parser = app.add_subcommand("generate", "writes the integrator as C++ source");
+  parser->add_option("-o,--output", options->output, "write there; default: print a single file")
+      ->type_name("DIRECTORY");
+  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
+      ->type_name("NAME");
+  parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
+  parser->add_flag("--check", options->check,
+                   "compare with the files in DIRECTORY; 1 and a diff if they differ");
+  add_method_options(*parser, options->method);
+  add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
+      ->type_name("SIZE=N");
+  return {parser, [options] { return generate_files(*options); }};
+}
+
+}  // namespace hamgen::app

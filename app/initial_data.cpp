@@ -1,0 +1,129 @@
+#include "app/initial_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen::app {
+namespace {
+
+runtime::Wide wide(const Rational& value) {
+  const TripleDouble parts = to_triple(value);
+  return {.hi = parts.hi, .lo = parts.lo};
+}
+
+// A folded parameter has the model's default in the code, whatever the scene or --set says.
+void require_folded_defaults(const Model& model, const SceneValues& scene) {
+  Model without_scenes = model;
+  without_scenes.scenes.clear();
+  const std::vector<Rational> defaults = scene_values(without_scenes, {}).parameters;
+  std::size_t first = 0;
+  for (const Parameter& parameter : model.parameters) {
+    const std::size_t end = first + parameter.values.size();
+    for (std::size_t i = first; i < end; ++i) {
+      if (!parameter.folded || scene.parameters[i] == defaults[i]) continue;
+      throw UsageError(
+          fmt::format("--fold {0}: its default {1} is burnt in, but this run sets it to {2}\n"
+                      "help: leave out --fold {0}, or change the default in {3}",
+                      parameter.name, shortest_decimal(to_double(defaults[i])),
+                      shortest_decimal(to_double(scene.parameters[i])), model.source.path));
+    }
+    first = end;
+  }
+}
+
+std::string state_text(const std::vector<std::string>& names, const std::vector<double>& state) {
+  constexpr std::size_t largest = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(state.size(), largest); ++i)
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i], shortest_decimal(state[i]));
+  return state.size() > largest ? text + ", ..." : text;
+}
+
+// "dH/dq[2] = nan", empty if H and its gradient are finite.
+std::string undefined_component(const runtime::Library& library,
+                                const std::vector<std::string>& names,
+                                const std::vector<double>& parameters,
+                                const std::vector<double>& state) {
+  const double energy = library.energy(parameters, state);
+  if (!std::isfinite(energy)) return fmt::format("H = {}", energy);
+  const std::vector<double> gradient = library.gradient(parameters, state);
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    if (!std::isfinite(gradient[i])) return fmt::format("dH/d{} = {}", names[i], gradient[i]);
+  }
+  return "";
+}
+
+void require_defined(const Model& model, const SceneValues& scene, const runtime::Library& library,
+                     const runtime::InitialValues& values) {
+  std::vector<std::string> names = element_names(model.coordinates);
+  const std::vector<std::string> momenta = element_names(model.momenta);
+  names.insert(names.end(), momenta.begin(), momenta.end());
+  const std::vector<double> state = rounded(values.state);
+  const std::string component =
+      undefined_component(library, names, rounded(values.parameters), state);
+  if (component.empty()) return;
+  const std::string where = scene.name.empty() ? "" : fmt::format(" of scene '{}'", scene.name);
+  throw ModelError(
+      {{.severity = Severity::error,
+        .span = model.hamiltonian->span,
+        .message = fmt::format("H is not defined at the initial state{}: {}", where, component),
+        .help = fmt::format("the initial state is {}; give another with --initial",
+                            state_text(names, state))}},
+      model.source);
+}
+
+}  // namespace
+
+std::vector<double> rounded(const std::vector<runtime::Wide>& values) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), &runtime::Wide::hi);
+  return result;
+}
+
+SceneValues complete_scene(const Model& model, const SceneRequest& request) {
+  const std::string& path = model.source.path;
+  if (model.scenes.empty() && request.initial.empty() && degrees_of_freedom(model) > 0)
+    throw UsageError(fmt::format(
+        "{} has no scene and no --initial is given: no initial state\n"
+        "help: for example --initial {}=0.1,{}=0 --h 0.01 --steps 1000",
+        path, element_names(model.coordinates).front(), element_names(model.momenta).front()));
+  SceneValues values = scene_values(model, request);
+  const std::string where = values.name.empty() ? path : fmt::format("scene '{}'", values.name);
+  if (!values.h)
+    throw UsageError(
+        fmt::format("{} has no step size\nhelp: give one, for example --h 0.01", where));
+  if (!values.steps)
+    throw UsageError(
+        fmt::format("{} has no number of steps\nhelp: give one, for example --steps 1000", where));
+  return values;
+}
+
+runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
+                                      const runtime::Library& library) {
+  const Model& model = plugin.model;
+  require_folded_defaults(model, scene);
+  const std::vector<std::string> names = element_names(model.parameters);
+  const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
+  runtime::InitialValues values;
+  values.h = wide(*scene.h);
+  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
+    for (const Rational& value : *half) values.state.push_back(wide(value));
+  }
+  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i) {
+    const auto found = std::ranges::find(names, plugin.parameter_names[i]);
+    if (found == names.end()) internal_error("a plugin parameter the model does not have");
+    values.parameters.push_back(
+        wide(scene.parameters[static_cast<std::size_t>(found - names.begin())]));
+  }
+  if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
+  require_defined(model, scene, library, values);
+  if (plugin.needs_energy_parameter)
+    values.parameters.back().hi = library.energy(rounded(values.parameters), rounded(values.state));
+  return values;
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,28 @@
+// The numbers a run starts from, in the order the plugin takes them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/language/scene.hpp"
+#include "generator/pipeline.hpp"
+#include "runtime/integrator.hpp"
+#include "runtime/library.hpp"
+
+namespace hamgen::app {
+
+// The scene's values with the user's changes, of a run that has an initial state, h and steps.
+// Throws UsageError with an example if something is missing.
+[[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request);
+
+// The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs
+// it, is computed by the plugin.  Throws UsageError if the run would change a folded parameter, and
+// ModelError naming the component if H or its gradient is not defined at the initial state.
+[[nodiscard]] runtime::InitialValues initial_values(const PluginSource& plugin,
+                                                    const SceneValues& scene,
+                                                    const runtime::Library& library);
+
+// The upper halves.
+[[nodiscard]] std::vector<double> rounded(const std::vector<runtime::Wide>& values);
+
+}  // namespace hamgen::app

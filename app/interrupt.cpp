@@ -1,0 +1,25 @@
+#include "app/interrupt.hpp"
+
+#include <csignal>
+
+namespace hamgen::app {
+namespace {
+
+// A signal handler can reach nothing but globals.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+const std::atomic<bool>& interrupt_flag() {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  return interrupted;
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,116 @@
+// The hamgen command: picks the subcommand, and turns what it throws into an exit status.
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "app/command_line.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::app {
+namespace {
+
+// CLI11 takes the next word as the value of "--alpha=", be it the model.
+void refuse_empty_values(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word.starts_with("--") && word.size() > 3 && word.find('=') == word.size() - 1)
+      throw UsageError(fmt::format("{} has no value", word));
+  }
+}
+
+const CLI::App& chosen(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : *parsed.front();
+}
+
+// The nearest option or subcommand to a word that was not expected.
+std::string suggestion(const CLI::App& command, const std::string& word) {
+  std::vector<std::string> candidates;
+  for (const CLI::App* subcommand : command.get_subcommands({}))
+    candidates.push_back(subcommand->get_name());
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) candidates.push_back("--" + name);
+  }
+  return nearest(word.substr(0, word.find('=')), candidates);
+}
+
+std::string explain(const CLI::ParseError& error, const CLI::App& app,
+                    const std::vector<std::string>& words) {
+  const CLI::App& command = chosen(app);
+  std::string text = fmt::format("hamgen: {}\n", error.what());
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+      (command.get_parent() == nullptr && !words.empty())) {
+    const std::vector<std::string> extras = command.remaining();
+    const std::string word = extras.empty() ? words.front() : extras.front();
+    text = fmt::format("hamgen: unexpected '{}'\n", word);
+    const std::string near = suggestion(command, word);
+    if (!near.empty()) return text + fmt::format("help: did you mean '{}'?\n", near);
+  }
+  const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
+  return text + fmt::format("help: see hamgen {}--help\n", name);
+}
+
+int run_command(const std::vector<std::string>& words) {
+  CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
+               "hamgen");
+  const std::vector<Command> commands = {add_check(app), add_show(app), add_generate(app),
+                                         add_run(app),   add_list(app), add_cache(app)};
+  app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
+  app.require_subcommand(1);
+  app.footer(
+      "exit status: 0 done, 1 numerical failure or a difference found, 2 usage, 3 model error,\n"
+      "             4 tool failure (compiler, files), 5 proof failed");
+  use_short_help(app);
+  try {
+    refuse_empty_values(words);
+    app.parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+  } catch (const CLI::CallForHelp&) {
+    print(app.help());
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return done;
+  } catch (const CLI::ParseError& error) {
+    print_error(explain(error, app, words));
+    return usage_error;
+  }
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) return command.run();
+  }
+  internal_error("no subcommand was chosen");
+}
+
+// Every way to fail, and only here, becomes a message and an exit status.
+int guarded(const std::vector<std::string>& words) {
+  try {
+    return run_command(words);
+  } catch (const ModelError& error) {
+    print_error(error.what());
+    return model_error;
+  } catch (const UsageError& error) {
+    print_error(fmt::format("hamgen: {}\n", error.what()));
+    return usage_error;
+  } catch (const runtime::ToolError& error) {
+    print_error(fmt::format("hamgen: {}\n", error.what()));
+    return tool_failure;
+  } catch (const std::bad_alloc&) {
+    print_error("hamgen: out of memory\n");
+    return tool_failure;
+  } catch (const std::exception& error) {
+    print_error(
+        fmt::format("hamgen: internal error: {}\n"
+                    "help: this is a fault of hamgen, not of the model; please report it\n",
+                    error.what()));
+    return tool_failure;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::app
+
+int main(int argc, char** argv) {
+  return hamgen::app::guarded(std::vector<std::string>(argv + 1, argv + argc));
+}

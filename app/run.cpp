@@ -1,0 +1,246 @@
+// hamgen run: from a model to numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/command_line.hpp"
+#include "app/initial_data.hpp"
+#include "app/interrupt.hpp"
+#include "app/run_report.hpp"
+#include "app/terminal.hpp"
+#include "app/trajectory_table.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
+#include "runtime/atomic_file.hpp"
+#include "runtime/load_plugin.hpp"
+#include "runtime/progress.hpp"
+#include "runtime/sha256.hpp"
+
+namespace hamgen::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// As shells report a command that was interrupted.
+constexpr int interrupted_status = 130;
+
+struct RunOptions {
+  MethodOptions method;
+  std::string compiler;
+  std::string scene;
+  std::vector<std::string> initial;
+  std::optional<std::string> h, steps;
+  std::string every;
+  std::string output;
+  std::string keep;
+  bool json = false;
+  bool quiet = false;
+};
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+SceneRequest scene_request(const RunOptions& options, std::vector<Assignment> set) {
+  SceneRequest request;
+  request.scene = options.scene;
+  request.set = std::move(set);
+  for (const std::string& text : options.initial) {
+    const std::vector<Assignment> more = split_assignments("--initial", text);
+    request.initial.insert(request.initial.end(), more.begin(), more.end());
+  }
+  request.h = options.h;
+  request.steps = options.steps;
+  return request;
+}
+
+// The distance of records: the option, else the scene's, else every step unless that is a flood.
+long record_distance(const RunOptions& options, const SceneValues& scene) {
+  constexpr long flood = 10'000'000;
+  if (!options.every.empty()) return positive_integer("--every", options.every);
+  if (scene.every) return *scene.every;
+  if (!options.output.empty() && *scene.steps > flood)
+    throw UsageError(
+        fmt::format("-o {} would record {} steps\nhelp: record fewer, for example --every {}; or "
+                    "say --every 1",
+                    options.output, *scene.steps, *scene.steps / 10'000));
+  return 1;
+}
+
+runtime::LoadedPlugin load(const PluginSource& plugin, const RunOptions& options) {
+  runtime::PluginSource source;
+  source.text = plugin.text;
+  source.uses_eigen = plugin.needs_eigen;
+  source.uses_quadmath = plugin.needs_quadmath;
+  runtime::CompileOptions compile_options;
+  compile_options.stop = &interrupt_flag();
+  const std::optional<std::string> choice =
+      options.compiler.empty() ? std::nullopt : std::optional(options.compiler);
+  return runtime::load_plugin(source, runtime::find_compiler(choice), compile_options,
+                              runtime::open_cache());
+}
+
+Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
+  Columns columns;
+  columns.state = element_names(plugin.model.coordinates);
+  const std::vector<std::string> momenta = element_names(plugin.model.momenta);
+  columns.state.insert(columns.state.end(), momenta.begin(), momenta.end());
+  const auto is_observed = [&scene](const std::string& name) {
+    return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
+  };
+  columns.energy = is_observed("energy");
+  for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
+    if (!is_observed(plugin.invariant_names[i])) continue;
+    columns.invariants.push_back(plugin.invariant_names[i]);
+    columns.places.push_back(i);
+  }
+  return columns;
+}
+
+std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues& scene,
+                                  const runtime::InitialValues& start, long every) {
+  std::vector<std::string> lines = {
+      "made by   hamgen " HAMGEN_VERSION,
+      fmt::format("model     {}   sha256 {}", plugin.model.source.path,
+                  runtime::sha256_hex(plugin.model.source.text)),
+      fmt::format("scheme    {}", plugin.scheme_name), fmt::format("solver    {}", plugin.solver),
+      fmt::format("h         {}, every {}", runtime::number_text(start.h.hi), every)};
+  if (!scene.name.empty()) lines.push_back("scene     " + scene.name);
+  for (std::size_t i = 0; i < plugin.parameter_names.size(); ++i)
+    lines.push_back(fmt::format("parameter {} = {}", plugin.parameter_names[i],
+                                runtime::number_text(start.parameters[i].hi)));
+  return lines;
+}
+
+// Writes the emitted header if asked to; returns where it is, or how to see it.
+std::string keep_header(const PluginSource& plugin, const RunOptions& options,
+                        const std::string& command) {
+  if (options.keep.empty()) return command;
+  const std::string stem = std::filesystem::path(options.method.model).stem().string();
+  const std::filesystem::path path = std::filesystem::path(options.keep) / (stem + ".hpp");
+  runtime::atomic_write(path, plugin.header_text);
+  return path.string();
+}
+
+std::string trajectory_text(const std::string& output, const TrajectoryTable& table) {
+  return fmt::format("{}, {} rows", output == "-" ? "on standard output" : output, table.rows());
+}
+
+int status_of(const runtime::RunSummary& summary) {
+  switch (summary.status) {
+    case runtime::Status::done:
+      return done;
+    case runtime::Status::stopped:
+      return interrupted_status;
+    case runtime::Status::not_converged:
+    case runtime::Status::not_finite:
+      return numerical_failure;
+  }
+  internal_error("no such status");
+}
+
+void say(const RunReport& report, const RunOptions& options) {
+  if (!options.quiet) print_error(summary_text(report));
+  const std::string failure = failure_text(report);
+  if (!failure.empty()) print_error("hamgen: " + failure + "\n");
+  if (!failure.empty() && report.summary.status != runtime::Status::stopped)
+    print_error(fmt::format("help: the state stays the last good one; try a smaller step, --h {}\n",
+                            runtime::number_text(report.start->h.hi / 4.0)));
+  if (options.json) print(json_text(report));
+}
+
+int run(const RunOptions& options) {
+  if (options.json && options.output == "-")
+    throw UsageError(
+        "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
+        "FILE.csv");
+  const SourceText source = read_source(options.method.model);
+  Request request = request_of(options.method);
+  SizesAndRest set = split_sizes(read_model(source), options.method.set);
+  request.sizes = set.sizes;
+  request.command = generate_command(options.method.model, request);
+  const Model model = read_model(source, request.sizes);
+  if (!model.warnings.empty() && !options.quiet) print_error(render(model.warnings, source));
+  const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
+  const long every = record_distance(options, scene);
+
+  RunReport report;
+  report.path = options.method.model;
+  report.scene = &scene;
+  const Clock::time_point begin = Clock::now();
+  const PluginSource plugin = generate_plugin(source, request);
+  report.plugin = &plugin;
+  report.generate_seconds = seconds_since(begin);
+
+  const runtime::LoadedPlugin loaded = load(plugin, options);
+  report.from_cache = loaded.from_cache;
+  report.compile_seconds = loaded.compile_seconds;
+  if (!options.quiet) {
+    for (const std::string& warning : loaded.warnings)
+      print_error(fmt::format("hamgen: warning: {}\n", warning));
+  }
+  const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
+  report.start = &start;
+  report.header = keep_header(plugin, options, request.command);
+
+  std::optional<TrajectoryTable> table;
+  if (!options.output.empty())
+    table.emplace(options.output, metadata(plugin, scene, start, every), columns_of(plugin, scene));
+  runtime::Integrator integrator(loaded.library, start);
+  report.initial_invariants = integrator.invariants();
+  runtime::ProgressBar bar(plugin.model.name);
+  runtime::IntegrateOptions integrate_options;
+  integrate_options.steps = *scene.steps;
+  integrate_options.every = table ? every : 0;
+  integrate_options.stop = &interrupt_flag();
+  if (table) integrate_options.on_record = [&table](const auto& record) { table->add(record); };
+  if (!options.quiet)
+    integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
+  report.summary = runtime::integrate(integrator, integrate_options);
+  bar.remove();
+
+  report.state = integrator.state();
+  report.final_invariants = integrator.invariants();
+  if (table) {
+    table->publish(failure_text(report));
+    report.trajectory = trajectory_text(options.output, *table);
+  }
+  say(report, options);
+  return status_of(report.summary);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* parser =
+      app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
+  parser->add_option("--scene", options->scene, "of the model; default: its first")
+      ->type_name("NAME");
+  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
+      ->type_name("NAME=VALUE");
+  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
+      ->type_name("NAME=VALUE,...");
+  parser->add_option("--h", options->h, "step size; default: the scene's")->type_name("H");
+  parser->add_option("--steps", options->steps, "their number; default: the scene's")
+      ->type_name("N");
+  parser
+      ->add_option("--every", options->every, "record every K-th step; default: the scene's, or 1")
+      ->type_name("K");
+  parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
+      ->type_name("FILE");
+  parser->add_flag("--json", options->json, "the result as JSON on standard output");
+  parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
+  parser->add_option("--keep", options->keep, "write the emitted header there")
+      ->type_name("DIRECTORY");
+  add_method_options(*parser, options->method);
+  parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
+      ->type_name("PROGRAM");
+  return {parser, [options] { return run(*options); }};
+}
+
+}  // namespace hamgen::app

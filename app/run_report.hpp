@@ -1,0 +1,35 @@
+// What a run says of itself: a summary to read, and the same as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/language/scene.hpp"
+#include "generator/pipeline.hpp"
+#include "runtime/integrator.hpp"
+#include "runtime/trajectory.hpp"
+
+namespace hamgen::app {
+
+struct RunReport {
+  std::string path;  // of the model, as typed
+  const PluginSource* plugin = nullptr;
+  const SceneValues* scene = nullptr;
+  const runtime::InitialValues* start = nullptr;
+  runtime::RunSummary summary;
+  std::vector<runtime::Wide> state;  // the last good one: q then p
+  std::vector<double> initial_invariants;
+  std::vector<double> final_invariants;
+  bool from_cache = false;
+  double generate_seconds = 0.0;
+  double compile_seconds = 0.0;
+  std::string trajectory;  // where it is and how many rows; empty if there is none
+  std::string header;      // where the emitted header is, or the command that prints it
+};
+
+[[nodiscard]] std::string summary_text(const RunReport& report);
+[[nodiscard]] std::string json_text(const RunReport& report);
+// What went wrong and what to try; empty if all steps were done.
+[[nodiscard]] std::string failure_text(const RunReport& report);
+
+}  // namespace hamgen::app

@@ -1,0 +1,44 @@
+// hamgen show: the value of one stage of the pipeline as text.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "app/command_line.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr std::array<std::string_view, 5> stages = {"model", "mechanics", "equations", "plan",
+                                                    "program"};
+
+int show(const MethodOptions& options, const std::string& stage) {
+  if (std::ranges::find(stages, stage) == stages.end())
+    throw UsageError(fmt::format("--stage {}: no such stage\nhelp: the stages are {}", stage,
+                                 fmt::join(stages, ", ")));
+  const SourceText source = read_source(options.model);
+  std::string text = show_stage(source, request_with_sizes(options, source), stage);
+  if (!text.ends_with('\n')) text += '\n';
+  print(text);
+  return done;
+}
+
+}  // namespace
+
+Command add_show(CLI::App& app) {
+  const auto options = std::make_shared<MethodOptions>();
+  const auto stage = std::make_shared<std::string>("plan");
+  CLI::App* parser =
+      app.add_subcommand("show", "prints what one stage of the pipeline makes of a model");
+  parser->add_option("--stage", *stage, "model, mechanics, equations, plan (default) or program")
+      ->type_name("NAME");
+  add_method_options(*parser, *options);
+  add_repeated(*parser, "--set", options->set, "another value for a size of the model")
+      ->type_name("SIZE=N");
+  return {parser, [options, stage] { return show(*options, *stage); }};
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,15 @@
+// Standard output and standard error.
+#pragma once
+
+#include <string_view>
+
+namespace hamgen::app {
+
+// Writes to standard output; throws ToolError if that fails (a full disk, say).
+void print(std::string_view text);
+// The same, but the text may wait for the next print().
+void print_buffered(std::string_view text);
+// Writes to standard error, whatever happens.
+void print_error(std::string_view text);
+
+}  // namespace hamgen::app

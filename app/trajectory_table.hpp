@@ -1,0 +1,41 @@
+// The trajectory as a table of columns step, t, q, p, H and the invariants.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/csv_writer.hpp"
+#include "runtime/trajectory.hpp"
+
+namespace hamgen::app {
+
+// What a row holds besides step, t and the state.
+struct Columns {
+  std::vector<std::string> state;  // names: q then p
+  bool energy = true;
+  std::vector<std::string> invariants;  // names
+  std::vector<std::size_t> places;      // of these among the record's invariants
+};
+
+class TrajectoryTable {
+ public:
+  // The target "-" is standard output, where rows appear as they come.
+  TrajectoryTable(const std::string& target, const std::vector<std::string>& metadata,
+                  Columns columns);
+
+  void add(const runtime::Record& record);
+  // Makes a file visible; the remark, if any, becomes its last line.
+  void publish(const std::string& remark);
+
+  [[nodiscard]] long long rows() const { return rows_; }
+
+ private:
+  Columns columns_;
+  std::unique_ptr<runtime::CsvWriter> file_;  // null for standard output
+  std::vector<double> values_;
+  long long rows_ = 0;
+};
+
+}  // namespace hamgen::app
