@@ -11,11 +11,12 @@
 namespace hamgen {
 
 struct SceneRequest {
-  std::string scene;                                         // empty: the first, if there is one
-  std::vector<std::pair<std::string, std::string>> set;      // --set NAME=VALUE, VALUE an expression
-  std::vector<std::pair<std::string, std::string>> initial;  // --initial NAME=VALUE
-  std::optional<std::string> h;
-  std::optional<std::string> steps;
+  std::string scene;  // empty: the first, if there is one
+  std::vector<std::pair<std::string, std::string>> set =
+      {};  // --set NAME=VALUE, VALUE an expression
+  std::vector<std::pair<std::string, std::string>> initial = {};  // --initial NAME=VALUE
+  std::optional<std::string> h = {};
+  std::optional<std::string> steps = {};
 };
 
 // Initial data of a run.  q, p, parameters in state order (element_names); exact rationals, or

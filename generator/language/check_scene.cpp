@@ -1,0 +1,133 @@
+#include "generator/language/check_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "generator/language/check_names.hpp"
+#include "generator/language/constant.hpp"
+#include "generator/language/words.hpp"
+
+namespace hamgen {
+namespace {
+
+using enum SymbolKind;
+
+// A lone name that is no size is a free index: q[i] = ...
+void find_free_index(Setting& setting, Symbols& symbols) {
+  if (!setting.element) return;
+  const auto* name = std::get_if<NameNode>(&setting.element->value);
+  if (name == nullptr || name->subscript || symbols.find(name->name) != nullptr) return;
+  if (const std::string meaning = reserved_meaning(name->name); !meaning.empty()) {
+    symbols.report(setting.element->span, fmt::format("'{}' is reserved: {}", name->name, meaning),
+                   "choose another index, such as i");
+  }
+  setting.index = name->name;
+  setting.element = nullptr;
+}
+
+void check_shape(const Setting& setting, const Symbol& symbol, const KnownValues& known,
+                 Symbols& symbols) {
+  const std::string& name = setting.name;
+  if (!symbol.range) {
+    if (setting.element || !setting.index.empty() || setting.is_list) {
+      symbols.report(setting.span, fmt::format("'{}' is one number, not an array", name),
+                     fmt::format("write {} = 1", name));
+    }
+    return;
+  }
+  const IndexRange range = *symbol.range;
+  const long given = static_cast<long>(setting.values.size());
+  if (setting.is_list && (setting.element || !setting.index.empty())) {
+    symbols.report(setting.span, "a list sets a whole array",
+                   fmt::format("write {} = [...]", name));
+  } else if (setting.is_list && given != range.size()) {
+    symbols.report(
+        setting.span,
+        fmt::format("'{}' has {} elements, but {} values are given", name, range.size(), given),
+        fmt::format("give one value for each of {}[{}..{}]", name, range.first, range.last));
+  }
+  if (!setting.element) return;
+  Role role = size_role(std::nullopt);
+  role.what = "a subscript";
+  if (!check_names(setting.element, role, symbols)) return;
+  const auto at = check_values(setting.element, known, symbols);
+  if (!at) return;
+  if (at->get_den() != 1 || *at < range.first || *at > range.last) {
+    symbols.report(setting.element->span,
+                   fmt::format("'{}[{}]' is outside {}[{}..{}]", name, short_text(*at), name,
+                               range.first, range.last),
+                   fmt::format("subscripts run from {} to {}", range.first, range.last));
+  }
+}
+
+void check_twice(const Scene& scene, Symbols& symbols) {
+  const auto whole = [](const Setting& setting) { return !setting.element; };
+  for (std::size_t i = 0; i < scene.settings.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Setting& first = scene.settings[k];
+      const Setting& second = scene.settings[i];
+      if (first.name != second.name || !whole(first) || !whole(second)) continue;
+      symbols.report(
+          second.span, fmt::format("'{}' is set twice", second.name),
+          fmt::format("line {} sets it first", position(symbols.source(), first.span.begin).line));
+    }
+  }
+}
+
+void check_number(const NodePtr& node, Symbols& symbols) {
+  if (node) check_names(node, parameter_role(std::nullopt), symbols);
+}
+
+}  // namespace
+
+void check_setting(Setting& setting, const KnownValues& known, Symbols& symbols) {
+  const Span name_span{setting.span.begin, setting.span.begin + setting.name.size()};
+  find_free_index(setting, symbols);
+  const Symbol* symbol = symbols.find(setting.name);
+  const bool settable =
+      symbol != nullptr &&
+      (symbol->kind == coordinate || symbol->kind == momentum || symbol->kind == parameter);
+  if (symbol == nullptr) {
+    if (symbols.is_spoiled(setting.name)) return;
+    std::vector<std::string> candidates = symbols.names({coordinate, momentum, parameter});
+    candidates.insert(candidates.end(), {"h", "steps", "every", "observe"});
+    symbols.report(name_span, fmt::format("unknown name '{}'", setting.name),
+                   symbols.suggestion(setting.name, candidates));
+  } else if (!settable) {
+    symbols.report(
+        name_span,
+        fmt::format("'{}' is {}: a scene cannot set it", setting.name, description(symbol->kind)),
+        symbol->kind == size ? fmt::format("set it on the command line: --set {}=...", setting.name)
+                             : "a scene sets coordinates, momenta and parameters");
+  } else {
+    check_shape(setting, *symbol, known, symbols);
+  }
+  const bool is_parameter = symbol != nullptr && symbol->kind == parameter;
+  const Role role = parameter_role(is_parameter ? std::optional(symbol->span.begin) : std::nullopt);
+  std::vector<std::string> indices;
+  if (!setting.index.empty()) indices.push_back(setting.index);
+  for (const NodePtr& value : setting.values) check_names(value, role, symbols, indices);
+}
+
+Scene check_scene(const SceneStatement& statement, const KnownValues& known, Symbols& symbols) {
+  Scene scene = statement.scene;
+  for (Setting& setting : scene.settings) check_setting(setting, known, symbols);
+  check_twice(scene, symbols);
+  check_number(scene.h, symbols);
+  check_number(scene.steps, symbols);
+  check_number(scene.every, symbols);
+  for (const Name& name : statement.observed) {
+    const Symbol* symbol = symbols.find(name.text);
+    if (name.text == "energy" || symbols.is_spoiled(name.text)) continue;
+    if (symbol != nullptr && symbol->kind == invariant) continue;
+    std::vector<std::string> candidates = symbols.names({invariant});
+    candidates.emplace_back("energy");
+    symbols.report(name.span, fmt::format("'{}' is no invariant", name.text),
+                   symbols.suggestion(name.text, candidates));
+  }
+  return scene;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,283 @@
+#include "generator/language/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "generator/language/check_scene.hpp"
+#include "generator/language/constant.hpp"
+#include "generator/language/parser.hpp"
+#include "generator/language/read_model.hpp"
+
+namespace hamgen {
+namespace {
+
+constexpr long most_steps = 1'000'000'000'000'000;
+
+using Values = std::map<std::string, Rational>;
+
+std::string element_name(const std::string& name, std::optional<long> at) {
+  return at ? fmt::format("{}[{}]", name, *at) : name;
+}
+
+// Looks a name up among the values; `index` is the free index of a setting at the value `i`.
+Lookup lookup_in(const Values& values, const std::string& index = {}, long i = 0) {
+  return
+      [&values, index, i](const Node& node, const NameNode& name, const std::optional<long>& at) {
+        if (!at && !index.empty() && name.name == index) return Rational(i);
+        const auto place = values.find(element_name(name.name, at));
+        if (place != values.end()) return place->second;
+        throw ConstantError{{Severity::error, node.span,
+                             fmt::format("'{}' has no value here", element_name(name.name, at)),
+                             at ? "the subscript is outside the array" : ""}};
+      };
+}
+
+// Every option of the command line that sets something, with the text it was read from.
+struct Override {
+  SourceText source;
+  Setting setting;
+};
+
+bool is_not_finite(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '+' || c == '-'; });
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text == "nan" || text == "inf" || text == "infinity";
+}
+
+class SceneReader {
+ public:
+  SceneReader(const Model& model, const SceneRequest& request)
+      : model_(model), request_(request), symbols_(model.source, mistakes_) {
+    for (const Size& each : model.sizes) {
+      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::size, .span = each.span});
+      values_[each.name] = each.value;
+    }
+    known_ = values_;
+    declare(model.coordinates, SymbolKind::coordinate);
+    declare(model.momenta, SymbolKind::momentum);
+    declare(model.parameters, SymbolKind::parameter);
+  }
+
+  SceneValues run() {
+    scene_ = find_scene();
+    for (const auto& [name, value] : request_.set) add_override("--set", name, value);
+    for (const auto& [name, value] : request_.initial) add_override("--initial", name, value);
+    SceneValues result;
+    if (scene_ != nullptr) {
+      result.name = scene_->name;
+      result.observe = scene_->observe;
+    }
+    for (const Parameter& each : model_.parameters) read_parameter(each, result.parameters);
+    stop_if_wrong();  // values that need a parameter without a value would only repeat the mistake
+    for (const Variable& each : model_.coordinates) read_variable(each, result.q);
+    for (const Variable& each : model_.momenta) read_variable(each, result.p);
+    read_run(result);
+    stop_if_wrong();
+    return result;
+  }
+
+ private:
+  template <typename Declared>
+  void declare(const std::vector<Declared>& declared, SymbolKind kind) {
+    for (const Declared& each : declared) {
+      if (symbols_.find(each.name) != nullptr) continue;
+      symbols_.declare({each.name, each.span},
+                       {.kind = kind, .span = each.span, .range = each.range});
+    }
+  }
+
+  void stop_if_wrong() const {
+    if (!mistakes_.empty()) throw ModelError(mistakes_, model_.source);
+  }
+
+  const Scene* find_scene() const {
+    if (request_.scene.empty()) return model_.scenes.empty() ? nullptr : &model_.scenes.front();
+    std::vector<std::string> names;
+    for (const Scene& each : model_.scenes) {
+      if (each.name == request_.scene) return &each;
+      names.push_back(each.name);
+    }
+    const std::string near = nearest(request_.scene, names);
+    std::string help = fmt::format("it has {}", fmt::join(names, ", "));
+    if (names.empty()) help = "it has none";
+    if (!near.empty()) help = fmt::format("did you mean '{}'?", near);
+    throw UsageError(fmt::format("{} has no scene '{}': {}", model_.name, request_.scene, help));
+  }
+
+  void add_override(const std::string& option, const std::string& name, const std::string& value) {
+    if (is_not_finite(value)) {
+      throw UsageError(fmt::format("{} {}={}: not a finite number", option, name, value));
+    }
+    if (option == "--set" && values_.contains(name) &&
+        symbols_.find(name)->kind == SymbolKind::size) {
+      return;  // sizes are set when the model is read
+    }
+    SourceText source = make_source(option, name + "=" + value);
+    Setting setting;
+    try {
+      setting = parse_setting(source);
+    } catch (const ModelError& error) {
+      throw UsageError(error.what());
+    }
+    const Symbol* symbol = symbols_.find(setting.name);
+    const bool is_parameter = symbol != nullptr && symbol->kind == SymbolKind::parameter;
+    if (symbol != nullptr && is_parameter != (option == "--set")) {
+      throw UsageError(fmt::format("{} {}={}: '{}' is {}; set it with {}", option, name, value,
+                                   setting.name, description(symbol->kind),
+                                   is_parameter ? "--set" : "--initial"));
+    }
+    check_setting(setting, known_, symbols_);
+    if (!mistakes_.empty()) throw UsageError(ModelError(mistakes_, source).what());
+    overrides_.push_back({std::move(source), std::move(setting)});
+  }
+
+  // Evaluates a constant; a mistake in a scene is collected, one in an option thrown at once.
+  Rational value_of(const NodePtr& node, const Lookup& lookup, const SourceText* option) {
+    try {
+      return evaluate(node, lookup);
+    } catch (const ConstantError& error) {
+      if (option != nullptr) throw UsageError(render(error.diagnostic, *option));
+      mistakes_.push_back(error.diagnostic);
+      return 0;
+    }
+  }
+
+  void apply(const Setting& setting, const std::optional<IndexRange>& range,
+             std::vector<Rational>& elements, const SourceText* option) {
+    const long first = range ? range->first : 1;
+    const auto value = [&](const NodePtr& node, long i) {
+      return value_of(node, lookup_in(values_, setting.index, i), option);
+    };
+    if (setting.element) {
+      const Rational at = value(setting.element, 0);
+      elements.at(static_cast<std::size_t>(at.get_num().get_si() - first)) =
+          value(setting.values.front(), 0);
+      return;
+    }
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::size_t mistakes = mistakes_.size();
+      elements[i] = value(setting.values[setting.is_list ? i : 0], first + static_cast<long>(i));
+      if (mistakes_.size() > mistakes && !setting.is_list) return;
+    }
+  }
+
+  // The scene's settings of the name, then those of the command line: later ones win.
+  void apply_all(const std::string& name, const std::optional<IndexRange>& range,
+                 std::vector<Rational>& elements) {
+    if (scene_ != nullptr) {
+      for (const Setting& each : scene_->settings) {
+        if (each.name == name) apply(each, range, elements, nullptr);
+      }
+    }
+    for (const Override& each : overrides_) {
+      if (each.setting.name == name) apply(each.setting, range, elements, &each.source);
+    }
+  }
+
+  void read_parameter(const Parameter& parameter, std::vector<Rational>& result) {
+    std::vector<Rational> elements;
+    for (const NodePtr& node : parameter.values) {
+      elements.push_back(value_of(node, lookup_in(values_), nullptr));
+    }
+    apply_all(parameter.name, parameter.range, elements);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      std::optional<long> at;
+      if (parameter.range) at = parameter.range->first + static_cast<long>(i);
+      values_[element_name(parameter.name, at)] = elements[i];
+      result.push_back(elements[i]);
+    }
+  }
+
+  void read_variable(const Variable& variable, std::vector<Rational>& result) {
+    std::vector<Rational> elements(variable.range ? static_cast<std::size_t>(variable.range->size())
+                                                  : 1);
+    apply_all(variable.name, variable.range, elements);
+    result.insert(result.end(), elements.begin(), elements.end());
+  }
+
+  // A number of the run, from the option or else from the scene.  `wrong` says what is not allowed.
+  template <typename Wrong>
+  std::optional<Rational> run_value(const std::string& name, const std::optional<std::string>& text,
+                                    const NodePtr& node, Wrong wrong) {
+    if (text) {
+      const std::string option = "--" + name;
+      if (is_not_finite(*text)) {
+        throw UsageError(fmt::format("{} {}: not a finite number", option, *text));
+      }
+      std::vector<std::string> names;
+      for (const auto& [known, value] : values_) names.push_back(known);
+      Rational value;
+      try {
+        const NodePtr read = read_expression(option, *text, names);
+        const SourceText source = make_source(option, *text);
+        value = value_of(read, lookup_in(values_), &source);
+      } catch (const ModelError& error) {
+        throw UsageError(error.what());
+      }
+      if (const std::string message = wrong(value); !message.empty()) {
+        throw UsageError(fmt::format("{} {}: {}", option, *text, message));
+      }
+      return value;
+    }
+    if (!node) return std::nullopt;
+    const std::size_t mistakes = mistakes_.size();
+    const Rational value = value_of(node, lookup_in(values_), nullptr);
+    if (mistakes_.size() > mistakes) return std::nullopt;
+    if (const std::string message = wrong(value); !message.empty()) {
+      mistakes_.push_back({Severity::error, node->span, message, {}});
+    }
+    return value;
+  }
+
+  void read_run(SceneValues& result) {
+    const auto count = [](std::string_view what, long least) {
+      return [what, least](const Rational& value) -> std::string {
+        if (value.get_den() == 1 && value >= least && value <= most_steps) return {};
+        return fmt::format("{} must be an integer between {} and 1e15, not {}", what, least,
+                           short_text(value));
+      };
+    };
+    const auto step_size = [](const Rational& value) -> std::string {
+      return sgn(value) == 0 ? "the step size h must not be 0" : "";
+    };
+    const Scene none;
+    const Scene& scene = scene_ != nullptr ? *scene_ : none;
+    result.h = run_value("h", request_.h, scene.h, step_size);
+    const auto steps =
+        run_value("steps", request_.steps, scene.steps, count("the number of steps", 0));
+    const auto every = run_value("every", {}, scene.every, count("the recording interval", 1));
+    if (!mistakes_.empty()) return;
+    if (steps) result.steps = steps->get_num().get_si();
+    if (every) result.every = every->get_num().get_si();
+  }
+
+  const Model& model_;
+  const SceneRequest& request_;
+  std::vector<Diagnostic> mistakes_;
+  Symbols symbols_;
+  Values values_;  // of sizes, and of the parameters so far
+  KnownValues known_;
+  const Scene* scene_ = nullptr;
+  std::vector<Override> overrides_;
+};
+
+}  // namespace
+
+SceneValues scene_values(const Model& model, const SceneRequest& request) {
+  return SceneReader(model, request).run();
+}
+
+Rational evaluate_constant(const NodePtr& node, const SourceText& source,
+                           const std::map<std::string, Rational>& values) {
+  try {
+    return evaluate(node, lookup_in(values));
+  } catch (const ConstantError& error) {
+    throw ModelError({error.diagnostic}, source);
+  }
+}
+
+}  // namespace hamgen
