@@ -123,7 +123,10 @@ struct Stages {
 
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read(source, request);
-  Mechanics mechanics = derive(model);
+  // Loops know one way to solve and one set of parameters for all degrees of freedom.
+  const bool keep_sums = (request.solver.empty() || request.solver == "newton") &&
+                         (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
+  Mechanics mechanics = derive(model, keep_sums);
   StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, request));
   SolvePlan plan = plan_solve(equations, request.solver);
   Program program = build_program(plan);

@@ -89,6 +89,13 @@ std::string to_text(const StepEquations& equations) {
                                  equations.scheme.description, equations.scheme.order,
                                  equations.scheme.symmetric ? ", symmetric" : "");
   const int n = equations.mechanics.degrees_of_freedom;
+  if (equations.mechanics.keeps_sums()) {
+    return text + fmt::format("for every degree of freedom i = 1..{}:\n"
+                              "  bar(q_i) = q_i + h*alpha*H(p_i) + h*gamma*H(q_i)\n"
+                              "  bar(p_i) = p_i - h*(1 - alpha)*H(q_i) - h*beta*H(p_i)\n"
+                              "  new q_i = q_i + h*H(p_i), new p_i = p_i - h*H(q_i)\n",
+                              n);
+  }
   for (int i = 0; i < 2 * n; ++i) {
     text += fmt::format("{} = {}\n", to_text(equations.stage(i)), to_text(equations.row(i)));
   }

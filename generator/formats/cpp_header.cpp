@@ -6,6 +6,7 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/code_writer.hpp"
+#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_expression.hpp"
 #include "generator/formats/cpp_support.hpp"
 #include "generator/program/names.hpp"
@@ -15,6 +16,8 @@ namespace hamgen {
 namespace {
 
 constexpr const char* kVersion = "0.1.0";
+constexpr const char* kArguments =
+    "[[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z";
 
 // Elements of one declared name: a scalar member or an array member of a struct.
 struct Group {
@@ -62,7 +65,12 @@ class HeaderWriter {
   HeaderWriter(const Program& program, const CppOptions& options)
       : program_(program), options_(options), scalar_(find_scalar(options.scalar)),
         equations_(program.plan.equations), mechanics_(equations_.mechanics) {
-    for (int i = 0; i < 2 * n(); ++i) variables_.push_back(mechanics_.variables[at(i)]);
+    // A large system's state is two arrays, whatever the model calls their parts.
+    for (int i = 0; i < 2 * n(); ++i) {
+      variables_.push_back(mechanics_.variables[at(i)]);
+      if (!arrays()) continue;
+      variables_.back() = {fmt::format("{}[{}]", i < n() ? "q" : "p", i % n()), "", "", 0};
+    }
     parameters_ = mechanics_.parameters;
     if (uses_energy_parameter()) {
       parameters_.push_back({"E0", "", "energy of the initial state: set it before use", 0});
@@ -105,6 +113,11 @@ class HeaderWriter {
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] int n() const { return mechanics_.degrees_of_freedom; }
+  [[nodiscard]] bool arrays() const { return program_.plan.arrays.has_value(); }
+  [[nodiscard]] bool array_newton() const {
+    return arrays() && program_.plan.arrays->method != ArrayMethod::explicit_a &&
+           program_.plan.arrays->method != ArrayMethod::explicit_b;
+  }
   [[nodiscard]] bool quad() const { return scalar_.digits == 113; }
 
   [[nodiscard]] bool uses_energy_parameter() const {
@@ -184,6 +197,7 @@ class HeaderWriter {
       accumulate(straight, cost(stage.after));
       if (stage.solve) accumulate(iteration, cost(stage.solve->body));
     }
+    if (arrays()) return;
     if (iteration == Cost{}) {
       out.line("//   cost      per step: " + to_text(straight));
     } else {
@@ -198,7 +212,12 @@ class HeaderWriter {
     } else if (!functions_.empty()) {
       out.line("#include <cmath>");
     }
-    if (eigen_) {
+    if (array_newton()) {
+      out.line("#include <algorithm>");
+      out.line("#include <vector>");
+      out.line();
+      out.line("#include <Eigen/SparseLU>");
+    } else if (eigen_) {
       out.line();
       out.line("#include <Eigen/LU>");
     }
@@ -207,12 +226,35 @@ class HeaderWriter {
   void write_body(CodeWriter& out) {
     CodeWriter inner;
     write_types(inner);
+    if (arrays()) {
+      inner.lines(cpp_compensated_sum() + "\n");
+      if (array_newton()) {
+        const bool reduced = program_.plan.arrays->method == ArrayMethod::reduced_newton;
+        inner.lines(cpp_newton_rule(scalar_) + "\n");
+        inner.lines(cpp_history(reduced ? n() : 2 * n()) + "\n");
+      }
+      write_array_program(inner, program_, scalar_, parameter_text_, functions_);
+      write_invariants(inner);
+      open_namespace(out);
+      out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", n()));
+      out.line();
+      out.lines(inner.text());
+      out.line(fmt::format("}}  // namespace {}", options_.name_space));
+      return;
+    }
     write_functions(inner);
     if (coefficients_) write_prepare(inner);
     write_support(inner);
     write_solve(inner);
     write_step(inner);
     write_propagator(inner);
+    open_namespace(out);
+    out.line();
+    out.lines(inner.text());
+    out.line(fmt::format("}}  // namespace {}", options_.name_space));
+  }
+
+  void open_namespace(CodeWriter& out) {
     out.line(fmt::format("namespace {} {{", options_.name_space));
     out.line();
     out.line(quad() ? "__extension__ typedef __float128 Real;"
@@ -222,9 +264,6 @@ class HeaderWriter {
       const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
       out.line(fmt::format("inline constexpr Real pi = {};", literal(pi, scalar_)));
     }
-    out.line();
-    out.lines(inner.text());
-    out.line(fmt::format("}}  // namespace {}", options_.name_space));
   }
 
   void write_struct(CodeWriter& out, const std::string& name, const std::vector<Group>& groups,
@@ -314,12 +353,25 @@ class HeaderWriter {
 
   void write_functions(CodeWriter& out) {
     out.line("// H(q, p).");
-    const std::string arguments = "[[maybe_unused]] const Parameters& par, "
-                                  "[[maybe_unused]] const State& z";
-    write_evaluation(out, "inline Real energy(" + arguments + ")", program_.energy,
+    write_evaluation(out, "inline Real energy(" + std::string(kArguments) + ")", program_.energy,
                      [&](CodeWriter& w, CppExpression& cpp) {
                        w.line("return " + cpp(program_.energy.results[0]) + ";");
                      });
+    write_invariants(out);
+    if (options_.gradient) {
+      out.line("// grad H, the derivatives by q first.");
+      write_evaluation(out,
+                       fmt::format("inline void gradient({}, Real (&values)[{}])", kArguments, 2 * n()),
+                       program_.gradient, [&](CodeWriter& w, CppExpression& cpp) {
+                         for (std::size_t i = 0; i < program_.gradient.results.size(); ++i) {
+                           w.line(fmt::format("values[{}] = {};", i,
+                                              cpp(program_.gradient.results[i])));
+                         }
+                       });
+    }
+  }
+
+  void write_invariants(CodeWriter& out) {
     if (!mechanics_.invariants.empty()) {
       std::string list;
       for (const NamedExpression& i : mechanics_.invariants) {
@@ -328,24 +380,13 @@ class HeaderWriter {
       out.line("// The model's invariants: " + list + ".");
       write_evaluation(
           out,
-          fmt::format("inline void invariants({}, Real (&values)[{}])", arguments,
+          fmt::format("inline void invariants({}, Real (&values)[{}])", kArguments,
                       mechanics_.invariants.size()),
           program_.invariants, [&](CodeWriter& w, CppExpression& cpp) {
             for (std::size_t i = 0; i < program_.invariants.results.size(); ++i) {
               w.line(fmt::format("values[{}] = {};", i, cpp(program_.invariants.results[i])));
             }
           });
-    }
-    if (options_.gradient) {
-      out.line("// grad H, the derivatives by q first.");
-      write_evaluation(out,
-                       fmt::format("inline void gradient({}, Real (&values)[{}])", arguments, 2 * n()),
-                       program_.gradient, [&](CodeWriter& w, CppExpression& cpp) {
-                         for (std::size_t i = 0; i < program_.gradient.results.size(); ++i) {
-                           w.line(fmt::format("values[{}] = {};", i,
-                                              cpp(program_.gradient.results[i])));
-                         }
-                       });
     }
   }
 
@@ -781,6 +822,14 @@ class HeaderWriter {
   // Copies an array of doubles into a struct's fields.
   void write_fill(CodeWriter& out, const std::string& target, const std::vector<std::string>& names,
                   const std::string& values) {
+    if (arrays() && target == "result" && values == "state") {
+      const std::string low = scalar_.digits <= 53 ? "" : " + (state_lo ? Real(state_lo[{0}]) : Real(0))";
+      out.open("for (int i = 0; i < n; ++i)");
+      out.line("result.q[i] = static_cast<Real>(state[i])" + fmt::format(fmt::runtime(low), "i") + ";");
+      out.line("result.p[i] = static_cast<Real>(state[n + i])" + fmt::format(fmt::runtime(low), "n + i") + ";");
+      out.close();
+      return;
+    }
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (scalar_.digits <= 53) {
         out.line(fmt::format("{}.{} = static_cast<Real>({}[{}]);", target, names[i], values, i));
@@ -856,7 +905,14 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     out.line();
     out.open("void get_state(const hamgen_run* run, double* state, double* state_lo)");
     out.line("const State& z = run->propagator.state();");
-    for (int i = 0; i < 2 * n(); ++i) {
+    if (arrays()) {
+      out.open("for (int i = 0; i < 2 * n; ++i)");
+      out.line("const Real value = i < n ? z.q[i] : z.p[i - n];");
+      out.line("state[i] = static_cast<double>(value);");
+      out.line("if (state_lo) state_lo[i] = static_cast<double>(value - static_cast<Real>(state[i]));");
+      out.close();
+    }
+    for (int i = 0; i < (arrays() ? 0 : 2 * n()); ++i) {
       out.line(fmt::format("state[{}] = static_cast<double>(z.{});", i, state_fields_[at(i)]));
       out.line(fmt::format("if (state_lo) state_lo[{0}] = static_cast<double>(z.{1} - "
                            "static_cast<Real>(state[{0}]));",
@@ -876,7 +932,9 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
                            name));
       if (count != 0) {
         out.line(fmt::format("Real result[{}];", count));
-        out.line(function + "(read_parameters(parameters, nullptr), read_state(state, nullptr), result);");
+        const bool flat = arrays() && function == "gradient";
+        out.line(fmt::format("{}(read_parameters(parameters, nullptr), read_state(state, nullptr){}, result);",
+                             function, flat ? ".q" : ""));
         out.line(fmt::format("for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);",
                              count));
       }
@@ -884,7 +942,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
       out.line();
     };
     vector_function("invariants_of", "invariants", mechanics_.invariants.size());
-    vector_function("gradient_of", "gradient", mechanics_.gradient.size());
+    vector_function("gradient_of", "gradient", static_cast<std::size_t>(2 * n()));
     out.line(fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
                          "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
                          "gradient_of}};",
@@ -927,6 +985,10 @@ std::string cpp_plugin(const Program& program, const CppOptions& options) {
 }
 
 bool needs_eigen(const Program& program) {
+  if (program.plan.arrays) {
+    const ArrayMethod method = program.plan.arrays->method;
+    return method == ArrayMethod::reduced_newton || method == ArrayMethod::full_newton;
+  }
   return std::ranges::any_of(program.stages, [](const Stage& stage) {
     return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
   });

@@ -52,7 +52,7 @@ std::vector<Quantity> run_time_parameters(const Model& model) {
 
 }  // namespace
 
-Mechanics derive(const Model& model) {
+Mechanics derive(const Model& model, bool keep_sums) {
   SymbolTable table;
   TreeConverter converter(model, table);
   Mechanics mechanics;
@@ -73,6 +73,16 @@ Mechanics derive(const Model& model) {
   }
   for (const Quantity& variable : mechanics.variables) symbols.push_back(&table.find(variable.name));
 
+  if (keep_sums && mechanics.degrees_of_freedom > kMostWrittenOut) {
+    if (auto kernels = derive_kernels(model)) {
+      mechanics.kernels = std::move(*kernels);
+      for (const Invariant& invariant : model.invariants) {
+        mechanics.invariants.push_back(
+            {invariant.name, from_ginac(converter.convert(invariant.value), table)});
+      }
+      return mechanics;
+    }
+  }
   GiNaC::ex energy = converter.convert(model.hamiltonian);
   // Extended phase space: H(q, p, t) + p_t makes t advance as t' = 1 and keeps the step symplectic.
   for (const Variable& momentum : model.momenta) {

@@ -7,7 +7,10 @@
 namespace hamgen {
 
 // Throws ModelError where the mathematics is undefined or not real, with the place in the source.
-[[nodiscard]] Mechanics derive(const Model& model);
+// With keep_sums, the sums of a system with more than kMostWrittenOut degrees of freedom stay loops if
+// their form allows it.
+inline constexpr int kMostWrittenOut = 24;
+[[nodiscard]] Mechanics derive(const Model& model, bool keep_sums = true);
 
 // A free-standing expression over h, E0 and the model's parameters (folded ones by value).
 [[nodiscard]] Expression scheme_parameter(const Model& model, const std::string& option,

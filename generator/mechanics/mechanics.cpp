@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hamgen {
 
 Expression Mechanics::second_derivative(int i, int j) const {
@@ -10,6 +12,9 @@ Expression Mechanics::second_derivative(int i, int j) const {
 }
 
 bool Mechanics::is_separable() const {
+  for (const Kernel& kernel : kernels) {
+    if (uses_coordinates(kernel) && uses_momenta(kernel)) return false;
+  }
   for (const auto& [place, value] : hessian) {
     if (place.first < degrees_of_freedom && place.second >= degrees_of_freedom) return false;
   }
@@ -20,11 +25,49 @@ Expression Mechanics::variable(int i) const {
   return Expression::symbol(variables[static_cast<std::size_t>(i)].name, kRankOfVariable + i);
 }
 
+namespace {
+
+std::string affine_text(const AffineIndex& a) {
+  std::string text;
+  for (const auto& [index, factor] : a.factors) {
+    const std::string term = factor == 1 ? index : fmt::format("{}*{}", factor, index);
+    text += (text.empty() || factor < 0 ? "" : " + ") + term;
+  }
+  if (text.empty() || a.constant != 0) {
+    text += (text.empty() ? "" : " + ") + std::to_string(a.constant);
+  }
+  return text;
+}
+
+std::string kernels_text(const Mechanics& mechanics) {
+  std::string text = "H is a sum of loops:\n";
+  for (const Kernel& kernel : mechanics.kernels) {
+    text += "  ";
+    for (const KernelRange& range : kernel.ranges) {
+      text += fmt::format("sum {} = {}..{}: ", range.index, affine_text(range.lower),
+                          affine_text(range.upper));
+    }
+    text += to_text(kernel.value) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+bool uses_coordinates(const Kernel& kernel) {
+  return std::ranges::any_of(kernel.slots, [](const Slot& s) { return !s.is_momentum; });
+}
+
+bool uses_momenta(const Kernel& kernel) {
+  return std::ranges::any_of(kernel.slots, &Slot::is_momentum);
+}
+
 std::string to_text(const Mechanics& mechanics) {
   const int n = mechanics.degrees_of_freedom;
   std::string text = fmt::format("system {}, {} degree{} of freedom, {}\n", mechanics.name, n,
                                  n == 1 ? "" : "s",
                                  mechanics.is_separable() ? "separable" : "not separable");
+  if (mechanics.keeps_sums()) return text + kernels_text(mechanics);
   text += "H = " + to_text(mechanics.energy) + "\n";
   for (int i = 0; i < 2 * n; ++i) {
     const auto k = static_cast<std::size_t>(i);

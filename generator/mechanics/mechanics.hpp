@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
+#include "generator/mechanics/kernel.hpp"
 
 namespace hamgen {
 
@@ -32,6 +33,9 @@ struct Mechanics {
   int degrees_of_freedom = 0;          // n
   std::vector<Quantity> variables;     // 2n: q1..qn, p1..pn
   std::vector<Quantity> parameters;    // run-time parameters, in declaration order
+  // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
+  // written-out expressions below are empty.
+  std::vector<Kernel> kernels;
   Expression energy;                   // H(z), sums written out
   std::vector<Expression> gradient;    // 2n
   std::map<std::pair<int, int>, Expression> hessian;  // nonzero entries, i <= j
@@ -39,6 +43,7 @@ struct Mechanics {
 
   // d^2 H / dz_i dz_j, zero where absent.
   [[nodiscard]] Expression second_derivative(int i, int j) const;
+  [[nodiscard]] bool keeps_sums() const { return !kernels.empty(); }
   // No mixed derivative in q and p.
   [[nodiscard]] bool is_separable() const;
   // The symbol of z_i.

@@ -81,6 +81,10 @@ GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
                                       const Indices& indices) {
   if (name.name == "pi" && !name.subscript) return GiNaC::Pi;
   if (const auto it = indices.find(name.name); it != indices.end()) return it->second;
+  if (symbolic_indices_.contains(name.name)) return table_.symbol(name.name, kRankOfParameter);
+  if (name.subscript && element_) {
+    if (const auto value = element_(name)) return *value;
+  }
   if (const auto it = variables_.find(name.name); it != variables_.end()) {
     const auto& [variable, rank] = it->second;
     if (!variable->range) return table_.symbol(name.name, rank);

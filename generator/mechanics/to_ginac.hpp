@@ -3,7 +3,10 @@
 
 #include <ginac/ginac.h>
 
+#include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 
 #include "generator/algebra/from_ginac.hpp"
@@ -17,8 +20,16 @@ class TreeConverter {
   // Throws ModelError with the place of what is undefined: 1/(q - q), log(-1).
   [[nodiscard]] GiNaC::ex convert(const NodePtr& node);
 
- private:
   using Indices = std::map<std::string, long>;
+  [[nodiscard]] GiNaC::ex convert_at(const NodePtr& node, const Indices& indices) {
+    return convert(node, indices);
+  }
+  // For loops that stay loops: what a subscripted name stands for, and indices that stay symbols.
+  using Element = std::function<std::optional<GiNaC::ex>(const NameNode&)>;
+  void set_element(Element element) { element_ = std::move(element); }
+  void set_symbolic_index(const std::string& index) { symbolic_indices_.insert(index); }
+
+ private:
   [[nodiscard]] GiNaC::ex convert(const NodePtr& node, const Indices& indices);
   [[nodiscard]] GiNaC::ex convert_name(const NameNode& name, const Span& span,
                                        const Indices& indices);
@@ -34,6 +45,8 @@ class TreeConverter {
   std::map<std::string, std::pair<const Variable*, int>> variables_;   // first rank
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;
   std::map<std::string, Rational> folded_;
+  Element element_;
+  std::set<std::string> symbolic_indices_;
 };
 
 // "q[3]" for an element of an array, "q" for a scalar.

@@ -482,10 +482,13 @@ Evaluation build_evaluation(const Mechanics& mechanics, const std::vector<Expres
 }  // namespace
 
 Program build_program(const SolvePlan& plan) {
-  Program program = Builder(plan).build();
   const Mechanics& mechanics = plan.equations.mechanics;
-  program.energy = build_evaluation(mechanics, {mechanics.energy});
-  program.gradient = build_evaluation(mechanics, mechanics.gradient);
+  Program program{.plan = plan};
+  if (!plan.arrays) {
+    program = Builder(plan).build();
+    program.energy = build_evaluation(mechanics, {mechanics.energy});
+    program.gradient = build_evaluation(mechanics, mechanics.gradient);
+  }
   std::vector<Expression> invariants;
   for (const NamedExpression& invariant : mechanics.invariants) invariants.push_back(invariant.value);
   program.invariants = build_evaluation(mechanics, invariants);

@@ -232,6 +232,7 @@ LinearSolver linear_solver(const Block& block) {
 }
 
 SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {
+  if (equations.mechanics.keeps_sums()) return plan_arrays(equations);
   SolvePlan plan{.equations = equations};
   const std::vector<int> needed = needed_stages(equations);
   if (solver.starts_with("sweeps:")) {
@@ -251,7 +252,9 @@ SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) 
 
 std::string to_text(const SolvePlan& plan) {
   std::string text = "solver: " + plan.solver + "\n";
-  if (plan.sweeps) {
+  if (plan.arrays) {
+    text += "sums stay loops\n";
+  } else if (plan.sweeps) {
     text += "predict Z by explicit Euler; sweep all stage values together\n";
   } else {
     for (const Block& block : plan.blocks) text += describe(plan.equations, block) + "\n";

@@ -29,10 +29,24 @@ struct Block {
 // How the linear systems are solved.
 enum class LinearSolver { written_out, elimination, eigen_dense };
 
+// The step of a system whose sums stay loops; alpha, beta, gamma are the same for all degrees of
+// freedom.
+enum class ArrayMethod {
+  explicit_a,      // alpha = 0: q, then P, then Q
+  explicit_b,      // alpha = 1
+  reduced_newton,  // kinetic energy sum m_i p_i^2/2 + linear: momenta torn out, sparse system of size n
+  full_newton      // sparse system of size 2n
+};
+struct ArrayPlan {
+  ArrayMethod method = ArrayMethod::full_newton;
+  bool constant_matrix = false;  // factorised once per run
+};
+
 struct SolvePlan {
   StepEquations equations;
   std::vector<Block> blocks = {};
   std::optional<int> sweeps = {};  // the paper's Algorithm 1 with this many corrector sweeps
+  std::optional<ArrayPlan> arrays = {};  // set if the sums stay loops; then there are no blocks
   std::string solver = {};         // one line for people: "Newton of size 1; p torn out"
   std::vector<std::string> left_out = {};
   [[nodiscard]] bool is_explicit() const;
@@ -40,6 +54,7 @@ struct SolvePlan {
 
 // solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
 [[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
+[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 

@@ -1,0 +1,364 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "generator/language/scene.hpp"
+#include "generator/mechanics/kernel.hpp"
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/mechanics/to_ginac.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// At most this many instances at the boundaries of a sum are written out one by one.
+constexpr std::size_t kMostPeeled = 64;
+
+using Indices = std::map<std::string, long>;
+
+bool contains_sum(const NodePtr& node);
+
+template <class Visit>
+void for_children(const NodePtr& node, Visit visit) {
+  if (const auto* n = std::get_if<NameNode>(&node->value)) {
+    if (n->subscript) visit(n->subscript);
+  } else if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
+    visit(negate->operand);
+  } else if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
+    visit(binary->left);
+    visit(binary->right);
+  } else if (const auto* call = std::get_if<CallNode>(&node->value)) {
+    for (const NodePtr& argument : call->arguments) visit(argument);
+  } else if (const auto* sum = std::get_if<SumNode>(&node->value)) {
+    visit(sum->body);
+  }
+}
+
+bool contains_sum(const NodePtr& node) {
+  if (std::holds_alternative<SumNode>(node->value)) return true;
+  bool found = false;
+  for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
+  return found;
+}
+
+// A term of H: ranges, a body without sums, and constant factors (divided by, if so marked).
+struct Term {
+  std::vector<SumRange> ranges;
+  NodePtr body;
+  std::vector<std::pair<NodePtr, bool>> factors;
+  bool negative = false;
+};
+
+class KernelBuilder {
+ public:
+  explicit KernelBuilder(const Model& model) : model_(model) {
+    long position = 0;
+    for (const auto* group : {&model.coordinates, &model.momenta}) {
+      for (const Variable& variable : *group) {
+        variables_[variable.name] = {&variable, position};
+        position += variable.range ? variable.range->size() : 1;
+      }
+    }
+    for (const Size& size : model.sizes) sizes_[size.name] = size.value;
+  }
+
+  std::optional<std::vector<Kernel>> build() {
+    if (!split(model_.hamiltonian, {})) return std::nullopt;
+    for (const Variable& momentum : model_.momenta) {
+      if (momentum.is_time) return std::nullopt;
+    }
+    for (const Term& term : terms_) {
+      if (!add(term)) return std::nullopt;
+    }
+    return std::move(kernels_);
+  }
+
+ private:
+  // Splits H at plus and minus and at sums.  False if a sum stands where it cannot be split.
+  bool split(const NodePtr& node, Term term) {
+    if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
+      term.negative = !term.negative;
+      return split(negate->operand, term);
+    }
+    if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
+      const bool difference = binary->operation == BinaryOperator::subtract;
+      if (difference || binary->operation == BinaryOperator::add) {
+        Term right = term;
+        if (difference) right.negative = !right.negative;
+        return split(binary->left, term) && split(binary->right, right);
+      }
+      if (contains_sum(node)) {
+        const bool left_sum = contains_sum(binary->left);
+        if (left_sum && contains_sum(binary->right)) return false;
+        if (binary->operation == BinaryOperator::multiply) {
+          term.factors.emplace_back(left_sum ? binary->right : binary->left, false);
+          return split(left_sum ? binary->left : binary->right, term);
+        }
+        if (binary->operation == BinaryOperator::divide && left_sum) {
+          term.factors.emplace_back(binary->right, true);
+          return split(binary->left, term);
+        }
+        return false;
+      }
+    }
+    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
+      for (const Definition& definition : model_.definitions) {
+        if (definition.name == name->name) return split(definition.value, term);
+      }
+    }
+    if (const auto* sum = std::get_if<SumNode>(&node->value)) {
+      term.ranges.insert(term.ranges.end(), sum->ranges.begin(), sum->ranges.end());
+      return split(sum->body, term);
+    }
+    if (contains_sum(node)) return false;
+    term.body = node;
+    terms_.push_back(term);
+    return true;
+  }
+
+  [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const {
+    std::map<std::string, Rational> values;
+    for (const auto& [name, value] : sizes_) values[name] = value;
+    for (const auto& [name, value] : indices) values[name] = value;
+    return evaluate_constant(node, model_.source, values).get_num().get_si();
+  }
+
+  // The node as an affine function of the indices; empty if it is not.
+  [[nodiscard]] std::optional<AffineIndex> affine(const NodePtr& node,
+                                                  const std::vector<std::string>& indices) const {
+    Indices at;
+    for (const std::string& index : indices) at[index] = 0;
+    AffineIndex result{.constant = integer(node, at)};
+    long check = result.constant;
+    for (const std::string& index : indices) {
+      at[index] = 1;
+      const long factor = integer(node, at) - result.constant;
+      at[index] = 0;
+      if (factor != 0) result.factors[index] = factor;
+      check += 7 * factor;
+    }
+    for (const std::string& index : indices) at[index] = 7;
+    if (integer(node, at) != check) return std::nullopt;
+    return result;
+  }
+
+  static long value_at(const AffineIndex& a, const Indices& indices) {
+    long value = a.constant;
+    for (const auto& [index, factor] : a.factors) value += factor * indices.at(index);
+    return value;
+  }
+
+  // Subscripted names of the term, with their subscripts as affine functions.
+  struct Reference {
+    const NameNode* name;
+    AffineIndex subscript;
+    const Variable* variable;    // null for a parameter
+    const Parameter* parameter;
+  };
+
+  bool collect(const NodePtr& node, const std::vector<std::string>& indices,
+               std::vector<Reference>& references, std::set<std::string>& lets) const {
+    if (const auto* name = std::get_if<NameNode>(&node->value)) {
+      if (!name->subscript) {
+        for (const Definition& definition : model_.definitions) {
+          if (definition.name == name->name && lets.insert(name->name).second &&
+              !collect(definition.value, indices, references, lets)) {
+            return false;
+          }
+        }
+        return true;
+      }
+      const auto subscript = affine(name->subscript, indices);
+      if (!subscript) return false;
+      const auto it = variables_.find(name->name);
+      const Variable* variable = it == variables_.end() ? nullptr : it->second.first;
+      const auto parameter = std::ranges::find(model_.parameters, name->name, &Parameter::name);
+      if (!variable && parameter != model_.parameters.end() && parameter->folded) return false;
+      references.push_back({name, *subscript, variable,
+                            variable || parameter == model_.parameters.end() ? nullptr : &*parameter});
+      return true;
+    }
+    bool fine = true;
+    for_children(node, [&](const NodePtr& child) {
+      fine = fine && collect(child, indices, references, lets);
+    });
+    return fine;
+  }
+
+  [[nodiscard]] bool is_regular(const std::vector<Reference>& references,
+                                const Indices& indices) const {
+    return std::ranges::all_of(references, [&](const Reference& r) {
+      const auto& range = r.variable ? r.variable->range : r.parameter->range;
+      const long i = value_at(r.subscript, indices);
+      return range && i >= range->first && i <= range->last;
+    });
+  }
+
+  bool add(const Term& term) {
+    std::vector<std::string> indices;
+    std::vector<KernelRange> ranges;
+    for (const SumRange& range : term.ranges) {
+      const auto lower = affine(range.lower, indices);
+      const auto upper = affine(range.upper, indices);
+      if (!lower || !upper) return false;
+      ranges.push_back({range.index, *lower, *upper});
+      indices.push_back(range.index);
+    }
+    std::vector<Reference> references;
+    std::set<std::string> lets;
+    if (!collect(term.body, indices, references, lets)) return false;
+    if (ranges.empty()) {
+      instance(term, {});
+      return true;
+    }
+    if (ranges.size() == 1) return add_single(term, ranges[0], references);
+    // Several indices: boundaries are not peeled, every instance must be regular.
+    if (!all_regular(ranges, 0, {}, references)) return false;
+    regular(term, ranges, references);
+    return true;
+  }
+
+  bool all_regular(const std::vector<KernelRange>& ranges, std::size_t depth, Indices indices,
+                   const std::vector<Reference>& references) const {
+    if (depth == ranges.size()) return is_regular(references, indices);
+    const long last = value_at(ranges[depth].upper, indices);
+    for (long i = value_at(ranges[depth].lower, indices); i <= last; ++i) {
+      indices[ranges[depth].index] = i;
+      if (!all_regular(ranges, depth + 1, indices, references)) return false;
+    }
+    return true;
+  }
+
+  // The longest run of regular instances becomes a loop, the others are written out.
+  bool add_single(const Term& term, const KernelRange& range,
+                  const std::vector<Reference>& references) {
+    const long lower = value_at(range.lower, {});
+    const long upper = value_at(range.upper, {});
+    long first = lower;
+    long best_first = lower;
+    long best_size = 0;
+    for (long i = lower; i <= upper + 1; ++i) {
+      if (i <= upper && is_regular(references, {{range.index, i}})) continue;
+      if (i - first > best_size) {
+        best_first = first;
+        best_size = i - first;
+      }
+      first = i + 1;
+    }
+    if (static_cast<std::size_t>(upper - lower + 1 - best_size) > kMostPeeled) return false;
+    for (long i = lower; i <= upper; ++i) {
+      if (i < best_first || i >= best_first + best_size) instance(term, {{range.index, i}});
+    }
+    if (best_size > 0) {
+      KernelRange inner{range.index, {.constant = best_first, .factors = {}},
+                        {.constant = best_first + best_size - 1, .factors = {}}};
+      regular(term, {inner}, references);
+    }
+    return true;
+  }
+
+  GiNaC::ex body(const Term& term, TreeConverter& converter, const Indices& indices) {
+    GiNaC::ex value = converter.convert_at(term.body, indices);
+    for (const auto& [factor, divides] : term.factors) {
+      const GiNaC::ex f = converter.convert_at(factor, indices);
+      value = divides ? value / f : value * f;
+    }
+    return term.negative ? GiNaC::ex(-value) : value;
+  }
+
+  // One instance with concrete elements.
+  void instance(const Term& term, const Indices& indices) {
+    SymbolTable table;
+    TreeConverter converter(model_, table);
+    const GiNaC::ex value = body(term, converter, indices);
+    Kernel kernel{.value = from_ginac(value, table)};
+    std::set<std::string> names = symbols(kernel.value);
+    for (const auto& [name, entry] : variables_) {
+      const auto& [variable, position] = entry;
+      const std::vector<std::string> elements = element_names(std::vector{*variable});
+      for (std::size_t k = 0; k < elements.size(); ++k) {
+        if (!names.contains(elements[k])) continue;
+        kernel.slots.push_back({elements[k], {.constant = position + static_cast<long>(k), .factors = {}},
+                                position >= degrees_of_freedom(model_)});
+      }
+    }
+    finish(std::move(kernel), value, table);
+  }
+
+  // The loop over regular instances.
+  void regular(const Term& term, const std::vector<KernelRange>& ranges,
+               const std::vector<Reference>& references) {
+    SymbolTable table;
+    TreeConverter converter(model_, table);
+    Kernel kernel{.ranges = ranges};
+    int rank = kRankOfVariable;
+    std::map<std::pair<std::string, long>, std::string> seen;
+    converter.set_element([&](const NameNode& name) -> std::optional<GiNaC::ex> {
+      const auto it = std::ranges::find(references, &name, &Reference::name);
+      if (it == references.end()) return std::nullopt;
+      const std::string symbol = name.name + "[" + subscript_text(it->subscript) + "]";
+      const IndexRange& range = it->variable ? *it->variable->range : *it->parameter->range;
+      AffineIndex position = it->subscript;
+      position.constant -= range.first;
+      if (it->variable) position.constant += variables_.at(name.name).second;
+      const bool known = std::ranges::find(kernel.slots, symbol, &Slot::symbol) != kernel.slots.end() ||
+                         std::ranges::find(kernel.parameters, symbol, &ParameterSlot::symbol) !=
+                             kernel.parameters.end();
+      if (!known && it->variable) {
+        const bool momentum = variables_.at(name.name).second >= degrees_of_freedom(model_);
+        kernel.slots.push_back({symbol, position, momentum});
+      }
+      if (!known && !it->variable) kernel.parameters.push_back({symbol, name.name, position});
+      return table.symbol(symbol, it->variable ? ++rank : kRankOfParameter);
+    });
+    for (const KernelRange& range : ranges) converter.set_symbolic_index(range.index);
+    const GiNaC::ex value = body(term, converter, {});
+    kernel.value = from_ginac(value, table);
+    finish(std::move(kernel), value, table);
+  }
+
+  static std::string subscript_text(const AffineIndex& a) {
+    std::string text;
+    for (const auto& [index, factor] : a.factors) {
+      if (factor == 1) {
+        text += (text.empty() ? "" : "+") + index;
+      } else {
+        text += fmt::format("{}{}*{}", text.empty() || factor < 0 ? "" : "+", factor, index);
+      }
+    }
+    if (a.constant != 0 || text.empty()) {
+      text += fmt::format("{}{}", text.empty() || a.constant < 0 ? "" : "+", a.constant);
+    }
+    return text;
+  }
+
+  void finish(Kernel kernel, const GiNaC::ex& value, const SymbolTable& table) {
+    std::vector<GiNaC::ex> gradient;
+    for (const Slot& slot : kernel.slots) {
+      gradient.push_back(value.diff(table.find(slot.symbol)));
+      kernel.gradient.push_back(from_ginac(gradient.back(), table));
+    }
+    for (std::size_t i = 0; i < kernel.slots.size(); ++i) {
+      for (std::size_t j = i; j < kernel.slots.size(); ++j) {
+        const GiNaC::ex entry = gradient[i].diff(table.find(kernel.slots[j].symbol));
+        if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
+      }
+    }
+    kernels_.push_back(std::move(kernel));
+  }
+
+  const Model& model_;
+  std::map<std::string, std::pair<const Variable*, long>> variables_;
+  std::map<std::string, long> sizes_;
+  std::vector<Term> terms_;
+  std::vector<Kernel> kernels_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Kernel>> derive_kernels(const Model& model) {
+  return KernelBuilder(model).build();
+}
+
+}  // namespace hamgen

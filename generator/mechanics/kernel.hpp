@@ -1,0 +1,60 @@
+// Indexed sums kept as sums: what large systems are made of.
+//
+// H = sum over kernels, sum over their index ranges, of `value` in the kernel's slots.  A slot is one
+// element of the state whose position depends on the indices, such as q[i+1]; derivatives are taken
+// by slot and scattered.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/algebra/expression.hpp"
+#include "generator/language/model.hpp"
+
+namespace hamgen {
+
+// constant + sum of factor * index.
+struct AffineIndex {
+  long constant = 0;
+  std::map<std::string, long> factors;
+  bool operator==(const AffineIndex&) const = default;
+};
+
+struct KernelRange {
+  std::string index;
+  AffineIndex lower, upper;  // in the indices of the ranges before it
+};
+
+struct Slot {
+  std::string symbol;    // "q[i+1]" as a symbol of the kernel's expressions
+  AffineIndex position;  // in the state z: 0..2n-1
+  bool is_momentum = false;
+};
+
+// An element of an array parameter whose subscript depends on the indices.
+struct ParameterSlot {
+  std::string symbol;
+  std::string parameter;  // its declared name
+  AffineIndex position;   // from 0
+};
+
+struct Kernel {
+  std::vector<KernelRange> ranges;  // empty: a single instance
+  std::vector<Slot> slots;
+  std::vector<ParameterSlot> parameters;
+  Expression value;
+  std::vector<Expression> gradient;                             // by slot
+  std::map<std::pair<std::size_t, std::size_t>, Expression> hessian;  // slots i <= j, nonzero
+};
+
+// Which part of the state the kernel's slots lie in.
+[[nodiscard]] bool uses_coordinates(const Kernel& kernel);
+[[nodiscard]] bool uses_momenta(const Kernel& kernel);
+
+// H as kernels; empty if it is not a plain sum of indexed terms (a function of a sum, say).
+[[nodiscard]] std::optional<std::vector<Kernel>> derive_kernels(const Model& model);
+
+}  // namespace hamgen

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/solvers/solve_plan.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// Free of the state: parameters and numbers only.
+bool is_constant(const Kernel& kernel, const Expression& e) {
+  const std::set<std::string> used = symbols(e);
+  return std::ranges::none_of(kernel.slots,
+                              [&](const Slot& slot) { return used.contains(slot.symbol); });
+}
+
+bool has_constant_hessian(const Kernel& kernel) {
+  return std::ranges::all_of(
+      kernel.hessian, [&](const auto& entry) { return is_constant(kernel, entry.second); });
+}
+
+bool has_diagonal_hessian(const Kernel& kernel) {
+  return std::ranges::all_of(
+      kernel.hessian, [](const auto& entry) { return entry.first.first == entry.first.second; });
+}
+
+}  // namespace
+
+SolvePlan plan_arrays(const StepEquations& equations) {
+  SolvePlan plan{.equations = equations};
+  const Member& member = equations.scheme.member;
+  const std::vector<Kernel>& kernels = equations.mechanics.kernels;
+  const bool separable = equations.mechanics.is_separable();
+  const bool plain = member.beta[0].is_zero() && member.gamma[0].is_zero();
+  const int n = equations.mechanics.degrees_of_freedom;
+  ArrayPlan arrays;
+  auto kinetic_is_diagonal = [&] {
+    return std::ranges::all_of(kernels, [](const Kernel& k) {
+      return !uses_momenta(k) || (has_constant_hessian(k) && has_diagonal_hessian(k));
+    });
+  };
+  if (separable && plain && member.alpha[0].is_zero()) {
+    arrays.method = ArrayMethod::explicit_a;
+    plan.solver = "explicit, in loops";
+  } else if (separable && plain && member.alpha[0].is_one()) {
+    arrays.method = ArrayMethod::explicit_b;
+    plan.solver = "explicit, in loops";
+  } else {
+    const bool reduced = separable && kinetic_is_diagonal();
+    arrays.method = reduced ? ArrayMethod::reduced_newton : ArrayMethod::full_newton;
+    arrays.constant_matrix = std::ranges::all_of(kernels, has_constant_hessian);
+    plan.solver = fmt::format("{} of size {}{}, in loops{}",
+                              arrays.constant_matrix ? "sparse linear solve" : "sparse Newton",
+                              reduced ? n : 2 * n, reduced ? "; momenta torn out" : "",
+                              arrays.constant_matrix ? ", factorised once" : "");
+  }
+  plan.arrays = arrays;
+  if (member.beta[0].is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
+  if (member.gamma[0].is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
+  plan.left_out.push_back(fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
+  if (arrays.method == ArrayMethod::reduced_newton) {
+    plan.left_out.push_back(fmt::format("{} of the unknowns: torn out", n));
+  }
+  if (arrays.method == ArrayMethod::explicit_a || arrays.method == ArrayMethod::explicit_b) {
+    plan.left_out.emplace_back("equation solver: the step is explicit");
+  }
+  return plan;
+}
+
+}  // namespace hamgen
