@@ -1,6 +1,7 @@
 #include "generator/mechanics/derive.hpp"
 
 #include "generator/language/scene.hpp"
+#include "generator/mechanics/derive_kernels.hpp"
 #include "generator/mechanics/to_ginac.hpp"
 
 namespace hamgen {

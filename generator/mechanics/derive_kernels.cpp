@@ -1,10 +1,11 @@
+#include "generator/mechanics/derive_kernels.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
 #include "generator/language/scene.hpp"
-#include "generator/mechanics/kernel.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/mechanics/to_ginac.hpp"
 

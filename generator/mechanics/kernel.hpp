@@ -6,13 +6,11 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
-#include "generator/language/model.hpp"
 
 namespace hamgen {
 
@@ -53,8 +51,5 @@ struct Kernel {
 // Which part of the state the kernel's slots lie in.
 [[nodiscard]] bool uses_coordinates(const Kernel& kernel);
 [[nodiscard]] bool uses_momenta(const Kernel& kernel);
-
-// H as kernels; empty if it is not a plain sum of indexed terms (a function of a sum, say).
-[[nodiscard]] std::optional<std::vector<Kernel>> derive_kernels(const Model& model);
 
 }  // namespace hamgen
