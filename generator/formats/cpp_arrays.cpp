@@ -31,11 +31,11 @@ std::string affine(const AffineIndex& a) {
 
 class ArrayWriter {
  public:
-  ArrayWriter(CodeWriter& out, const Program& program, const ScalarType& scalar,
+  ArrayWriter(CodeWriter& out, const Program& program, const ScalarType& scalar, bool builtins,
               const std::map<std::string, std::string>& parameter_text,
               std::set<std::string>& functions)
       : out_(out), program_(program), mechanics_(program.plan.equations.mechanics),
-        scalar_(scalar), parameter_text_(parameter_text), functions_(functions),
+        scalar_(scalar), builtins_(builtins), parameter_text_(parameter_text), functions_(functions),
         method_(program.plan.arrays->method), constant_(program.plan.arrays->constant_matrix) {}
 
   void write() {
@@ -46,7 +46,11 @@ class ArrayWriter {
     }
     write_full_gradient();
     if (is_newton()) {
-      write_sparse_matrix();
+      if (program_.plan.arrays->bandwidth) {
+        write_band_matrix(*program_.plan.arrays->bandwidth);
+      } else {
+        write_sparse_matrix();
+      }
       write_hessian(method_ == ArrayMethod::reduced_newton ? Part::potential : Part::all, "hessian");
       if (method_ == ArrayMethod::reduced_newton) write_hessian(Part::kinetic, "masses");
     }
@@ -84,7 +88,7 @@ class ArrayWriter {
       }
       if (symbol == "pi") return literal(*parse_decimal("3.14159265358979323846264338327950288"), scalar_);
       return names.local(symbol);
-    });
+    }, builtins_);
     Lowering lowering({Section{}});
     std::set<std::string> used;
     for (const Expression& value : values) collect_symbols(value, used);
@@ -221,6 +225,77 @@ class ArrayWriter {
     out_.line();
   }
 
+  void write_band_matrix(int width) {
+    out_.line(fmt::format("// A matrix whose entries lie within {} of the diagonal: elimination with partial",
+                          width));
+    out_.line("// pivoting, which fills as many diagonals again above it.  Row i holds columns i - width on.");
+    out_.open("class BandMatrix");
+    out_.dedent();
+    out_.lines(fmt::format(R"( public:
+  void clear() {{
+    for (Real (&row)[columns] : entry_) {{
+      for (Real& value : row) value = 0;
+    }}
+  }}
+  void put(int row, int column, Real value) {{ entry_[row][column - row + width] += value; }}
+  // False if the matrix is singular or not finite.
+  bool factorise() {{
+    for (int c = 0; c < n; ++c) {{
+      const int last_row = c + width < n ? c + width : n - 1;
+      const int last_column = c + 2 * width < n ? c + 2 * width : n - 1;
+      int pivot = c;
+      for (int r = c + 1; r <= last_row; ++r) {{
+        if (magnitude(at(r, c)) > magnitude(at(pivot, c))) pivot = r;
+      }}
+      if (!(magnitude(at(pivot, c)) > 0)) return false;
+      pivot_[c] = pivot;
+      if (pivot != c) {{
+        for (int j = c; j <= last_column; ++j) {{
+          const Real kept = at(c, j);
+          at(c, j) = at(pivot, j);
+          at(pivot, j) = kept;
+        }}
+      }}
+      const Real reciprocal = 1 / at(c, c);
+      for (int r = c + 1; r <= last_row; ++r) {{
+        const Real factor = at(r, c) * reciprocal;
+        factor_[c][r - c - 1] = factor;
+        for (int j = c + 1; j <= last_column; ++j) at(r, j) -= factor * at(c, j);
+      }}
+    }}
+    return true;
+  }}
+  void solve(Real (&vector)[n]) const {{
+    for (int c = 0; c < n; ++c) {{
+      const Real kept = vector[c];
+      vector[c] = vector[pivot_[c]];
+      if (pivot_[c] != c) vector[pivot_[c]] = kept;
+      const int last_row = c + width < n ? c + width : n - 1;
+      for (int r = c + 1; r <= last_row; ++r) vector[r] -= factor_[c][r - c - 1] * vector[c];
+    }}
+    for (int r = n - 1; r >= 0; --r) {{
+      const int last_column = r + 2 * width < n ? r + 2 * width : n - 1;
+      for (int j = r + 1; j <= last_column; ++j) vector[r] -= at(r, j) * vector[j];
+      vector[r] /= at(r, r);
+    }}
+  }}
+
+ private:
+  static constexpr int width = {width};
+  static constexpr int columns = 3 * width + 1;
+  static Real magnitude(Real x) {{ return x < 0 ? -x : x; }}
+  Real& at(int row, int column) {{ return entry_[row][column - row + width]; }}
+  const Real& at(int row, int column) const {{ return entry_[row][column - row + width]; }}
+  Real entry_[n][columns] = {{}};
+  Real factor_[n][width > 0 ? width : 1] = {{}};
+  int pivot_[n] = {{}};
+)",
+                           fmt::arg("width", width)));
+    out_.indent();
+    out_.close(";");
+    out_.line();
+  }
+
   void write_sparse_matrix() {
     out_.lines(R"(// A sparse matrix that is filled again and again by the same sequence of entries.  The first filling
 // finds the pattern, later ones only add values in place.
@@ -276,6 +351,7 @@ class SparseMatrix {
   const Program& program_;
   const Mechanics& mechanics_;
   const ScalarType& scalar_;
+  bool builtins_;
   const std::map<std::string, std::string>& parameter_text_;
   std::set<std::string>& functions_;
   ArrayMethod method_;
@@ -408,10 +484,10 @@ std::string full_solve(bool constant) {
 }  // namespace
 
 void write_array_program(CodeWriter& out, const Program& program, const ScalarType& scalar,
-                         const std::map<std::string, std::string>& parameter_text,
+                         bool builtins, const std::map<std::string, std::string>& parameter_text,
                          std::set<std::string>& functions) {
   CodeWriter mathematics;
-  ArrayWriter writer(mathematics, program, scalar, parameter_text, functions);
+  ArrayWriter writer(mathematics, program, scalar, builtins, parameter_text, functions);
   writer.write();
   out.lines(mathematics.text());
   const ArrayPlan& plan = *program.plan.arrays;
@@ -421,16 +497,17 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
     if (symbol == "h") return "h";
     const auto it = parameter_text.find(symbol);
     return it != parameter_text.end() ? it->second : symbol;
-  });
+  }, builtins);
   out.line("// Many steps: start values are extrapolated, rounding errors of the updates carried along.");
   out.line("class Propagator {");
   out.line(" public:");
   out.indent();
   if (writer.is_newton()) {
     out.line("Propagator([[maybe_unused]] const Parameters& par, Real h, const State& z)");
-    out.line(fmt::format("    : par_(par), h_(h), z_(z), alpha_({}), beta_({}), gamma_({}),",
-                         cpp(member.alpha[0]), cpp(member.beta[0]), cpp(member.gamma[0])));
-    out.line(fmt::format("      matrix_({0}), residual_({0}) {{", reduced ? "n" : "2 * n"));
+    const std::string size = reduced ? "n" : "2 * n";
+    out.line(fmt::format("    : par_(par), h_(h), z_(z), alpha_({}), beta_({}), gamma_({}){} {{",
+                         cpp(member.alpha[0]), cpp(member.beta[0]), cpp(member.gamma[0]),
+                         plan.bandwidth ? "" : ", matrix_(" + size + "), residual_(" + size + ")"));
     out.indent();
     if (reduced) {
       out.line("clear(bar_);");
@@ -543,8 +620,9 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
     out.line("static constexpr int unknowns = History::unknowns;");
     out.line("Real alpha_, beta_, gamma_;");
     if (reduced) out.line("Real mass_[n] = {}, drift_[n] = {}, scale_[n] = {};");
-    out.line("SparseMatrix matrix_;");
-    out.line("Eigen::Matrix<Real, Eigen::Dynamic, 1> residual_;");
+    out.line(plan.bandwidth ? "BandMatrix matrix_;" : "SparseMatrix matrix_;");
+    out.line(plan.bandwidth ? "Real residual_[n] = {};"
+                            : "Eigen::Matrix<Real, Eigen::Dynamic, 1> residual_;");
     out.line("NewtonRule rule_;");
     out.line("History history_;");
     out.line("Real start_[unknowns] = {};");

@@ -11,7 +11,7 @@ namespace hamgen {
 
 // The body of the namespace from the energy to the class Propagator.  State has Real q[n], p[n].
 void write_array_program(CodeWriter& out, const Program& program, const ScalarType& scalar,
-                         const std::map<std::string, std::string>& parameter_text,
+                         bool builtins, const std::map<std::string, std::string>& parameter_text,
                          std::set<std::string>& functions);
 
 }  // namespace hamgen

@@ -33,6 +33,11 @@ std::string CppExpression::call(const std::string& function, const std::string& 
     return name + "(" + arguments + ")";
   }
   const std::string name = row != nullptr ? std::string(row->cpp) : function;
+  if (builtins_) {
+    std::string suffix(scalar_.suffix);
+    std::ranges::transform(suffix, suffix.begin(), [](char c) { return c == 'L' ? 'l' : c; });
+    return "__builtin_" + name + suffix + "(" + arguments + ")";
+  }
   return "std::" + name + "(" + arguments + ")";
 }
 

@@ -14,8 +14,10 @@ class CppExpression {
  public:
   using Namer = std::function<std::string(const std::string&)>;
 
-  CppExpression(const ScalarType& scalar, Namer namer)
-      : scalar_(scalar), namer_(std::move(namer)) {}
+  // With builtins, functions are the compiler's own (__builtin_sin), which need no header: reading
+  // <cmath> takes three times as long as compiling a small plugin.
+  CppExpression(const ScalarType& scalar, Namer namer, bool builtins = false)
+      : scalar_(scalar), namer_(std::move(namer)), builtins_(builtins) {}
 
   // The expression as C++ with the fewest parentheses; notes the functions it calls.
   [[nodiscard]] std::string operator()(const Expression& e) const;
@@ -30,6 +32,7 @@ class CppExpression {
 
   const ScalarType& scalar_;
   Namer namer_;
+  bool builtins_ = false;
   mutable std::set<std::string> functions_;
 };
 

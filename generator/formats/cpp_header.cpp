@@ -157,7 +157,7 @@ class HeaderWriter {
         return it->second;
       }
       return names.local(symbol);
-    });
+    }, options_.builtins);
   }
 
   void note(const CppExpression& cpp) {
@@ -209,10 +209,10 @@ class HeaderWriter {
   void write_includes(CodeWriter& out) {
     if (quad()) {
       if (!functions_.empty()) out.line("#include <quadmath.h>");
-    } else if (!functions_.empty()) {
+    } else if (!functions_.empty() && !options_.builtins) {
       out.line("#include <cmath>");
     }
-    if (array_newton()) {
+    if (array_newton() && !program_.plan.arrays->bandwidth) {
       out.line("#include <algorithm>");
       out.line("#include <vector>");
       out.line();
@@ -233,7 +233,7 @@ class HeaderWriter {
         inner.lines(cpp_newton_rule(scalar_) + "\n");
         inner.lines(cpp_history(reduced ? n() : 2 * n()) + "\n");
       }
-      write_array_program(inner, program_, scalar_, parameter_text_, functions_);
+      write_array_program(inner, program_, scalar_, options_.builtins, parameter_text_, functions_);
       write_invariants(inner);
       open_namespace(out);
       out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", n()));
@@ -981,13 +981,15 @@ std::string cpp_header(const Program& program, const CppOptions& options) {
 std::string cpp_plugin(const Program& program, const CppOptions& options) {
   CppOptions with_gradient = options;
   with_gradient.gradient = true;
+  with_gradient.builtins = true;
   return HeaderWriter(program, with_gradient).plugin();
 }
 
 bool needs_eigen(const Program& program) {
   if (program.plan.arrays) {
     const ArrayMethod method = program.plan.arrays->method;
-    return method == ArrayMethod::reduced_newton || method == ArrayMethod::full_newton;
+    return method == ArrayMethod::full_newton ||
+           (method == ArrayMethod::reduced_newton && !program.plan.arrays->bandwidth);
   }
   return std::ranges::any_of(program.stages, [](const Stage& stage) {
     return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;

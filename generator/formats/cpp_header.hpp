@@ -14,6 +14,7 @@ struct CppOptions {
   std::string scalar;      // name of a scalar, "" is double
   std::string name_space;  // "pendulum::implicit_midpoint"
   bool gradient = false;   // emit gradient() too
+  bool builtins = false;   // functions of the compiler instead of <cmath>
 };
 
 [[nodiscard]] std::string cpp_header(const Program& program, const CppOptions& options);

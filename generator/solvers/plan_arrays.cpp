@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
 
 #include "generator/solvers/solve_plan.hpp"
 
@@ -23,6 +25,24 @@ bool has_constant_hessian(const Kernel& kernel) {
 bool has_diagonal_hessian(const Kernel& kernel) {
   return std::ranges::all_of(
       kernel.hessian, [](const auto& entry) { return entry.first.first == entry.first.second; });
+}
+
+constexpr long kWidestBand = 8;
+
+// The largest distance from the diagonal of an entry of V''; empty if it is not small and fixed.
+std::optional<int> bandwidth(const std::vector<Kernel>& kernels) {
+  long widest = 0;
+  for (const Kernel& kernel : kernels) {
+    if (uses_momenta(kernel)) continue;
+    for (const auto& [place, value] : kernel.hessian) {
+      const AffineIndex& a = kernel.slots[place.first].position;
+      const AffineIndex& b = kernel.slots[place.second].position;
+      if (a.factors != b.factors) return std::nullopt;
+      widest = std::max(widest, std::abs(a.constant - b.constant));
+    }
+  }
+  if (widest > kWidestBand) return std::nullopt;
+  return static_cast<int>(widest);
 }
 
 }  // namespace
@@ -50,8 +70,10 @@ SolvePlan plan_arrays(const StepEquations& equations) {
     const bool reduced = separable && kinetic_is_diagonal();
     arrays.method = reduced ? ArrayMethod::reduced_newton : ArrayMethod::full_newton;
     arrays.constant_matrix = std::ranges::all_of(kernels, has_constant_hessian);
-    plan.solver = fmt::format("{} of size {}{}, in loops{}",
-                              arrays.constant_matrix ? "sparse linear solve" : "sparse Newton",
+    if (reduced) arrays.bandwidth = bandwidth(kernels);
+    const std::string kind = arrays.bandwidth ? "banded" : "sparse";
+    plan.solver = fmt::format("{} {} of size {}{}, in loops{}", kind,
+                              arrays.constant_matrix ? "linear solve" : "Newton",
                               reduced ? n : 2 * n, reduced ? "; momenta torn out" : "",
                               arrays.constant_matrix ? ", factorised once" : "");
   }
@@ -59,6 +81,9 @@ SolvePlan plan_arrays(const StepEquations& equations) {
   if (member.beta[0].is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
   if (member.gamma[0].is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
   plan.left_out.push_back(fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
+  if (arrays.bandwidth) {
+    plan.left_out.push_back(fmt::format("Eigen: the matrix has bandwidth {}", *arrays.bandwidth));
+  }
   if (arrays.method == ArrayMethod::reduced_newton) {
     plan.left_out.push_back(fmt::format("{} of the unknowns: torn out", n));
   }

@@ -40,6 +40,8 @@ enum class ArrayMethod {
 struct ArrayPlan {
   ArrayMethod method = ArrayMethod::full_newton;
   bool constant_matrix = false;  // factorised once per run
+  // The matrix has entries only this near to its diagonal; empty if it is not that narrow.
+  std::optional<int> bandwidth = {};
 };
 
 struct SolvePlan {
