@@ -66,18 +66,19 @@ LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
 
   const BuildDirectory build = prepare(source, checked, loaded.warnings);
   const auto begin = std::chrono::steady_clock::now();
-  fs::path object = compile_sources(source, compiler, options, build.directory.path());
+  const fs::path object = compile_sources(source, compiler, options, build.directory.path());
   loaded.compile_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // Loaded before it is published: what cannot be loaded is not kept.
+  loaded.library = std::make_shared<const Library>(object);
   if (build.in_cache) {
     try {
-      object = publish_object(checked, loaded.key, object);
+      publish_object(checked, loaded.key, object);
       prune_cache(checked);
     } catch (const ToolError& error) {
       loaded.warnings.push_back(std::string("not kept in the cache: ") + error.what());
     }
   }
-  loaded.library = std::make_shared<const Library>(object);
   return loaded;
 }
 
