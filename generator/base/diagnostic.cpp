@@ -14,51 +14,55 @@ namespace {
 constexpr std::size_t most_printed = 20;
 constexpr std::size_t widest_line = 100;
 
-// A line as one string per code point, so that it can be cut by columns.
-std::vector<std::string> columns_of(std::string_view line) {
-  std::vector<std::string> columns;
+// Byte offsets of the code points of a line, and its length.
+std::vector<std::size_t> columns_of(std::string_view line) {
+  std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < line.size();) {
+    columns.push_back(i);
     const std::optional<CodePoint> point = code_point_at(line, i);
-    const std::size_t length = point ? point->length : 1;
-    columns.push_back(printable(line.substr(i, length)));
-    i += length;
+    i += point ? point->length : 1;
   }
+  columns.push_back(line.size());
   return columns;
 }
 
-// The source line and the line of carets under [from, to), 0-based columns, cut to a window.
-std::string excerpt(const std::vector<std::string>& columns, std::size_t line, std::size_t from,
-                    std::size_t to) {
+// The line and a line of carets under [from, to), bytes of the line; long lines are cut.
+std::string excerpt(std::string_view line, std::size_t number, std::size_t from, std::size_t to) {
+  const std::vector<std::size_t> columns = columns_of(line);
+  const auto column = [&](std::size_t byte) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(columns, byte) - columns.begin());
+  };
+  const std::size_t width = columns.size() - 1;
+  const std::size_t first = column(from);
   std::size_t left = 0;
-  std::size_t right = columns.size();
-  if (columns.size() > widest_line) {
-    left = from > widest_line / 2 ? from - widest_line / 2 : 0;
-    right = std::min(columns.size(), left + widest_line);
+  std::size_t right = width;
+  if (width > widest_line) {
+    left = first > widest_line / 2 ? first - widest_line / 2 : 0;
+    right = std::min(width, left + widest_line);
   }
   std::string text = left > 0 ? "..." : "";
-  const std::size_t indent = text.size() + from - left;
-  for (std::size_t i = left; i < right; ++i) text += columns[i];
-  if (right < columns.size()) text += "...";
-  const std::size_t marked = std::max<std::size_t>(1, std::min(to, right) - std::min(from, right));
-  const std::string number = fmt::format("{:>3}", line);
-  return fmt::format("{} | {}\n{} | {}^{}\n", number, text, std::string(number.size(), ' '),
-                     std::string(indent, ' '), std::string(marked - 1, '~'));
+  const std::size_t indent = text.size() + first - left;
+  text += printable(line.substr(columns[left], columns[right] - columns[left]));
+  if (right < width) text += "...";
+  const std::size_t last = std::max(first + 1, std::min(column(to), right));
+  const std::string shown = fmt::format("{:>3}", number);
+  return fmt::format("{} |{}{}\n{} | {}^{}\n", shown, text.empty() ? "" : " ", text,
+                     std::string(shown.size(), ' '), std::string(indent, ' '),
+                     std::string(last - first - 1, '~'));
 }
 
 }  // namespace
 
 std::string render(const Diagnostic& diagnostic, const SourceText& source) {
   const Position start = position(source, diagnostic.span.begin);
-  const std::vector<std::string> columns = columns_of(line_text(source, diagnostic.span.begin));
-  const std::size_t from = std::min(start.column - 1, columns.size());
-  std::size_t to = columns.size();
-  if (const Position end = position(source, diagnostic.span.end); end.line == start.line) {
-    to = std::min(to, end.column - 1);
-  }
+  const std::string_view line = line_text(source, diagnostic.span.begin);
+  const std::size_t line_start = source.line_starts[start.line - 1];
+  const std::size_t from = std::min(diagnostic.span.begin - line_start, line.size());
+  const std::size_t to = std::min(diagnostic.span.end - line_start, line.size());
   const char* severity = diagnostic.severity == Severity::error ? "error" : "warning";
   std::string text = fmt::format("{}:{}:{}: {}: {}\n", printable(source.path), start.line,
                                  start.column, severity, diagnostic.message);
-  text += excerpt(columns, start.line, from, std::max(from, to));
+  text += excerpt(line, start.line, from, to);
   if (!diagnostic.help.empty()) text += fmt::format("help: {}\n", diagnostic.help);
   return text;
 }

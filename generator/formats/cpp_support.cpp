@@ -22,7 +22,8 @@ std::string cpp_newton_rule(const ScalarType& scalar) {
 // When to stop Newton's iteration: at round-off.  Increments shrink as next <= contraction * size^2;
 // the contraction is measured, kept from step to step and checked at least every 64th step.  The last
 // increment still enters the solution, so an iteration may stop when the next one would be lost in
-// rounding; the factor 1/1024 keeps what is cut off below the rounding errors' sum over many steps.
+// rounding.  What is cut off is a bias where rounding is a random walk, and in the momenta it counts
+// 1/h times: the factor 2^-30 keeps it below the rounding errors' sum over any number of steps.
 struct NewtonRule {{
   Real contraction = {largest};
   int unchecked = 0;
@@ -47,7 +48,7 @@ struct NewtonRule {{
       ++unchecked;
     }}
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 64 && contraction * size * size * 1024 <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 0x1p30f <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}
@@ -89,12 +90,12 @@ struct FixedPointRule {{
 }
 
 std::string cpp_history(int unknowns) {
-  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 4.  With s_d the prediction
+  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the prediction
 // of degree d and x the solution that came, the next predictions are (d + 1) x - s_0 - ... - s_(d-1).
 // The degree is chosen anew every 16th step: the one that predicted best that time.
 struct History {{
   static constexpr int unknowns = {unknowns};
-  static constexpr int degrees = 5;
+  static constexpr int degrees = 8;
   Real predicted[degrees][unknowns] = {{}};
   int known = 0;
   int best = 0;

@@ -85,6 +85,9 @@ class NameCheck {
       return fail(node.span, fmt::format("'{}' is reserved: {}", name, meaning),
                   fmt::format("{} may use {}", role_.what, role_.allows));
     }
+    if (name == "nan" || name == "inf" || name == "infinity") {
+      return fail(node.span, fmt::format("'{}' is not a finite number", name), "give a number");
+    }
     std::vector<std::string> candidates = symbols_.names(role_.kinds);
     candidates.insert(candidates.end(), indices_.begin(), indices_.end());
     fail(node.span, fmt::format("unknown name '{}'", name), symbols_.suggestion(name, candidates));
@@ -100,8 +103,8 @@ class NameCheck {
     fail(node.span,
          fmt::format("{} takes {} argument{}, got {}", call.function, function->arity,
                      function->arity == 1 ? "" : "s", given),
-         function->description.empty()
-             ? ""
+         function->arity == 1
+             ? fmt::format("write {}(x), the {}", call.function, function->description)
              : fmt::format("{}: {}", call.function, function->description));
   }
 

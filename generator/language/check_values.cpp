@@ -74,7 +74,7 @@ class ValueCheck {
     const Value right = value(binary.right);
     if (left && right) return take(node, combine(binary.operation, *left, *right));
     if (right && binary.operation == BinaryOperator::divide && sgn(*right) == 0) {
-      report(binary.right->span, "division by zero" + for_indices(), "the divisor is always 0");
+      report(binary.right->span, "division by zero" + for_indices(), "the divisor is 0");
     }
     if (right && binary.operation == BinaryOperator::power) {
       if (const auto mistake = check_exponent(*right)) {

@@ -137,7 +137,7 @@ Constant combine(BinaryOperator operation, const Rational& left, const Rational&
     case BinaryOperator::multiply:
       return in_range(left * right);
     case BinaryOperator::divide:
-      if (sgn(right) == 0) return Undefined{"division by zero", "the divisor is always 0"};
+      if (sgn(right) == 0) return Undefined{"division by zero", "the divisor is 0"};
       return in_range(left / right);
     case BinaryOperator::power:
       return power(left, right);

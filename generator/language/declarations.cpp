@@ -31,7 +31,7 @@ class Declarations {
     // Values may use names declared further down.
     check_boundaries();
     check_parameters();
-    if (syntax_.spoiled.empty()) check_pairs();
+    if (syntax_.spoiled.empty() && pairs_are_known_) check_pairs();
   }
 
  private:
@@ -93,11 +93,12 @@ class Declarations {
               fmt::format("'{}' is not an array: it cannot be periodic", each.name.text),
               fmt::format("write {}[1..N] periodic", each.name.text));
         }
-        symbols_.declare(each.name, {.kind = kind,
-                                     .span = each.name.span,
-                                     .range = variable.range,
-                                     .periodic = statement.periodic,
-                                     .beyond = {}});
+        const bool is_new = symbols_.declare(each.name, {.kind = kind,
+                                                         .span = each.name.span,
+                                                         .range = variable.range,
+                                                         .periodic = statement.periodic,
+                                                         .beyond = {}});
+        pairs_are_known_ = pairs_are_known_ && is_new;
         variables.push_back(std::move(variable));
       }
     }
@@ -116,6 +117,7 @@ class Declarations {
     if (const Symbol* taken = symbols_.find("p_t"); taken != nullptr) {
       symbols_.report(taken->span, "'p_t' is reserved: the momentum that belongs to time",
                       "choose another name");
+      pairs_are_known_ = false;
     } else {
       symbols_.declare({"p_t", time.name.span},
                        {.kind = SymbolKind::momentum, .span = time.name.span});
@@ -258,6 +260,7 @@ class Declarations {
   Symbols& symbols_;
   KnownValues& known_;
   std::optional<Variable> time_coordinate_;
+  bool pairs_are_known_ = true;  // no declaration of a variable is in doubt
 };
 
 }  // namespace

@@ -183,7 +183,7 @@ ExpressionParser::Tree ExpressionParser::primary() {
   if (is_symbol(token, "*") && is_operator(previous()) && previous().text == "*") {
     fail(token.span, "'* *' is not an operator", "write '^' for a power, as in q^2");
   }
-  expected("an operand");
+  expected("an operand", "an operand is a number, a name, a function or a parenthesis");
 }
 
 ExpressionParser::Tree ExpressionParser::parenthesised() {
@@ -330,7 +330,8 @@ void ExpressionParser::expect_operator_or_end() {
          "remove it, or write its opener");
   }
   reject_non_operator();
-  fail(token.span, fmt::format("expected an operator or the end of the line, {}", describe(token)));
+  fail(token.span, fmt::format("expected an operator or the end of the line, {}", describe(token)),
+       "the terms of an expression are joined by + - * / ^");
 }
 
 // What can never go on an expression, wherever it stands.

@@ -218,7 +218,9 @@ class Lexer {
     at_ += point->length;
     if (point->value < 0x80) {
       return fail(begin, at_, fmt::format("illegal character '{}'", c),
-                  c == '"' || c == '\'' ? "texts are not part of the language" : "remove it");
+                  c == '"'    ? "texts are not part of the language"
+                  : c == '\'' ? "a name has no prime; use the momentum for a velocity"
+                              : "remove it");
     }
     const std::string_view shown = text_.substr(begin, point->length);
     std::string help = "names are made of the letters a-z and A-Z, digits and '_'";

@@ -47,6 +47,10 @@ class Parser {
 
   void statement() {
     const Token& word = in_.peek();
+    if (word.kind == TokenKind::symbol && word.text.find_first_of("+-*/^") == 0) {
+      in_.fail(word.span, fmt::format("a statement cannot begin with '{}'", word.text),
+               "a line goes on only inside parentheses: H = (... + ...)");
+    }
     if (word.kind != TokenKind::name) {
       in_.fail(word.span, "expected a statement",
                "a statement begins with " + fmt::format("{}", fmt::join(statement_words(), ", ")));

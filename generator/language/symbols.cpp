@@ -26,15 +26,16 @@ std::string_view description(SymbolKind kind) {
   internal_error("unknown kind of symbol");
 }
 
-void Symbols::declare(const Name& name, Symbol symbol) {
+bool Symbols::declare(const Name& name, Symbol symbol) {
   const auto [place, is_new] = symbols_.emplace(name.text, std::move(symbol));
-  if (is_new) return;
+  if (is_new) return true;
   const Span first = place->second.span;
   std::string line = printable(line_text(source_, first.begin));
   line.erase(0, line.find_first_not_of(' '));
   if (line.size() > 60) line = line.substr(0, 60) + "...";
   report(name.span, fmt::format("'{}' is declared twice", name.text),
          fmt::format("line {} declares it first: {}", position(source_, first.begin).line, line));
+  return false;
 }
 
 const Symbol* Symbols::find(const std::string& name) const {

@@ -30,8 +30,8 @@ class Symbols {
   Symbols(const SourceText& source, std::vector<Diagnostic>& diagnostics)
       : source_(source), diagnostics_(diagnostics) {}
 
-  // Reports a second declaration, naming the line of the first.
-  void declare(const Name& name, Symbol symbol);
+  // Reports a second declaration, naming the line of the first, and returns false.
+  bool declare(const Name& name, Symbol symbol);
   [[nodiscard]] const Symbol* find(const std::string& name) const;
   [[nodiscard]] Symbol* find(const std::string& name);
   // Names of these kinds, for "did you mean".

@@ -228,7 +228,7 @@ bool SolvePlan::is_explicit() const {
 
 LinearSolver linear_solver(const Block& block) {
   if (block.unknowns.size() <= 3) return LinearSolver::written_out;
-  return block.unknowns.size() <= 16 ? LinearSolver::elimination : LinearSolver::eigen_dense;
+  return block.unknowns.size() <= 24 ? LinearSolver::elimination : LinearSolver::eigen_dense;
 }
 
 SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {

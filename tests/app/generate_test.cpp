@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+TEST(Generate, PrintsTheHeaderWithItsCommand) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"generate", model, "--beta=-1/400*h", "--alpha", "1/2"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "#pragma once")) << result.out;
+  // The order of the options is fixed and words a shell would change are quoted.
+  EXPECT_TRUE(contains(result.out, "hamgen generate " + model + " --alpha 1/2 '--beta=-1/400*h'"))
+      << result.out;
+}
+
+TEST(Generate, WritesAndThenFindsNoDifference) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string directory = scratch.path("made");
+  const Result written = hamgen({"generate", model, "-o", directory});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_EQ(written.out, "");
+  EXPECT_EQ(written.err, directory + "/pendulum.hpp\n");
+  const Result compared = hamgen({"generate", model, "-o", directory, "--check"});
+  EXPECT_EQ(compared.status, 0);
+  EXPECT_EQ(compared.out + compared.err, "");
+}
+
+TEST(Generate, PrintsADiffOfAChangedFile) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string directory = scratch.path("made");
+  ASSERT_EQ(hamgen({"generate", model, "-o", directory}).status, 0);
+  const std::string path = directory + "/pendulum.hpp";
+  std::string text = read(path);
+  text.replace(text.find("#pragma once"), 12, "#pragma twice");
+  static_cast<void>(scratch.write("made/pendulum.hpp", text));
+  const Result compared = hamgen({"generate", model, "-o", directory, "--check"});
+  EXPECT_EQ(compared.status, 1);
+  EXPECT_TRUE(contains(compared.out, "-#pragma twice\n+#pragma once\n")) << compared.out;
+  EXPECT_TRUE(contains(compared.err, "hamgen generate")) << compared.err;
+  EXPECT_EQ(read(path), text);
+}
+
+TEST(Generate, SaysWhichFileIsMissing) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result compared = hamgen({"generate", model, "-o", scratch.path("none"), "--check"});
+  EXPECT_EQ(compared.status, 1);
+  EXPECT_EQ(compared.out, scratch.path("none") + "/pendulum.hpp: missing\n");
+}
+
+TEST(Generate, RefusesContradictions) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  EXPECT_EQ(hamgen({"generate", model, "--check"}).status, 2);
+  EXPECT_EQ(hamgen({"generate", model, "--set", "eps=1"}).status, 2);
+  EXPECT_EQ(hamgen({"generate", model, "--format", "cmake-package"}).status, 2);
+  EXPECT_EQ(hamgen({"generate", model, "--format", "fortran"}).status, 2);
+  EXPECT_EQ(hamgen({"generate", model, "--scheme", "implicit-midpoint", "--alpha", "1"}).status, 2);
+  EXPECT_EQ(hamgen({"generate", model, "--fold", "epz"}).status, 2);
+}
+
+TEST(Generate, RegeneratesForAnotherSize) {
+  const Scratch scratch;
+  const std::string model = scratch.write("chain.ham", chain);
+  const Result result = hamgen({"generate", model, "--set", "N=5"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "--set N=5")) << result.out;
+  EXPECT_EQ(hamgen({"generate", model, "--set", "N=0.5"}).status, 2);
+}
+
+TEST(Generate, RefusesAnUnwritableDirectory) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"generate", model, "-o", "/proc/none"});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_TRUE(contains(result.err, "/proc/none")) << result.err;
+}
+
+TEST(Show, PrintsEveryStage) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  for (const std::string stage : {"model", "mechanics", "equations", "plan", "program"}) {
+    const Result result = hamgen({"show", model, "--stage", stage});
+    EXPECT_EQ(result.status, 0) << stage << result.err;
+    EXPECT_TRUE(result.out.ends_with("\n")) << stage;
+  }
+  EXPECT_EQ(hamgen({"show", model, "--stage", "plans"}).status, 2);
+}
+
+TEST(Check, SaysThatAModelIsFine) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"check", model});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out,
+            model + ": fine: 1 degree of freedom, 1 parameter, 0 invariants, 1 scene\n");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(Check, ShowsAMistakeWhereItIs) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("wrong.ham", "coordinate theta\nmomentum p\nH = p^2/2 - cos(thta)\n");
+  const Result result = hamgen({"check", model});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(contains(result.err, model + ":3:17: error: unknown name 'thta'\n")) << result.err;
+}
+
+TEST(List, PrintsTheSameNamesAsTextAndAsJson) {
+  for (const std::string what : {"functions", "schemes", "solvers", "formats"}) {
+    const Result text = hamgen({"list", what});
+    const Result json = hamgen({"list", what, "--json"});
+    EXPECT_EQ(text.status, 0);
+    const nlohmann::json rows = nlohmann::json::parse(json.out);
+    ASSERT_FALSE(rows.empty());
+    EXPECT_EQ(lines(text.out).size(), rows.size() + 1);
+    for (const auto& row : rows)
+      EXPECT_TRUE(contains(text.out, "\n" + row["name"].get<std::string>())) << what;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::app_test

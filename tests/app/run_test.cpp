@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+using nlohmann::json;
+
+json run_json(std::vector<std::string> arguments, int status = 0) {
+  arguments.insert(arguments.begin(), "run");
+  arguments.insert(arguments.end(), {"--json", "--quiet"});
+  const Result result = hamgen(arguments);
+  EXPECT_EQ(result.status, status) << result.err;
+  return json::parse(result.out);
+}
+
+struct Csv {
+  std::vector<std::string> metadata;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+Csv read_csv(const std::string& text) {
+  Csv csv;
+  for (const std::string& line : lines(text)) {
+    if (line.starts_with("#")) {
+      csv.metadata.push_back(line);
+      continue;
+    }
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    }
+    if (csv.columns.empty()) {
+      csv.columns = cells;
+      continue;
+    }
+    csv.rows.emplace_back();
+    for (const std::string& cell : cells)
+      csv.rows.back().push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return csv;
+}
+
+TEST(Run, GivesTheResultAsJson) {
+  const Scratch scratch;
+  const json result = run_json({scratch.write("pendulum.ham", pendulum)});
+  EXPECT_EQ(result["model"], "pendulum");
+  EXPECT_EQ(result["scene"], "swing");
+  EXPECT_EQ(result["scheme"], "implicit-midpoint");
+  EXPECT_EQ(result["status"], "done");
+  EXPECT_EQ(result["h"], 0.1);
+  EXPECT_EQ(result["steps"], 1000);
+  EXPECT_EQ(result["steps_done"], 1000);
+  // H(0) = -0.03 cos(3.1).
+  EXPECT_NEAR(result["energy"]["initial"].get<double>(), 0.03 * std::cos(M_PI - 3.1), 1e-16);
+  // The reference of the shadowing literature for 1e5 steps is 1.4987e-6; 1000 steps see one pass.
+  EXPECT_NEAR(result["energy"]["spread"].get<double>(), 1.4987e-6, 0.02e-6);
+  // The midpoint rule at t = 100, whose error there is 2.37e-4.
+  EXPECT_NEAR(result["state"]["q"][0].get<double>(), 2.29712982881406863, 4e-4);
+  EXPECT_NEAR(result["state"]["p"][0].get<double>(), 0.141774928393845888, 4e-4);
+  EXPECT_GT(result["solver"]["iterations_per_step"].get<double>(), 0.9);
+  for (const char* key : {"generate_s", "compile_s", "run_s", "ns_per_step"})
+    EXPECT_TRUE(result["time"][key].is_number()) << key;
+}
+
+TEST(Run, SumsUpOnStandardError) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"run", model});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  for (const char* part : {"implicit-midpoint", "solver", "energy", "time", "ns/step", "header"})
+    EXPECT_TRUE(contains(result.err, part)) << result.err;
+  EXPECT_LE(lines(result.err).size(), 14u) << result.err;
+  EXPECT_FALSE(contains(result.err, "\r"));
+  EXPECT_FALSE(contains(result.err, "\x1b"));
+}
+
+TEST(Run, TakesParametersAtRunTimeWithoutCompiling) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  static_cast<void>(run_json({model}));
+  const json second = run_json({model, "--set", "eps=3/50", "--initial", "q=0, p=1/10"});
+  EXPECT_EQ(second["time"]["from_cache"], true);
+  EXPECT_EQ(second["parameters"]["eps"], 0.06);
+  EXPECT_NEAR(second["energy"]["initial"].get<double>(), 0.1 * 0.1 / 2 - 0.06, 1e-16);
+}
+
+TEST(Run, FoldsAParameterWithItsDefaultOnly) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const json folded = run_json({model, "--fold", "eps"});
+  EXPECT_FALSE(folded["parameters"].contains("eps"));
+  // One machine multiplication may round differently, a thousand steps apart by far less.
+  EXPECT_NEAR(folded["state"]["q"][0].get<double>(),
+              run_json({model})["state"]["q"][0].get<double>(), 1e-12);
+  const Result refused = hamgen({"run", model, "--fold", "eps", "--set", "eps=1"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "leave out --fold eps")) << refused.err;
+}
+
+TEST(Run, ComputesTheEnergyParameter) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const json result = run_json({model, "--beta=E0*h/10"});
+  EXPECT_EQ(result["parameters"]["E0"], result["energy"]["initial"]);
+  // The same member with the energy written as a number: beta = 0.0029974... h.
+  const json plain =
+      run_json({model, "--beta=" + std::to_string(0.0) + "+" +
+                           json(result["energy"]["initial"].get<double>() / 10).dump() + "*h"});
+  EXPECT_NEAR(result["state"]["q"][0].get<double>(), plain["state"]["q"][0].get<double>(), 1e-9);
+}
+
+TEST(Run, WritesATrajectory) {
+  const Scratch scratch;
+  const std::string model = scratch.write("two.ham", two_oscillators);
+  const std::string output = scratch.path("out.csv");
+  const json result = run_json({model, "--initial", "x=1,y=1/2", "--h", "1/8", "--steps", "100",
+                                "--every", "10", "-o", output});
+  const Csv csv = read_csv(read(output));
+  EXPECT_EQ(csv.columns,
+            (std::vector<std::string>{"step", "t", "x", "y", "px", "py", "H", "first"}));
+  ASSERT_EQ(csv.rows.size(), 11u);
+  EXPECT_EQ(csv.rows[0], (std::vector<double>{0, 0, 1, 0.5, 0, 0, 1, 0.5}));
+  EXPECT_EQ(csv.rows[10][0], 100);
+  EXPECT_EQ(csv.rows[10][1], 12.5);
+  // The same doubles as in the result.
+  EXPECT_EQ(csv.rows[10][2], result["state"]["q"][0].get<double>());
+  EXPECT_EQ(csv.rows[10][5], result["state"]["p"][1].get<double>());
+  EXPECT_NEAR(result["invariants"]["first"]["final_error"].get<double>(), 0.0, 1e-14);
+  EXPECT_TRUE(
+      std::ranges::any_of(csv.metadata, [](const auto& line) { return contains(line, "sha256"); }));
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"out.csv", "two.ham"}));
+}
+
+TEST(Run, StreamsTheTrajectoryToStandardOutput) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string output = scratch.path("out.csv");
+  ASSERT_EQ(hamgen({"run", model, "--steps", "20", "-o", output}).status, 0);
+  const Result streamed = hamgen({"run", model, "--steps", "20", "-o", "-"});
+  EXPECT_EQ(streamed.status, 0);
+  EXPECT_EQ(streamed.out, read(output));
+  EXPECT_EQ(read_csv(streamed.out).rows.size(), 21u);
+  const Result both = hamgen({"run", model, "-o", "-", "--json"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_TRUE(contains(both.err, "-o FILE.csv")) << both.err;
+}
+
+TEST(Run, NeedsAnInitialStateStepsAndStepSize) {
+  const Scratch scratch;
+  const std::string model = scratch.write("two.ham", two_oscillators);
+  const Result none = hamgen({"run", model});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(contains(none.err, "--initial x=0.1,px=0 --h 0.01 --steps 1000")) << none.err;
+  const Result no_steps = hamgen({"run", model, "--initial", "x=1", "--h", "0.1"});
+  EXPECT_EQ(no_steps.status, 2);
+  EXPECT_TRUE(contains(no_steps.err, "--steps 1000")) << no_steps.err;
+}
+
+TEST(Run, RefusesValuesOutOfRange) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--h", "0"},           {"--h", "nan"},         {"--h", "inf"},
+      {"--steps", "-1"},      {"--steps", "1e30"},    {"--every", "0"},
+      {"--every", "0.5"},     {"--initial", "q=nan"}, {"--initial", "x=1"},
+      {"--initial", "q=1,2"}, {"--initial", "q"},     {"--set", "epz=1"},
+      {"--set", "eps=inf"},   {"--alpha", "nan"},     {"--scene", "swimg"},
+      {"--scalar", "half"},   {"--solver", "magic"},  {"--steps", "1e9", "-o", "x.csv"}};
+  for (const std::vector<std::string>& options : wrong) {
+    std::vector<std::string> arguments = {"run", model};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Result result = hamgen(arguments);
+    EXPECT_TRUE(result.status == 2 || result.status == 3)
+        << options[0] << ' ' << options[1] << ": " << result.status << '\n'
+        << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err, "");
+  }
+}
+
+TEST(Run, NamesTheComponentThatIsNotDefinedAtTheStart) {
+  const Scratch scratch;
+  const std::string model = scratch.write("collapse.ham", collapse);
+  const Result result = hamgen({"run", model, "--initial", "q=0"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_TRUE(contains(result.err, "H is not defined at the initial state")) << result.err;
+  EXPECT_TRUE(contains(result.err, "q = 0")) << result.err;
+}
+
+TEST(Run, StopsWhereTheStepFailsAndKeepsWhatItHas) {
+  const Scratch scratch;
+  const std::string model = scratch.write("collapse.ham", collapse);
+  const std::string output = scratch.path("out.csv");
+  const Result result = hamgen({"run", model, "--json", "-o", output});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "--h 0.0025")) << result.err;
+  EXPECT_FALSE(contains(result.out, "nan"));
+  const json report = json::parse(result.out);
+  EXPECT_TRUE(report["status"] == "not converged" || report["status"] == "not finite");
+  EXPECT_TRUE(report["reason"].is_string());
+  const long done = report["steps_done"].get<long>();
+  // The exact solution ends at t = 0.7071, after 70 steps.
+  EXPECT_GT(done, 60);
+  EXPECT_LT(done, 1000);
+  const Csv csv = read_csv(read(output));
+  EXPECT_EQ(static_cast<long>(csv.rows.size()), done + 1);
+  EXPECT_TRUE(contains(csv.metadata.back(), "step")) << csv.metadata.back();
+}
+
+TEST(Run, RegeneratesForAnotherSize) {
+  const Scratch scratch;
+  const std::string model = scratch.write("chain.ham", chain);
+  const json result = run_json({model, "--set", "N=12"});
+  EXPECT_EQ(result["state"]["q"].size(), 12u);
+}
+
+TEST(Run, KeepsTheEmittedHeader) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string directory = scratch.path("kept");
+  EXPECT_EQ(hamgen({"run", model, "--keep", directory}).status, 0);
+  EXPECT_EQ(read(directory + "/pendulum.hpp"), hamgen({"generate", model}).out);
+}
+
+TEST(Run, NamesAMissingCompilerAndUsesNoShell) {
+  const Scratch scratch;
+  // A model of its own, so that the cache cannot help.
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result missing = hamgen({"run", model, "--compiler", "no-such-compiler"});
+  EXPECT_EQ(missing.status, 4);
+  EXPECT_TRUE(contains(missing.err, "no-such-compiler")) << missing.err;
+  const Result shell = hamgen({"run", model}, {"CXX=g++; touch " + scratch.path("touched")});
+  EXPECT_EQ(shell.status, 4);
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham"}));
+}
+
+TEST(Run, GoesOnWithoutAUsableCache) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string file = scratch.write("file", "");
+  const Result result = hamgen({"run", model, "--steps", "1"}, {"HAMGEN_CACHE=" + file});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "warning")) << result.err;
+}
+
+TEST(Cache, ListsAndClears) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::vector<std::string> own = {"HAMGEN_CACHE=" + scratch.path("cache")};
+  ASSERT_EQ(hamgen({"run", model, "--steps", "1"}, own).status, 0);
+  const Result listed = hamgen({"cache"}, own);
+  EXPECT_EQ(listed.status, 0);
+  EXPECT_TRUE(contains(listed.out, "1 compiled integrator,")) << listed.out;
+  EXPECT_EQ(hamgen({"cache", "prune"}, own).status, 0);
+  EXPECT_EQ(hamgen({"cache", "clear"}, own).status, 0);
+  EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "0 compiled integrators,"));
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
