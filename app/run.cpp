@@ -119,7 +119,7 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 // Writes the emitted header if asked to; returns where it is, or how to see it.
 std::string keep_header(const PluginSource& plugin, const RunOptions& options,
                         const std::string& command) {
-  if (options.keep.empty()) return command;
+  if (options.keep.empty()) return "print it with: " + command;
   const std::string stem = std::filesystem::path(options.method.model).stem().string();
   const std::filesystem::path path = std::filesystem::path(options.keep) / (stem + ".hpp");
   runtime::atomic_write(path, plugin.header_text);

@@ -66,7 +66,7 @@ std::string seconds_text(double seconds) {
 std::string energy_text(const RunReport& report) {
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {}; max error {:.3g}, spread {:.5g}, final error {:.3g}",
+  return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, at the end {:.3g}",
                      number_text(energy.initial), energy.max_error(), energy.spread(),
                      energy.final_error());
 }
@@ -171,13 +171,13 @@ std::string summary_text(const RunReport& report) {
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
-    text +=
-        entry("invariant", fmt::format("{} = {}; final error {:.3g}", plugin.invariant_names[i],
-                                       number_text(report.initial_invariants[i]),
-                                       report.final_invariants[i] - report.initial_invariants[i]));
+    text += entry("invariant",
+                  fmt::format("{} = {}; error at the end {:.3g}", plugin.invariant_names[i],
+                              number_text(report.initial_invariants[i]),
+                              report.final_invariants[i] - report.initial_invariants[i]));
   const std::size_t n = report.state.size() / 2;
-  text += entry("final state", fmt::format("q = {}; p = {}", numbers(report.state, 0, n),
-                                           numbers(report.state, n, 2 * n)));
+  text += entry("end", fmt::format("q = {}; p = {}", numbers(report.state, 0, n),
+                                   numbers(report.state, n, 2 * n)));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
   return text + entry("header", report.header);
