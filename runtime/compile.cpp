@@ -21,7 +21,7 @@ constexpr const char* kExports = "exports.map";
 // Contraction to fused multiply-adds is off so that every machine takes the same steps; errno is
 // never read.  Nothing else may touch the meaning of the arithmetic: compensated sums need it.
 constexpr std::array<const char*, 8> kFlags = {"-std=c++20",
-                                               "-O2",
+                                               "-O3",
                                                "-w",
                                                "-fPIC",
                                                "-shared",

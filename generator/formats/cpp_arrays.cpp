@@ -74,6 +74,7 @@ class ArrayWriter {
   template <class Use>
   void write_kernel(const Kernel& kernel, const std::vector<Expression>& values, Use use) {
     Names names;
+    for (const char* local : {"x", "sum", "gradient", "put", "n"}) names.reserve(local);
     for (const Slot& slot : kernel.slots) names.set(slot.symbol, names.unique(slot_name(slot.symbol)));
     const CppExpression cpp(scalar_, [&](const std::string& symbol) -> std::string {
       if (const auto it = parameter_text_.find(symbol); it != parameter_text_.end()) {
@@ -283,7 +284,6 @@ class ArrayWriter {
  private:
   static constexpr int width = {width};
   static constexpr int columns = 3 * width + 1;
-  static Real magnitude(Real x) {{ return x < 0 ? -x : x; }}
   Real& at(int row, int column) {{ return entry_[row][column - row + width]; }}
   const Real& at(int row, int column) const {{ return entry_[row][column - row + width]; }}
   Real entry_[n][columns] = {{}};
@@ -574,7 +574,6 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
   [[nodiscard]] const State& state() const { return z_; }
 
  private:
-  static Real magnitude(Real x) { return x < 0 ? -x : x; }
   static void clear(Real (&values)[2 * n]) {
     for (Real& value : values) value = 0;
   }

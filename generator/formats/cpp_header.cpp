@@ -305,6 +305,10 @@ class HeaderWriter {
     out.line(fmt::format("Real increment = {};", literal(0, scalar_)));
     out.close(";");
     out.line();
+    if (newton_ || fixed_point_ || elimination_ || array_newton()) {
+      out.lines(cpp_magnitude(scalar_, options_.builtins) + "\n");
+      functions_.insert("fabs");
+    }
   }
 
   // Locals for the state variables that the statements use.
@@ -339,6 +343,7 @@ class HeaderWriter {
   void write_evaluation(CodeWriter& out, const std::string& signature, const Evaluation& evaluation,
                         const std::function<void(CodeWriter&, CppExpression&)>& finish) {
     Names names;
+    names.reserve("values");
     CppExpression cpp = expression(names);
     std::set<std::string> used = used_symbols(evaluation.statements);
     for (const Expression& e : evaluation.results) collect_symbols(e, used);
@@ -474,6 +479,10 @@ class HeaderWriter {
   // Names for the step function: coefficients as k.c1, everything else local.
   void write_solve(CodeWriter& out) {
     Names names;
+    for (const char* local : {"size", "scale", "iteration", "verdict", "progress", "length", "matrix",
+                              "increment", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
+      names.reserve(local);
+    }
     for (const auto& [symbol, text] : coefficient_text_) names.set(symbol, text);
     CppExpression cpp = expression(names);
     std::set<std::string> used;
@@ -530,7 +539,7 @@ class HeaderWriter {
   }
 
   static std::string magnitude(const std::string& x) {
-    return fmt::format("({0} < 0 ? -{0} : {0})", x);
+    return x.starts_with('-') ? "magnitude(" + x.substr(1) + ")" : "magnitude(" + x + ")";
   }
 
   void write_loop(CodeWriter& out, CppExpression& cpp, Names& names, const Solve& solve,
@@ -662,7 +671,7 @@ class HeaderWriter {
     out.line("if (progress == Progress::go_on) continue;");
     out.line("report.iterations += iteration;");
     out.line("if (progress == Progress::done) break;");
-    out.line("for (const Real x : increment) report.increment += x < 0 ? -x : x;");
+    out.line("for (const Real part : increment) report.increment += magnitude(part);");
     out.line("return report;");
     out.close();
   }

@@ -4,6 +4,15 @@
 
 namespace hamgen {
 
+std::string cpp_magnitude(const ScalarType& scalar, bool builtins) {
+  std::string value = builtins ? fmt::format("__builtin_fabs{}(x)", scalar.digits == 24   ? "f"
+                                                                    : scalar.digits == 64 ? "l"
+                                                                                          : "")
+                               : "std::fabs(x)";
+  if (scalar.digits == 113) value = "x < 0 ? -x : x";
+  return "inline Real magnitude(Real x) { return " + value + "; }\n";
+}
+
 std::string cpp_compensated_sum() {
   return R"(// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
 inline void add(Real& value, Real& carry, Real increment) {
@@ -71,7 +80,7 @@ struct FixedPointRule {{
     bool decreased = false;
     Real size = 0;
     for (int i = 0; i < Size; ++i) {{
-      const Real now = increment[i] < 0 ? -increment[i] : increment[i];
+      const Real now = magnitude(increment[i]);
       if (iterations == 1 || now < previous[i]) decreased = true;
       previous[i] = now;
       size += now;
@@ -119,8 +128,7 @@ struct History {{
     for (int degree = 0; degree < known; ++degree) {{
       Real error = 0;
       for (int i = 0; i < unknowns; ++i) {{
-        const Real d = solution[i] - predicted[degree][i];
-        error += d < 0 ? -d : d;
+        error += magnitude(solution[i] - predicted[degree][i]);
       }}
       if (degree == 0 || error < least) {{
         least = error;
@@ -144,7 +152,7 @@ inline bool eliminate(Real (&matrix)[Size][Size], Real (&vector)[Size]) {
     int pivot = c;
     Real largest = 0;
     for (int r = c; r < Size; ++r) {
-      const Real size = matrix[r][c] < 0 ? -matrix[r][c] : matrix[r][c];
+      const Real size = magnitude(matrix[r][c]);
       if (size > largest) {
         largest = size;
         pivot = r;

@@ -8,6 +8,8 @@
 
 namespace hamgen {
 
+// |x|: the compiler's own function where no header is wanted.
+[[nodiscard]] std::string cpp_magnitude(const ScalarType& scalar, bool builtins);
 // Adding with a carry (compensated summation).
 [[nodiscard]] std::string cpp_compensated_sum();
 // When to stop Newton's iteration.

@@ -194,10 +194,13 @@ class Lexer {
   void read_symbol() {
     static constexpr std::array<std::string_view, 9> doubles = {
         "**", "..", "==", "<=", ">=", "!=", "&&", "||", "~="};
+    static constexpr std::string_view seconds = "*.=&|";  // of the words in doubles
     static constexpr std::string_view singles = "+-*/^()[]{},;=<>!&|%:";
     const char c = peek();
     const std::size_t begin = at_;
-    if (std::ranges::find(doubles, text_.substr(at_, 2)) != doubles.end()) {
+    const bool may_be_double =
+        at_ + 1 < text_.size() && seconds.find(text_[at_ + 1]) < seconds.size();
+    if (may_be_double && std::ranges::find(doubles, text_.substr(at_, 2)) != doubles.end()) {
       at_ += 2;
     } else if (singles.find(c) != std::string_view::npos && c != '\0') {
       ++at_;

@@ -26,7 +26,7 @@ constexpr std::string_view kReserved[] = {
     // ours
     "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
-    "prepare", "main", "gradient"};
+    "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert"};
 
 bool is_reserved(std::string_view name) {
   return std::ranges::find(kReserved, name) != std::end(kReserved);
