@@ -11,7 +11,7 @@
 namespace hamgen {
 
 struct SceneRequest {
-  std::string scene;  // empty: the first, if there is one
+  std::string scene = {};  // empty: the first, if there is one
   std::vector<std::pair<std::string, std::string>> set =
       {};  // --set NAME=VALUE, VALUE an expression
   std::vector<std::pair<std::string, std::string>> initial = {};  // --initial NAME=VALUE
