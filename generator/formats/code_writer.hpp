@@ -6,38 +6,84 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hamgen {
 
 class CodeWriter {
  public:
-  // A line of code; one that would pass column 100 goes on below, four columns further in.
+  // A line of code; one that would pass column 100 is broken as clang-format would: at the
+  // outermost operator or comma that fits, going on under what the operand began with.
   void line(const std::string& text = "") {
-    std::size_t indent = static_cast<std::size_t>(2 * depth_);
+    const std::size_t depth = static_cast<std::size_t>(2 * depth_);
     std::string rest = text;
-    if (text.find("//") == std::string::npos && text.find('\"') == std::string::npos) {
+    std::size_t indent = depth;
+    std::vector<std::size_t> columns{first_operand(text, depth)};  // where each bracket level goes on
+    if (text.find("//") == std::string::npos && text.find('"') == std::string::npos) {
       while (indent + rest.size() > kColumns) {
-        const std::size_t cut = break_point(rest, kColumns - indent);
+        const std::size_t equals = rest.find(" = ");
+        if (equals != std::string::npos && depth + 4 + rest.size() - equals - 3 <= kColumns) {
+          text_.append(indent, ' ');
+          text_ += rest.substr(0, equals + 2) + '\n';
+          rest = rest.substr(equals + 3);
+          indent = depth + 4;
+          break;
+        }
+        const std::size_t cut = break_point(rest, kColumns - indent, columns.size());
         if (cut == std::string::npos) break;
+        for (std::size_t i = 0; i < cut; ++i) {
+          if (rest[i] == '(' || rest[i] == '{') columns.push_back(indent + i + 1);
+          if ((rest[i] == ')' || rest[i] == '}') && columns.size() > 1) columns.pop_back();
+        }
         text_.append(indent, ' ');
-        text_ += rest.substr(0, cut);
-        text_ += '\n';
+        text_ += rest.substr(0, cut) + '\n';
         rest = rest.substr(cut + 1);
-        indent = static_cast<std::size_t>(2 * depth_ + 4);
+        indent = columns.back();
       }
     }
     if (!rest.empty()) text_.append(indent, ' ');
     text_ += rest;
     text_ += '\n';
   }
+  // A comment that hangs under its own beginning: "//   solve     Newton ...".
+  void comment(const std::string& lead, const std::string& text) {
+    std::string line = lead;
+    const std::string hanging = "//" + std::string(lead.size() - 2, ' ');
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+      const std::size_t end = std::min(text.find(' ', begin), text.size());
+      const std::string word = text.substr(begin, end - begin);
+      if (line.size() + word.size() > kColumns - 2 && line != hanging) {
+        while (line.ends_with(' ')) line.pop_back();
+        text_ += line + '\n';
+        line = hanging;
+      }
+      line += word + " ";
+      begin = end + 1;
+    }
+    while (line.ends_with(' ')) line.pop_back();
+    text_ += line + '\n';
+  }
   // Opens a block: the text, " {", and a deeper level.
   void open(const std::string& text) {
-    line(text + " {");
+    line(text.empty() ? "{" : text + " {");
     ++depth_;
   }
   void close(const std::string& tail = "") {
     --depth_;
     line("}" + tail);
+  }
+  // Members with their remarks in one column.
+  void aligned(const std::vector<std::pair<std::string, std::string>>& members) {
+    std::size_t width = 0;
+    for (const auto& [code, remark] : members) {
+      if (!remark.empty()) width = std::max(width, code.size());
+    }
+    for (const auto& [code, remark] : members) {
+      const std::size_t gap = width > code.size() ? width - code.size() : 0;
+      line(remark.empty() ? code : code + std::string(gap + 2, ' ') + "// " + remark);
+    }
   }
   // Several lines as they are, each at the present depth.
   void lines(const std::string& text) {
@@ -56,15 +102,34 @@ class CodeWriter {
  private:
   static constexpr std::size_t kColumns = 100;
 
-  // The blank to break at: the last one within the width that follows an operator or a comma.
-  static std::size_t break_point(const std::string& text, std::size_t width) {
-    const std::size_t start = text.find_first_not_of(' ');
-    for (std::size_t i = std::min(width, text.size() - 1); i > start + 12; --i) {
-      if (text[i] == ' ' && std::string_view("+-*/,=?:(").find(text[i - 1]) != std::string_view::npos) {
-        return i;
+  // Where the operands of a statement begin: after "return " or " = ".
+  static std::size_t first_operand(const std::string& text, std::size_t depth) {
+    if (text.starts_with("return ")) return depth + 7;
+    const std::size_t equals = text.find(" = ");
+    return equals == std::string::npos ? depth + 4 : depth + equals + 3;
+  }
+
+  // The blank to break at: within the width, at the outermost bracket level that has one, after
+  // a comma, plus or minus rather than after times or divided by, as late as possible.
+  static std::size_t break_point(const std::string& text, std::size_t width, std::size_t level) {
+    std::size_t best = std::string::npos;
+    std::pair<std::size_t, int> least{1000, 0};
+    const std::size_t start = std::max<std::size_t>(text.find(" = "), 0);
+    for (std::size_t i = 1; i < std::min(width + 1, text.size()); ++i) {
+      const char before = text[i - 1];
+      if (before == '(' || before == '{') ++level;
+      if ((before == ')' || before == '}') && level > 0) --level;
+      if (text[i] != ' ' || (start != std::string::npos && i <= start + 2)) continue;
+      const bool weak = before == '+' || before == '-' || before == ',' || before == '?';
+      const bool strong = before == '*' || before == '/';
+      if (!weak && !strong) continue;
+      const std::pair<std::size_t, int> rank{level, weak ? 0 : 1};
+      if (rank <= least) {
+        least = rank;
+        best = i;
       }
     }
-    return std::string::npos;
+    return best;
   }
 
   std::string text_;

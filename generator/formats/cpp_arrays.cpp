@@ -234,7 +234,7 @@ class ArrayWriter {
     out_.dedent();
     out_.lines(fmt::format(R"( public:
   void clear() {{
-    for (Real (&row)[columns] : entry_) {{
+    for (auto& row : entry_) {{
       for (Real& value : row) value = 0;
     }}
   }}

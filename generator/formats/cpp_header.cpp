@@ -57,7 +57,7 @@ std::vector<std::string> fields(const std::vector<Group>& groups) {
 std::string remark(const Quantity& quantity) {
   std::string text = quantity.comment;
   if (!quantity.unit.empty()) text += (text.empty() ? "[" : " [") + quantity.unit + "]";
-  return text.empty() ? "" : "  // " + text;
+  return text;
 }
 
 class HeaderWriter {
@@ -174,14 +174,14 @@ class HeaderWriter {
     if (!options_.model_path.empty()) out.line("//   model     " + options_.model_path);
     std::string formula = mechanics_.hamiltonian_text;
     std::ranges::replace(formula, '\n', ' ');
-    out.line("//   H(q, p) = " + formula);
+    out.comment("//   H(q, p) = ", formula);
     out.line(fmt::format("//   scheme    {}: order {}{}{}", scheme.description, scheme.order,
                          scheme.symmetric ? ", symmetric" : "",
                          program_.plan.sweeps ? ", not symplectic" : ", symplectic"));
-    out.line("//   solve     " + program_.plan.solver);
+    out.comment("//   solve     ", program_.plan.solver);
     bool first = true;
     for (const std::string& item : program_.plan.left_out) {
-      out.line(fmt::format("//   {}  {}", first ? "left out" : "        ", item));
+      out.comment(first ? "//   left out  " : "//             ", item);
       first = false;
     }
     Cost straight;
@@ -268,7 +268,12 @@ class HeaderWriter {
 
   void write_struct(CodeWriter& out, const std::string& name, const std::vector<Group>& groups,
                     bool defaults) {
+    if (groups.empty()) {
+      out.line("struct " + name + " {};");
+      return;
+    }
     out.open("struct " + name);
+    std::vector<std::pair<std::string, std::string>> members;
     for (const Group& g : groups) {
       const Quantity& first = *g.elements.front();
       if (g.is_array) {
@@ -277,18 +282,15 @@ class HeaderWriter {
           if (!defaults) break;
           values += (values.empty() ? "" : ", ") + literal(element->value, scalar_);
         }
-        const std::string note = fmt::format("{}  // {}", remark(first).empty() ? "" : remark(first),
-                                             fmt::format("{}[{}..{}]", split_element(first.name).base,
-                                                         g.first,
-                                                         g.first + static_cast<long>(g.elements.size()) - 1));
-        out.line(fmt::format("Real {}[{}] = {{{}}};{}", g.name, g.elements.size(), values,
-                             remark(first).empty() ? note : remark(first)));
+        members.emplace_back(fmt::format("Real {}[{}] = {{{}}};", g.name, g.elements.size(), values),
+                             remark(first));
       } else {
-        out.line(fmt::format("Real {} = {};{}", g.name,
-                             literal(defaults ? first.value : Rational(0), scalar_),
-                             remark(first)));
+        members.emplace_back(fmt::format("Real {} = {};", g.name,
+                                         literal(defaults ? first.value : Rational(0), scalar_)),
+                             remark(first));
       }
     }
+    out.aligned(members);
     out.close(";");
   }
 
@@ -401,7 +403,7 @@ class HeaderWriter {
   void write_prepare(CodeWriter& out) {
     Names names;
     CppExpression cpp = expression(names);
-    CodeWriter members;
+    std::vector<std::pair<std::string, std::string>> members;
     CodeWriter code;
     Substitution meaning;
     int count = 0;
@@ -411,7 +413,7 @@ class HeaderWriter {
       meaning[s.name] = full;
       std::string text = to_text(full);
       if (text.size() > 70) text = text.substr(0, 67) + "...";
-      members.line(fmt::format("Real {} = {};  // {}", field, literal(0, scalar_), text));
+      members.emplace_back(fmt::format("Real {} = {};", field, literal(0, scalar_)), text);
       code.line(fmt::format("k.{} = {};", field, cpp(s.value)));
       names.set(s.name, "k." + field);
       coefficient_text_[s.name] = "k." + field;
@@ -420,17 +422,17 @@ class HeaderWriter {
       const auto& solve = program_.stages[s].solve;
       if (!solve || !solve->constant_matrix) continue;
       const std::size_t m = solve->matrix.size();
-      members.line(fmt::format("Real {}[{}][{}] = {{}};", inverse_name(s), m, m));
+      members.emplace_back(fmt::format("Real {}[{}][{}] = {{}};", inverse_name(s), m, m), "");
       code.line(fmt::format("Real matrix_{}[{}][{}] = {{}};", s, m, m));
       write_matrix(code, cpp, fmt::format("matrix_{}", s), *solve);
       code.line(fmt::format("k.regular = invert(matrix_{}, k.{}) && k.regular;", s, inverse_name(s)));
     }
-    if (inverse_) members.line("bool regular = true;");
+    if (inverse_) members.emplace_back("bool regular = true;", "");
     if (inverse_) out.lines(elimination_text() + "\n" + cpp_inverse() + "\n");
     support_written_ = inverse_;
     out.line("// What depends on h and the parameters alone.");
     out.open("struct Coefficients");
-    out.lines(members.text());
+    out.aligned(members);
     out.close(";");
     out.line();
     out.open("inline Coefficients prepare([[maybe_unused]] const Parameters& par, "
@@ -516,6 +518,9 @@ class HeaderWriter {
       const Stage& stage = program_.stages[s];
       write_statements(out, cpp, names, stage.before);
       if (stage.solve) write_loop(out, cpp, names, *stage.solve, s, unknown);
+      if (stage.solve && stage.solve->kind == BlockKind::newton) {
+        out.line("// The last increments correct the gradient to first order: no evaluation at the solution.");
+      }
       write_statements(out, cpp, names, stage.after);
     }
     std::string size;
@@ -612,6 +617,7 @@ class HeaderWriter {
                     std::size_t s, const std::set<std::string>& declared) {
     const std::string rule = fmt::format("start.rule_{}", s);
     const bool array = !solve.corrections.empty();
+    out.line("// Newton's iteration for the stage values: residual R, its derivatives, increments delta.");
     out.line(rule + ".begin();");
     out.open("for (int iteration = 1;; ++iteration)");
     write_statements(out, cpp, names, solve.body, declared);
@@ -763,8 +769,13 @@ class HeaderWriter {
     out.indent();
     std::string initialisers = "par_(par), h_(h), z_(z)";
     if (coefficients_) initialisers += ", k_(prepare(par, h))";
-    out.line(fmt::format("Propagator(const Parameters& par, Real h, const State& z) : {} {{}}",
-                         initialisers));
+    const std::string constructor = "Propagator(const Parameters& par, Real h, const State& z)";
+    if (constructor.size() + initialisers.size() > 90) {
+      out.line(constructor);
+      out.line("    : " + initialisers + " {}");
+    } else {
+      out.line(constructor + " : " + initialisers + " {}");
+    }
     out.line();
     out.line("// One step; on failure the state stays as it was.");
     out.open("StepReport step()");

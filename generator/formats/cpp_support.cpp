@@ -28,11 +28,12 @@ inline void add(Real& value, Real& carry, Real increment) {
 std::string cpp_newton_rule(const ScalarType& scalar) {
   return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
 
-// When to stop Newton's iteration: at round-off.  Increments shrink as next <= contraction * size^2;
-// the contraction is measured, kept from step to step and checked at least every 64th step.  The last
-// increment still enters the solution, so an iteration may stop when the next one would be lost in
-// rounding.  What is cut off is a bias where rounding is a random walk, and in the momenta it counts
-// 1/h times: the factor 2^-30 keeps it below the rounding errors' sum over any number of steps.
+// When to stop Newton's iteration: at round-off.  Increments shrink as
+//   next <= contraction * size^2,
+// where the contraction is measured, kept from step to step and checked at least every 64th step.
+// The last increment still enters the solution, so an iteration may stop when the next one would
+// be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
+// momenta it counts 1/h times: the factor 2^-30 keeps it below the sum of the rounding errors.
 struct NewtonRule {{
   Real contraction = {largest};
   int unchecked = 0;
@@ -99,8 +100,9 @@ struct FixedPointRule {{
 }
 
 std::string cpp_history(int unknowns) {
-  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the prediction
-// of degree d and x the solution that came, the next predictions are (d + 1) x - s_0 - ... - s_(d-1).
+  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
+// prediction of degree d and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
 // The degree is chosen anew every 16th step: the one that predicted best that time.
 struct History {{
   static constexpr int unknowns = {unknowns};

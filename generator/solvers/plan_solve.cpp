@@ -16,12 +16,29 @@ const std::string& name_of(const StepEquations& equations, int i) {
   return equations.mechanics.variables[static_cast<std::size_t>(i)].name;
 }
 
+// "q, x[1..8], p[2]": runs of array elements in short.
 std::string names_of(const StepEquations& equations, std::vector<int> variables) {
   std::ranges::sort(variables);
   std::string text;
-  for (const int i : variables) {
-    if (text.size() > 60) return text + ", ...";
-    text += (text.empty() ? "" : ", ") + name_of(equations, i);
+  for (std::size_t k = 0; k < variables.size();) {
+    const std::string& first = name_of(equations, variables[k]);
+    const std::size_t bracket = first.find('[');
+    std::size_t end = k + 1;
+    if (bracket != std::string::npos) {
+      const std::string base = first.substr(0, bracket + 1);
+      while (end < variables.size() && variables[end] == variables[end - 1] + 1 &&
+             name_of(equations, variables[end]).starts_with(base)) {
+        ++end;
+      }
+    }
+    text += text.empty() ? "" : ", ";
+    if (end - k > 1) {
+      const std::string& last = name_of(equations, variables[end - 1]);
+      text += first.substr(0, first.size() - 1) + ".." + last.substr(bracket + 1);
+    } else {
+      text += first;
+    }
+    k = end;
   }
   return text;
 }
