@@ -10,10 +10,10 @@
 
 namespace hamgen {
 
+// Values are expressions, as on the command line.
 struct SceneRequest {
-  std::string scene = {};  // empty: the first, if there is one
-  std::vector<std::pair<std::string, std::string>> set =
-      {};  // --set NAME=VALUE, VALUE an expression
+  std::string scene = {};                                         // empty: the first, if any
+  std::vector<std::pair<std::string, std::string>> set = {};      // --set NAME=VALUE
   std::vector<std::pair<std::string, std::string>> initial = {};  // --initial NAME=VALUE
   std::optional<std::string> h = {};
   std::optional<std::string> steps = {};
