@@ -74,15 +74,22 @@ class CodeWriter {
     --depth_;
     line("}" + tail);
   }
-  // Members with their remarks in one column.
+  // Members with their remarks in one column; a long member has its remark above it.
   void aligned(const std::vector<std::pair<std::string, std::string>>& members) {
+    constexpr std::size_t kLong = 60;
     std::size_t width = 0;
     for (const auto& [code, remark] : members) {
-      if (!remark.empty()) width = std::max(width, code.size());
+      if (!remark.empty() && code.size() <= kLong) width = std::max(width, code.size());
     }
     for (const auto& [code, remark] : members) {
-      const std::size_t gap = width > code.size() ? width - code.size() : 0;
-      line(remark.empty() ? code : code + std::string(gap + 2, ' ') + "// " + remark);
+      if (remark.empty()) {
+        line(code);
+      } else if (code.size() > kLong) {
+        line("// " + remark);
+        line(code);
+      } else {
+        line(code + std::string(width - code.size() + 2, ' ') + "// " + remark);
+      }
     }
   }
   // Several lines as they are, each at the present depth.

@@ -82,7 +82,7 @@ class ArrayWriter {
       }
       for (const ParameterSlot& slot : kernel.parameters) {
         if (slot.symbol != symbol) continue;
-        return fmt::format("par.{}[{}]", identifier(slot.parameter), affine(slot.position));
+        return fmt::format("par.{}[{}]", member_identifier(slot.parameter), affine(slot.position));
       }
       for (const KernelRange& range : kernel.ranges) {
         if (range.index == symbol) return fmt::format("Real({})", identifier(symbol));

@@ -33,7 +33,7 @@ std::vector<Group> group(const std::vector<Quantity>& quantities, std::set<std::
   for (const Quantity& quantity : quantities) {
     const ElementName element = split_element(quantity.name);
     if (groups.empty() || !element.indexed || last != element.base) {
-      std::string name = identifier(element.base);
+      std::string name = member_identifier(element.base);
       while (!taken.insert(name).second) name += "_";
       groups.push_back({name, element.indexed, element.index, {}});
       last = element.indexed ? element.base : "";

@@ -10,8 +10,8 @@ namespace hamgen {
 
 namespace {
 
-// Keywords of C++20, and the names the emitted code uses itself.
-constexpr std::string_view kReserved[] = {
+// Keywords of C++20.
+constexpr std::string_view kKeywords[] = {
     "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
     "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
     "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await",
@@ -22,14 +22,20 @@ constexpr std::string_view kReserved[] = {
     "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static",
     "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local",
     "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
-    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq",
-    // ours
+    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq"};
+
+// Names the emitted functions use themselves.
+constexpr std::string_view kOurs[] = {
     "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
     "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert"};
 
+bool is_keyword(std::string_view name) {
+  return std::ranges::find(kKeywords, name) != std::end(kKeywords);
+}
+
 bool is_reserved(std::string_view name) {
-  return std::ranges::find(kReserved, name) != std::end(kReserved);
+  return is_keyword(name) || std::ranges::find(kOurs, name) != std::end(kOurs);
 }
 
 }  // namespace
@@ -43,6 +49,15 @@ std::string identifier(const std::string& name) {
   }
   if (is_reserved(text)) text += "_";
   return text;
+}
+
+std::string member_identifier(const std::string& name) {
+  const std::string text = identifier(name);
+  // A member is always qualified: only keywords and the scalar's name are out of the question.
+  return text.ends_with('_') && !is_keyword(text.substr(0, text.size() - 1)) && text != "Real_" &&
+                 text.substr(0, text.size() - 1) == name
+             ? name
+             : text;
 }
 
 ElementName split_element(const std::string& name) {

@@ -10,6 +10,9 @@ namespace hamgen {
 // The user's name, with a trailing underscore if C++ or the emitted code has other plans for it.
 [[nodiscard]] std::string identifier(const std::string& name);
 
+// The same for a member of a struct, which may be called what a local may not: z.h, par.k.
+[[nodiscard]] std::string member_identifier(const std::string& name);
+
 // "q[12]" is {"q", 12}; "q" is {"q", none}.
 struct ElementName {
   std::string base;
