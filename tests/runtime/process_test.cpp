@@ -92,12 +92,12 @@ TEST(Process, HasAnEmptyInput) { EXPECT_TRUE(run_process({.command = {"cat"}}).s
 
 TEST(Process, ThatDoesNotExistIsAToolErrorWithItsName) {
   try {
-    (void)run_process({.command = {"no-such-program-here", "a b"}});
+    (void)run_process({.command = {"/no/such/program", "a b"}});
     FAIL();
   } catch (const ToolError& error) {
     EXPECT_STREQ(error.what(),
-                 "cannot run 'no-such-program-here': No such file or directory\n"
-                 "  command: no-such-program-here 'a b'");
+                 "cannot run '/no/such/program': No such file or directory\n"
+                 "  command: /no/such/program 'a b'");
     EXPECT_FALSE(error.failure().exit_status.has_value());
   }
 }
