@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/code_writer.hpp"
 #include "generator/formats/cpp_arrays.hpp"
@@ -54,8 +55,10 @@ std::vector<std::string> fields(const std::vector<Group>& groups) {
   return result;
 }
 
+// The user's words as the end of a // comment: a backslash there would swallow the next line.
 std::string remark(const Quantity& quantity) {
   std::string text = quantity.comment;
+  std::ranges::replace(text, '\\', '/');
   if (!quantity.unit.empty()) text += (text.empty() ? "[" : " [") + quantity.unit + "]";
   return text;
 }
@@ -208,7 +211,21 @@ class HeaderWriter {
 
   void write_includes(CodeWriter& out) {
     if (quad()) {
-      if (!functions_.empty()) out.line("#include <quadmath.h>");
+      // Declared here rather than by <quadmath.h>, which clang does not find.
+      std::set<std::string> declared;
+      for (const std::string& function : functions_) {
+        const Function* row = find_function(function);
+        const bool two = function == "pow" || (row != nullptr && row->arity == 2);
+        const std::string name = row != nullptr ? std::string(row->quad) : function + "q";
+        if (function == "fabs" || !declared.insert(name).second) continue;
+        if (declared.size() == 1) {
+          out.line();
+          out.line("extern \"C\" {");
+        }
+        out.line(fmt::format("__extension__ __float128 {}(__float128{}) noexcept;", name,
+                             two ? ", __float128" : ""));
+      }
+      if (!declared.empty()) out.line("}");
     } else if (!functions_.empty() && !options_.builtins) {
       out.line("#include <cmath>");
     }

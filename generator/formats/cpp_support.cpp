@@ -58,7 +58,7 @@ struct NewtonRule {{
       ++unchecked;
     }}
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 64 && contraction * size * size * 0x1p30f <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 1073741824 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}
