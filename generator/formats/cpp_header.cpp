@@ -16,7 +16,6 @@ namespace hamgen {
 
 namespace {
 
-constexpr const char* kVersion = "0.1.0";
 constexpr const char* kArguments =
     "[[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z";
 
@@ -172,7 +171,7 @@ class HeaderWriter {
     out.line(fmt::format("// {}, {}.  Generated: change the model, not this file.",
                          mechanics_.name, scheme.name));
     out.line("//");
-    out.line(fmt::format("//   made by   hamgen {}", kVersion));
+    out.line(fmt::format("//   made by   hamgen {}", HAMGEN_VERSION));
     if (!options_.command.empty()) out.line("//   command   " + options_.command);
     if (!options_.model_path.empty()) out.line("//   model     " + options_.model_path);
     std::string formula = mechanics_.hamiltonian_text;

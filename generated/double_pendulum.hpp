@@ -1,0 +1,296 @@
+// double_pendulum, symplectic-euler-a.  Generated: change the model, not this file.
+//
+//   made by   hamgen 0.1.0
+//   command   hamgen generate hamiltonians/double_pendulum.ham --alpha 0
+//   model     hamiltonians/double_pendulum.ham
+//   H(q, p) = (p1^2 + 2*p2^2 - 2*p1*p2*cos(q1 - q2))/(2*(1 + sin(q1 - q2)^2)) - 2*cos(q1) -
+//             cos(q2)
+//   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
+//   solve     Newton of size 2 on p1, p2
+//   left out  beta terms: beta = 0
+//             gamma terms: gamma = 0
+//   cost      per iteration: 51 + - *, 1 /; per step besides: 29 + - *, 1 /, 4 sqrt and functions
+#pragma once
+#include <cmath>
+
+namespace double_pendulum::symplectic_euler_a {
+
+using Real = double;
+
+struct Parameters {};
+
+struct State {
+  Real q1 = 0.0;  // angles of the two rods from the downward vertical [rad]
+  Real q2 = 0.0;  // angles of the two rods from the downward vertical [rad]
+  Real p1 = 0.0;
+  Real p2 = 0.0;
+};
+
+// On failure the increment says how far the iteration was from its end; it is not finite
+// where the step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  int iterations = 0;
+  Real increment = 0.0;
+};
+
+inline Real magnitude(Real x) { return std::fabs(x); }
+
+// H(q, p).
+inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+  const Real q1 = z.q1;
+  const Real q2 = z.q2;
+  const Real p1 = z.p1;
+  const Real p2 = z.p2;
+  const Real t1 = q1 - q2;
+  const Real t2 = std::sin(t1);
+  return -(2.0 * std::cos(q1) + std::cos(q2) -
+           0.5 * (p1 * p1 + 2.0 * (p2 * p2) - 2.0 * p1 * p2 * std::cos(t1)) / (1.0 + t2 * t2));
+}
+
+// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
+inline void add(Real& value, Real& carry, Real increment) {
+  const Real wanted = increment + carry;
+  const Real sum = value + wanted;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (wanted - part);
+  value = sum;
+}
+
+enum class Verdict { go_on, done, failed };
+
+// When to stop Newton's iteration: at round-off.  Increments shrink as
+//   next <= contraction * size^2,
+// where the contraction is measured, kept from step to step and checked at least every 64th step.
+// The last increment still enters the solution, so an iteration may stop when the next one would
+// be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
+// momenta it counts 1/h times: the factor 2^-30 keeps it below the sum of the rounding errors.
+struct NewtonRule {
+  Real contraction = 1.0e308;
+  int unchecked = 0;
+  Real previous = 0;
+  int grown = 0;
+
+  void begin() {
+    previous = 0;
+    grown = 0;
+  }
+  Verdict operator()(Real size, Real scale, int iterations) {
+    if (!(size <= 1.0e308)) return Verdict::failed;
+    const Real round_off = 0x1p-52 * scale;
+    if (previous > 0) {
+      const Real seen = size / (previous * previous);
+      if (size > 64 * round_off || seen < contraction) contraction = seen;
+      unchecked = 0;
+      // No progress twice in a row: this is round-off if it is small, else it may still recover.
+      grown = size < previous ? 0 : grown + 1;
+      if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+    } else {
+      ++unchecked;
+    }
+    if (size <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 1073741824 <= round_off) return Verdict::done;
+    previous = size;
+    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+  }
+};
+
+// Start values of the implicit equations and what is remembered of their solution.
+struct Start {
+  Real value[2] = {};
+  bool known = false;  // else the state itself is the start
+  NewtonRule rule_0;
+};
+
+// dz = Z - z for one step from z.
+[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par,
+                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
+                                      Start& start, State& dz) {
+  StepReport report;
+  const Real q1 = z.q1;
+  const Real q2 = z.q2;
+  const Real p1 = z.p1;
+  const Real p2 = z.p2;
+  const Real t1 = 2.0 * std::sin(q1);
+  const Real t2 = q1 - q2;
+  const Real t3 = std::sin(t2);
+  const Real t4 = 1.0 + t3 * t3;
+  const Real t5 = 1.0 / t4;
+  const Real t6 = t3 * t5;
+  const Real t7 = t5 * t5;
+  const Real t8 = std::cos(t2);
+  const Real t9 = t3 * t7 * t8;
+  const Real t10 = -2.0 * t8;
+  const Real t11 = std::sin(q2);
+  const Real t12 = -2.0 * t3 * t7 * t8;
+  Real H_q1 = 0.0;
+  Real H_q2 = 0.0;
+  Real H_q1_p1 = 0.0;
+  Real H_q1_p2 = 0.0;
+  Real delta_p1 = 0.0;
+  Real delta_p2 = 0.0;
+  Real p1_bar = start.known ? start.value[0] : p1;
+  Real p2_bar = start.known ? start.value[1] : p2;
+  // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
+  start.rule_0.begin();
+  for (int iteration = 1;; ++iteration) {
+    const Real t13 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
+    H_q1 = t1 - t13 * t9 + p1_bar * p2_bar * t6;
+    H_q2 = t11 + t13 * t9 - p1_bar * p2_bar * t6;
+    H_q1_p1 = p2_bar * t6 + t12 * (p1_bar - p2_bar * t8);
+    H_q1_p2 = p1_bar * t6 + t12 * (2.0 * p2_bar - p1_bar * t8);
+    const Real R_p1 = p1_bar - p1 + h * H_q1;
+    const Real R_p1_p1 = 1.0 + h * H_q1_p1;
+    const Real R_p1_p2 = h * H_q1_p2;
+    const Real R_p2 = p2_bar - p2 + h * H_q2;
+    const Real R_p2_p1 = -h * H_q1_p1;
+    const Real R_p2_p2 = 1.0 - h * H_q1_p2;
+    const Real inverse_det_p1 = 1.0 / (R_p1_p1 * R_p2_p2 - R_p1_p2 * R_p2_p1);
+    delta_p1 = -inverse_det_p1 * (R_p1 * R_p2_p2 - R_p1_p2 * R_p2);
+    delta_p2 = inverse_det_p1 * (R_p1 * R_p2_p1 - R_p1_p1 * R_p2);
+    const Real size = magnitude(delta_p1) + magnitude(delta_p2);
+    const Real scale = magnitude(p1_bar) + magnitude(p1) + magnitude(p2_bar) + magnitude(p2);
+    const Verdict verdict = start.rule_0(size, scale, iteration);
+    if (verdict == Verdict::failed) {
+      report.iterations += iteration;
+      report.increment = size;
+      return report;
+    }
+    if (verdict == Verdict::done) {
+      report.iterations += iteration;
+      break;
+    }
+    p1_bar += delta_p1;
+    p2_bar += delta_p2;
+  }
+  start.value[0] = p1_bar + delta_p1;
+  start.value[1] = p2_bar + delta_p2;
+  // The last increments correct the gradient to first order: no evaluation at the solution.
+  const Real H_q1_new = H_q1 + delta_p1 * H_q1_p1 + delta_p2 * H_q1_p2;
+  const Real H_q2_new = H_q2 - H_q1_p1 * delta_p1 - H_q1_p2 * delta_p2;
+  const Real p1_bar_new = p1_bar + delta_p1;
+  const Real p2_bar_new = p2_bar + delta_p2;
+  const Real H_p1 = t5 * (p1_bar_new - p2_bar_new * t8);
+  const Real H_p2 = t5 * (2.0 * p2_bar_new - p1_bar_new * t8);
+  dz.q1 = h * H_p1;
+  dz.q2 = h * H_p2;
+  dz.p1 = -h * H_q1_new;
+  dz.p2 = -h * H_q2_new;
+  // False for infinities and NaN alike.
+  const Real length = dz.q1 * dz.q1 + dz.q2 * dz.q2 + dz.p1 * dz.p1 + dz.p2 * dz.p2;
+  report.converged = length <= 1.0e308;
+  if (!report.converged) report.increment = length;
+  return report;
+}
+
+// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  Start start;
+  State dz;
+  const StepReport report = solve(par, h, z, start, dz);
+  if (!report.converged) return report;
+  z.q1 += dz.q1;
+  z.q2 += dz.q2;
+  z.p1 += dz.p1;
+  z.p2 += dz.p2;
+  return report;
+}
+
+// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
+// prediction of degree d and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.
+struct History {
+  static constexpr int unknowns = 2;
+  static constexpr int degrees = 8;
+  Real predicted[degrees][unknowns] = {};
+  int known = 0;
+  int best = 0;
+  int age = 0;
+
+  void record(const Real (&solution)[unknowns]) {
+    if (known < degrees || ++age == 16) choose(solution);
+    for (int i = 0; i < unknowns; ++i) {
+      Real earlier = 0;
+      for (int degree = 0; degree < degrees; ++degree) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - earlier;
+        earlier += kept;
+      }
+    }
+    if (known < degrees) ++known;
+  }
+  void choose(const Real (&solution)[unknowns]) {
+    age = 0;
+    Real least = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      Real error = 0;
+      for (int i = 0; i < unknowns; ++i) {
+        error += magnitude(solution[i] - predicted[degree][i]);
+      }
+      if (degree == 0 || error < least) {
+        least = error;
+        best = degree;
+      }
+    }
+  }
+  void extrapolate(Real (&solution)[unknowns]) const {
+    for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
+  }
+};
+
+// Many steps: start values are extrapolated, rounding errors of the updates carried along.
+class Propagator {
+ public:
+  Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z) {}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {
+    State dz;
+    start_.known = history_.known > 0;
+    if (start_.known) history_.extrapolate(start_.value);
+    StepReport report = solve(par_, h_, z_, start_, dz);
+    if (!report.converged && start_.known) {
+      // Extrapolation may lead astray, the state itself seldom does.
+      const int wasted = report.iterations;
+      start_ = Start();
+      report = solve(par_, h_, z_, start_, dz);
+      report.iterations += wasted;
+    }
+    if (!report.converged) return report;
+    history_.record(start_.value);
+    add(z_.q1, carry_.q1, dz.q1);
+    add(z_.q2, carry_.q2, dz.q2);
+    add(z_.p1, carry_.p1, dz.p1);
+    add(z_.p2, carry_.p2, dz.p2);
+    return report;
+  }
+
+  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  StepReport advance(long long steps) {
+    StepReport total;
+    total.converged = true;
+    for (long long i = 0; i < steps; ++i) {
+      const StepReport report = step();
+      total.iterations += report.iterations;
+      total.increment = report.increment;
+      if (!report.converged) {
+        total.converged = false;
+        break;
+      }
+    }
+    return total;
+  }
+
+  [[nodiscard]] const State& state() const { return z_; }
+
+ private:
+  Parameters par_;
+  Real h_;
+  State z_;
+  State carry_;
+  Start start_;
+  History history_;
+};
+
+}  // namespace double_pendulum::symplectic_euler_a

@@ -1,0 +1,137 @@
+// henon_heiles, symplectic-euler-a.  Generated: change the model, not this file.
+//
+//   made by   hamgen 0.1.0
+//   command   hamgen generate hamiltonians/henon_heiles.ham --scheme symplectic-euler-a
+//   model     hamiltonians/henon_heiles.ham
+//   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
+//   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
+//   solve     explicit
+//   left out  beta terms: beta = 0
+//             gamma terms: gamma = 0
+//             equation solver: the step is explicit
+//   cost      per step: 11 + - *
+#pragma once
+
+namespace henon_heiles::symplectic_euler_a {
+
+using Real = double;
+
+struct Parameters {};
+
+struct State {
+  Real q1 = 0.0;
+  Real q2 = 0.0;
+  Real p1 = 0.0;
+  Real p2 = 0.0;
+};
+
+// On failure the increment says how far the iteration was from its end; it is not finite
+// where the step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  int iterations = 0;
+  Real increment = 0.0;
+};
+
+// H(q, p).
+inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+  const Real q1 = z.q1;
+  const Real q2 = z.q2;
+  const Real p1 = z.p1;
+  const Real p2 = z.p2;
+  const Real t1 = q1 * q1;
+  const Real t2 = q2 * q2;
+  return 0.5 * t1 + 0.5 * (q2 * q2) + 0.5 * (p1 * p1) + 0.5 * (p2 * p2) + q2 * t1 -
+         (1.0 / 3.0) * q2 * t2;
+}
+
+// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
+inline void add(Real& value, Real& carry, Real increment) {
+  const Real wanted = increment + carry;
+  const Real sum = value + wanted;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (wanted - part);
+  value = sum;
+}
+
+// dz = Z - z for one step from z.
+[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par,
+                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
+                                      State& dz) {
+  StepReport report;
+  const Real q1 = z.q1;
+  const Real q2 = z.q2;
+  const Real p1 = z.p1;
+  const Real p2 = z.p2;
+  const Real H_q1 = q1 + 2.0 * q1 * q2;
+  const Real t1 = -h * H_q1;
+  const Real p1_bar = p1 + t1;
+  const Real H_q2 = q2 + q1 * q1 - q2 * q2;
+  const Real t2 = -h * H_q2;
+  const Real p2_bar = p2 + t2;
+  dz.q1 = h * p1_bar;
+  dz.q2 = h * p2_bar;
+  dz.p1 = t1;
+  dz.p2 = t2;
+  // False for infinities and NaN alike.
+  const Real length = dz.q1 * dz.q1 + dz.q2 * dz.q2 + dz.p1 * dz.p1 + dz.p2 * dz.p2;
+  report.converged = length <= 1.0e308;
+  if (!report.converged) report.increment = length;
+  return report;
+}
+
+// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  State dz;
+  const StepReport report = solve(par, h, z, dz);
+  if (!report.converged) return report;
+  z.q1 += dz.q1;
+  z.q2 += dz.q2;
+  z.p1 += dz.p1;
+  z.p2 += dz.p2;
+  return report;
+}
+
+// Many steps: rounding errors of the updates are carried along.
+class Propagator {
+ public:
+  Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z) {}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {
+    State dz;
+    const StepReport report = solve(par_, h_, z_, dz);
+    if (!report.converged) return report;
+    add(z_.q1, carry_.q1, dz.q1);
+    add(z_.q2, carry_.q2, dz.q2);
+    add(z_.p1, carry_.p1, dz.p1);
+    add(z_.p2, carry_.p2, dz.p2);
+    return report;
+  }
+
+  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  StepReport advance(long long steps) {
+    StepReport total;
+    total.converged = true;
+    for (long long i = 0; i < steps; ++i) {
+      const StepReport report = step();
+      total.iterations += report.iterations;
+      total.increment = report.increment;
+      if (!report.converged) {
+        total.converged = false;
+        break;
+      }
+    }
+    return total;
+  }
+
+  [[nodiscard]] const State& state() const { return z_; }
+
+ private:
+  Parameters par_;
+  Real h_;
+  State z_;
+  State carry_;
+};
+
+}  // namespace henon_heiles::symplectic_euler_a

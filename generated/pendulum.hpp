@@ -1,0 +1,270 @@
+// pendulum, implicit-midpoint.  Generated: change the model, not this file.
+//
+//   made by   hamgen 0.1.0
+//   command   hamgen generate hamiltonians/pendulum.ham
+//   model     hamiltonians/pendulum.ham
+//   H(q, p) = p^2/2 - eps*cos(q)
+//   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   solve     Newton of size 1 on q; p torn out
+//   left out  beta terms: beta = 0
+//             gamma terms: gamma = 0
+//             1 of the unknowns: torn out
+//   cost      per iteration: 10 + - *, 1 /, 2 sqrt and functions; per step besides: 4 + - *
+#pragma once
+#include <cmath>
+
+namespace pendulum::implicit_midpoint {
+
+using Real = double;
+
+struct Parameters {
+  Real eps = 0.03;  // strength of gravity [1/s^2]
+};
+
+struct State {
+  Real q = 0.0;  // angle from the downward vertical [rad]
+  Real p = 0.0;  // mass times length squared is 1 [rad/s]
+};
+
+// On failure the increment says how far the iteration was from its end; it is not finite
+// where the step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  int iterations = 0;
+  Real increment = 0.0;
+};
+
+inline Real magnitude(Real x) { return std::fabs(x); }
+
+// H(q, p).
+inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+  const Real q = z.q;
+  const Real p = z.p;
+  return 0.5 * (p * p) - par.eps * std::cos(q);
+}
+
+// What depends on h and the parameters alone.
+struct Coefficients {
+  Real c1 = 0.0;  // -h/2
+};
+
+inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
+  Coefficients k;
+  k.c1 = -0.5 * h;
+  return k;
+}
+
+// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
+inline void add(Real& value, Real& carry, Real increment) {
+  const Real wanted = increment + carry;
+  const Real sum = value + wanted;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (wanted - part);
+  value = sum;
+}
+
+enum class Verdict { go_on, done, failed };
+
+// When to stop Newton's iteration: at round-off.  Increments shrink as
+//   next <= contraction * size^2,
+// where the contraction is measured, kept from step to step and checked at least every 64th step.
+// The last increment still enters the solution, so an iteration may stop when the next one would
+// be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
+// momenta it counts 1/h times: the factor 2^-30 keeps it below the sum of the rounding errors.
+struct NewtonRule {
+  Real contraction = 1.0e308;
+  int unchecked = 0;
+  Real previous = 0;
+  int grown = 0;
+
+  void begin() {
+    previous = 0;
+    grown = 0;
+  }
+  Verdict operator()(Real size, Real scale, int iterations) {
+    if (!(size <= 1.0e308)) return Verdict::failed;
+    const Real round_off = 0x1p-52 * scale;
+    if (previous > 0) {
+      const Real seen = size / (previous * previous);
+      if (size > 64 * round_off || seen < contraction) contraction = seen;
+      unchecked = 0;
+      // No progress twice in a row: this is round-off if it is small, else it may still recover.
+      grown = size < previous ? 0 : grown + 1;
+      if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+    } else {
+      ++unchecked;
+    }
+    if (size <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 1073741824 <= round_off) return Verdict::done;
+    previous = size;
+    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+  }
+};
+
+// Start values of the implicit equations and what is remembered of their solution.
+struct Start {
+  Real value[1] = {};
+  bool known = false;  // else the state itself is the start
+  NewtonRule rule_0;
+};
+
+// dz = Z - z for one step from z.
+[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
+                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
+                                      Start& start, State& dz) {
+  StepReport report;
+  const Real q = z.q;
+  const Real p = z.p;
+  Real H_q = 0.0;
+  Real p_bar = 0.0;
+  Real H_q_q = 0.0;
+  Real d_p_d_q = 0.0;
+  Real delta_q = 0.0;
+  Real q_bar = start.known ? start.value[0] : q;
+  // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
+  start.rule_0.begin();
+  for (int iteration = 1;; ++iteration) {
+    H_q = par.eps * std::sin(q_bar);
+    p_bar = p + k.c1 * H_q;
+    H_q_q = par.eps * std::cos(q_bar);
+    d_p_d_q = k.c1 * H_q_q;
+    const Real R_q = q_bar - q + p_bar * k.c1;
+    const Real R_q_q = 1.0 + k.c1 * d_p_d_q;
+    delta_q = -R_q / R_q_q;
+    const Real size = magnitude(delta_q);
+    const Real scale = magnitude(q_bar) + magnitude(q);
+    const Verdict verdict = start.rule_0(size, scale, iteration);
+    if (verdict == Verdict::failed) {
+      report.iterations += iteration;
+      report.increment = size;
+      return report;
+    }
+    if (verdict == Verdict::done) {
+      report.iterations += iteration;
+      break;
+    }
+    q_bar += delta_q;
+  }
+  start.value[0] = q_bar + delta_q;
+  // The last increments correct the gradient to first order: no evaluation at the solution.
+  const Real H_q_new = H_q + delta_q * H_q_q;
+  const Real H_p_new = p_bar + d_p_d_q * delta_q;
+  dz.q = h * H_p_new;
+  dz.p = -h * H_q_new;
+  // False for infinities and NaN alike.
+  const Real length = dz.q * dz.q + dz.p * dz.p;
+  report.converged = length <= 1.0e308;
+  if (!report.converged) report.increment = length;
+  return report;
+}
+
+// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  const Coefficients k = prepare(par, h);
+  Start start;
+  State dz;
+  const StepReport report = solve(par, k, h, z, start, dz);
+  if (!report.converged) return report;
+  z.q += dz.q;
+  z.p += dz.p;
+  return report;
+}
+
+// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
+// prediction of degree d and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.
+struct History {
+  static constexpr int unknowns = 1;
+  static constexpr int degrees = 8;
+  Real predicted[degrees][unknowns] = {};
+  int known = 0;
+  int best = 0;
+  int age = 0;
+
+  void record(const Real (&solution)[unknowns]) {
+    if (known < degrees || ++age == 16) choose(solution);
+    for (int i = 0; i < unknowns; ++i) {
+      Real earlier = 0;
+      for (int degree = 0; degree < degrees; ++degree) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - earlier;
+        earlier += kept;
+      }
+    }
+    if (known < degrees) ++known;
+  }
+  void choose(const Real (&solution)[unknowns]) {
+    age = 0;
+    Real least = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      Real error = 0;
+      for (int i = 0; i < unknowns; ++i) {
+        error += magnitude(solution[i] - predicted[degree][i]);
+      }
+      if (degree == 0 || error < least) {
+        least = error;
+        best = degree;
+      }
+    }
+  }
+  void extrapolate(Real (&solution)[unknowns]) const {
+    for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
+  }
+};
+
+// Many steps: start values are extrapolated, rounding errors of the updates carried along.
+class Propagator {
+ public:
+  Propagator(const Parameters& par, Real h, const State& z)
+      : par_(par), h_(h), z_(z), k_(prepare(par, h)) {}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {
+    State dz;
+    start_.known = history_.known > 0;
+    if (start_.known) history_.extrapolate(start_.value);
+    StepReport report = solve(par_, k_, h_, z_, start_, dz);
+    if (!report.converged && start_.known) {
+      // Extrapolation may lead astray, the state itself seldom does.
+      const int wasted = report.iterations;
+      start_ = Start();
+      report = solve(par_, k_, h_, z_, start_, dz);
+      report.iterations += wasted;
+    }
+    if (!report.converged) return report;
+    history_.record(start_.value);
+    add(z_.q, carry_.q, dz.q);
+    add(z_.p, carry_.p, dz.p);
+    return report;
+  }
+
+  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  StepReport advance(long long steps) {
+    StepReport total;
+    total.converged = true;
+    for (long long i = 0; i < steps; ++i) {
+      const StepReport report = step();
+      total.iterations += report.iterations;
+      total.increment = report.increment;
+      if (!report.converged) {
+        total.converged = false;
+        break;
+      }
+    }
+    return total;
+  }
+
+  [[nodiscard]] const State& state() const { return z_; }
+
+ private:
+  Parameters par_;
+  Real h_;
+  State z_;
+  State carry_;
+  Coefficients k_;
+  Start start_;
+  History history_;
+};
+
+}  // namespace pendulum::implicit_midpoint

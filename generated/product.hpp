@@ -1,0 +1,136 @@
+// product, symplectic-euler-b.  Generated: change the model, not this file.
+//
+//   made by   hamgen 0.1.0
+//   command   hamgen generate hamiltonians/product.ham --scheme symplectic-euler-b
+//   model     hamiltonians/product.ham
+//   H(q, p) = (q^2 + 1)*(p^2 + 1)/2
+//   scheme    alpha = 1, beta = 0, gamma = 0: order 1, symplectic
+//   solve     quadratic equation for q, root in closed form
+//   left out  beta terms: beta = 0
+//             gamma terms: gamma = 0
+//   cost      per step: 21 + - *, 1 /, 1 sqrt and functions
+#pragma once
+#include <cmath>
+
+namespace product::symplectic_euler_b {
+
+using Real = double;
+
+struct Parameters {};
+
+struct State {
+  Real q = 0.0;
+  Real p = 0.0;
+};
+
+// On failure the increment says how far the iteration was from its end; it is not finite
+// where the step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  int iterations = 0;
+  Real increment = 0.0;
+};
+
+// H(q, p).
+inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+  const Real q = z.q;
+  const Real p = z.p;
+  return 0.5 * (1.0 + q * q) * (1.0 + p * p);
+}
+
+// What depends on h and the parameters alone.
+struct Coefficients {
+  Real c1 = 0.0;  // -2*h
+};
+
+inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
+  Coefficients k;
+  k.c1 = -2.0 * h;
+  return k;
+}
+
+// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
+inline void add(Real& value, Real& carry, Real increment) {
+  const Real wanted = increment + carry;
+  const Real sum = value + wanted;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (wanted - part);
+  value = sum;
+}
+
+// dz = Z - z for one step from z.
+[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
+                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
+                                      State& dz) {
+  StepReport report;
+  const Real q = z.q;
+  const Real p = z.p;
+  const Real c0_q = -h * p * (1.0 + q * q);
+  const Real c1_q = 1.0 + q * p * k.c1;
+  const Real c2_q = -h * p;
+  const Real q_bar = q - 2.0 * c0_q / (c1_q + std::sqrt(c1_q * c1_q - 4.0 * c0_q * c2_q));
+  const Real H_p = p * (1.0 + q_bar * q_bar);
+  const Real H_q = q_bar * (1.0 + p * p);
+  dz.q = h * H_p;
+  dz.p = -h * H_q;
+  // False for infinities and NaN alike.
+  const Real length = dz.q * dz.q + dz.p * dz.p;
+  report.converged = length <= 1.0e308;
+  if (!report.converged) report.increment = length;
+  return report;
+}
+
+// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  const Coefficients k = prepare(par, h);
+  State dz;
+  const StepReport report = solve(par, k, h, z, dz);
+  if (!report.converged) return report;
+  z.q += dz.q;
+  z.p += dz.p;
+  return report;
+}
+
+// Many steps: rounding errors of the updates are carried along.
+class Propagator {
+ public:
+  Propagator(const Parameters& par, Real h, const State& z)
+      : par_(par), h_(h), z_(z), k_(prepare(par, h)) {}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {
+    State dz;
+    const StepReport report = solve(par_, k_, h_, z_, dz);
+    if (!report.converged) return report;
+    add(z_.q, carry_.q, dz.q);
+    add(z_.p, carry_.p, dz.p);
+    return report;
+  }
+
+  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  StepReport advance(long long steps) {
+    StepReport total;
+    total.converged = true;
+    for (long long i = 0; i < steps; ++i) {
+      const StepReport report = step();
+      total.iterations += report.iterations;
+      total.increment = report.increment;
+      if (!report.converged) {
+        total.converged = false;
+        break;
+      }
+    }
+    return total;
+  }
+
+  [[nodiscard]] const State& state() const { return z_; }
+
+ private:
+  Parameters par_;
+  Real h_;
+  State z_;
+  State carry_;
+  Coefficients k_;
+};
+
+}  // namespace product::symplectic_euler_b
