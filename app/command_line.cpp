@@ -48,10 +48,10 @@ void require_no_member_besides_scheme(const MethodOptions& options) {
   }
 }
 
-// A value as a C++ comment can hold it: no line ends, no other control characters.
-std::string printable(std::string text) {
+// A value as one line of a C++ comment can hold it.
+std::string on_one_line(std::string text) {
   for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
   return text;
 }
@@ -182,9 +182,9 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--scalar", request.scalar);
   for (const std::string& name : request.fold) add("--fold", name);
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
-  add("--format", request.format);
+  if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
-  return printable(runtime::command_text(words));
+  return on_one_line(runtime::command_text(words));
 }
 
 }  // namespace hamgen::app

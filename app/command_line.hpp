@@ -66,8 +66,7 @@ struct SizesAndRest {
 };
 [[nodiscard]] SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set);
 
-// The request without sizes; `rest_of_command` ends the command that is quoted in emitted files.
-// Throws UsageError where the options contradict each other.
+// The request without sizes.  Throws UsageError where the options contradict each other.
 [[nodiscard]] Request request_of(const MethodOptions& options);
 // The request of a command that knows no run-time values: --set is for sizes only.
 [[nodiscard]] Request request_with_sizes(const MethodOptions& options, const SourceText& source);

@@ -33,6 +33,14 @@ std::string usage_line(const CLI::App& app) {
   return line + " [options]\n";
 }
 
+// "runs a model" as "Runs a model."
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  if (text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text.ends_with('.') ? text : text + ".";
+}
+
 class ShortHelp : public CLI::FormatterBase {
  public:
   std::string make_help(const CLI::App* app, std::string /*name*/,
@@ -49,7 +57,7 @@ class ShortHelp : public CLI::FormatterBase {
     }
     std::size_t width = 0;
     for (const Row& row : rows) width = std::max(width, row.left.size());
-    std::string text = usage_line(*app) + app->get_description() + "\n";
+    std::string text = usage_line(*app) + sentence(app->get_description()) + "\n";
     for (const Row& row : rows) text += fmt::format("  {:<{}}  {}\n", row.left, width, row.right);
     return app->get_footer().empty() ? text : text + app->get_footer() + "\n";
   }

@@ -40,6 +40,9 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
                     const std::vector<std::string>& words) {
   const CLI::App& command = chosen(app);
   std::string text = fmt::format("hamgen: {}\n", error.what());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    text = fmt::format("hamgen: {}: one value is wanted, once\n",
+                       text.substr(8, text.find(':', 8) - 8));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
       (command.get_parent() == nullptr && !words.empty())) {
     const std::vector<std::string> extras = command.remaining();

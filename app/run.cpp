@@ -58,17 +58,19 @@ SceneRequest scene_request(const RunOptions& options, std::vector<Assignment> se
   return request;
 }
 
-// The distance of records: the option, else the scene's, else every step unless that is a flood.
+// The distance of records: the option, else the scene's, else 1; the last two unless that makes a
+// flood of rows, as a scene's distance may with many more steps than the scene has.
 long record_distance(const RunOptions& options, const SceneValues& scene) {
   constexpr long flood = 10'000'000;
   if (!options.every.empty()) return positive_integer("--every", options.every);
-  if (scene.every) return *scene.every;
-  if (!options.output.empty() && *scene.steps > flood)
+  const long every = scene.every.value_or(1);
+  const long rows = *scene.steps / every;
+  if (!options.output.empty() && rows > flood)
     throw UsageError(
-        fmt::format("-o {} would record {} steps\nhelp: record fewer, for example --every {}; or "
-                    "say --every 1",
-                    options.output, *scene.steps, *scene.steps / 10'000));
-  return 1;
+        fmt::format("-o {} would get {} rows\nhelp: record fewer, for example --every {}; or say "
+                    "--every {} if you mean it",
+                    options.output, rows, std::max(1L, *scene.steps / 10'000), every));
+  return every;
 }
 
 runtime::LoadedPlugin load(const PluginSource& plugin, const RunOptions& options) {

@@ -66,9 +66,8 @@ std::string seconds_text(double seconds) {
 std::string energy_text(const RunReport& report) {
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, at the end {:.3g}",
-                     number_text(energy.initial), energy.max_error(), energy.spread(),
-                     energy.final_error());
+  return fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
+                     energy.max_error(), energy.spread(), energy.final_error());
 }
 
 std::string time_text(const RunReport& report) {
@@ -143,16 +142,16 @@ std::string failure_text(const RunReport& report) {
     case runtime::Status::done:
       return "";
     case runtime::Status::stopped:
-      return fmt::format("stopped after {} of {} steps, at t = {}", summary.steps_done,
-                         *report.scene->steps, number_text(t));
+      return fmt::format("stopped after {} of {} steps, at t = {:.10g}", summary.steps_done,
+                         *report.scene->steps, t);
     case runtime::Status::not_converged:
       return fmt::format(
-          "step {} did not converge: at t = {}, h = {}, {} iterations, last increment {}", step,
-          number_text(t), number_text(h), summary.last_iterations, increment);
+          "step {} did not converge: at t = {:.10g}, h = {}, {} iterations, last increment {}",
+          step, t, number_text(h), summary.last_iterations, increment);
     case runtime::Status::not_finite:
       return fmt::format(
-          "step {} left the domain of H or overflowed: at t = {}, h = {}, last increment {}", step,
-          number_text(t), number_text(h), increment);
+          "step {} left the domain of H or overflowed: at t = {:.10g}, h = {}, last increment {}",
+          step, t, number_text(h), increment);
   }
   return "";
 }
@@ -171,13 +170,13 @@ std::string summary_text(const RunReport& report) {
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
-    text += entry("invariant",
-                  fmt::format("{} = {}; error at the end {:.3g}", plugin.invariant_names[i],
-                              number_text(report.initial_invariants[i]),
-                              report.final_invariants[i] - report.initial_invariants[i]));
+    text +=
+        entry("invariant", fmt::format("{} = {:.10g}; last error {:.3g}", plugin.invariant_names[i],
+                                       report.initial_invariants[i],
+                                       report.final_invariants[i] - report.initial_invariants[i]));
   const std::size_t n = report.state.size() / 2;
-  text += entry("end", fmt::format("q = {}; p = {}", numbers(report.state, 0, n),
-                                   numbers(report.state, n, 2 * n)));
+  text += entry("last q", numbers(report.state, 0, n));
+  text += entry("last p", numbers(report.state, n, 2 * n));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
   return text + entry("header", report.header);

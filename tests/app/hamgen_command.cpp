@@ -25,7 +25,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }  // namespace
 
 Result hamgen(const std::vector<std::string>& arguments,
-              const std::vector<std::string>& environment) {
+              const std::vector<std::string>& environment, const std::string& working_directory) {
   const Scratch scratch;
   const std::string out = scratch.path("out");
   const std::string err = scratch.path("err");
@@ -44,6 +44,7 @@ Result hamgen(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
+  posix_spawn_file_actions_addchdir_np(&actions, working_directory.c_str());
   pid_t child = 0;
   const int failure = posix_spawn(&child, HAMGEN_EXECUTABLE, &actions, nullptr,
                                   pointers(words).data(), pointers(variables).data());

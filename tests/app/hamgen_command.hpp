@@ -16,7 +16,8 @@ struct Result {
 
 // Environment entries such as "CXX=clang++" are added to this process's own.
 [[nodiscard]] Result hamgen(const std::vector<std::string>& arguments,
-                            const std::vector<std::string>& environment = {});
+                            const std::vector<std::string>& environment = {},
+                            const std::string& working_directory = ".");
 
 // A directory that is removed at the end of the test.
 class Scratch {

@@ -158,6 +158,15 @@ TEST(Run, StreamsTheTrajectoryToStandardOutput) {
   EXPECT_TRUE(contains(both.err, "-o FILE.csv")) << both.err;
 }
 
+TEST(Run, AsksBeforeItFloodsTheDisk) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"run", model, "--steps", "1e9", "-o", scratch.path("x.csv")});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "--every 100000")) << result.err;
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham"}));
+}
+
 TEST(Run, NeedsAnInitialStateStepsAndStepSize) {
   const Scratch scratch;
   const std::string model = scratch.write("two.ham", two_oscillators);
