@@ -177,6 +177,13 @@ std::string show_stage(const SourceText& source, const Request& request, const s
       "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
 }
 
+Proof verify_step(const SourceText& source, const Request& request) {
+  const Model model = read(source, request);
+  const Mechanics mechanics = derive(model);
+  return verify(plan_solve(discretise(mechanics, choose_scheme(model, mechanics, request)),
+                           request.solver));
+}
+
 PluginSource generate_plugin(const SourceText& source, const Request& request) {
   Stages stages = run_stages(source, request);
   const CppOptions options = cpp_options(source, stages.program, request);

@@ -9,6 +9,7 @@
 #include "generator/base/source_text.hpp"
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
+#include "generator/verify/proof.hpp"
 
 namespace hamgen {
 
@@ -32,6 +33,9 @@ struct Request {
 // The value of one stage as text: "model", "mechanics", "equations", "plan", "program".
 [[nodiscard]] std::string show_stage(const SourceText& source, const Request& request,
                                      const std::string& stage);
+
+// What algebra can say of the step: one finding a property.
+[[nodiscard]] Proof verify_step(const SourceText& source, const Request& request);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/algebra/from_ginac.hpp"
+#include "generator/verify/proof.hpp"
+
+namespace hamgen {
+
+namespace {
+
+using Entries = std::map<std::pair<int, int>, Expression>;
+
+Expression entry(const Entries& matrix, int i, int j) {
+  const auto it = matrix.find({i, j});
+  return it == matrix.end() ? Expression(0) : it->second;
+}
+
+bool vanishes(const Expression& e) {
+  if (e.is_zero()) return true;
+  SymbolTable table;
+  return to_ginac(e, table).expand().is_zero();
+}
+
+GiNaC::matrix canonical_j(unsigned n) {
+  GiNaC::matrix j(2 * n, 2 * n);
+  for (unsigned i = 0; i < n; ++i) {
+    j(i, n + i) = 1;
+    j(n + i, i) = -1;
+  }
+  return j;
+}
+
+}  // namespace
+
+Finding prove_gauge(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign turned.
+  Entries residual;
+  for (const auto& [place, value] : member.c) {
+    const auto [row, column] = place;
+    const int target = column < n ? column + n : column - n;
+    const Expression signed_value = column < n ? value : -value;
+    Expression& cj = residual[{row, target}];
+    cj = cj + signed_value;
+    Expression& jct = residual[{target, row}];
+    jct = jct - signed_value;
+  }
+  for (const auto& [place, value] : residual) {
+    if (vanishes(value)) continue;
+    return {"gauge in sp(2n)", Verdict::refuted,
+            fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,
+                        to_text(value))};
+  }
+  return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
+}
+
+Finding prove_step_symplectic(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  const int m = std::min(n, 3);
+  const auto size = static_cast<unsigned>(2 * m);
+  SymbolTable table;
+  const GiNaC::ex h = table.symbol("h", 0);
+  // The generic symmetric S and the gauge of the first m degrees of freedom.
+  GiNaC::matrix s(size, size);
+  GiNaC::matrix c(size, size);
+  const GiNaC::ex half = GiNaC::numeric(1, 2);
+  auto place = [&](unsigned i) { return static_cast<int>(i) < m ? static_cast<int>(i) : n - m + static_cast<int>(i); };
+  for (unsigned i = 0; i < size; ++i) {
+    for (unsigned j = 0; j < size; ++j) {
+      s(i, j) = table.symbol(fmt::format("S{}_{}", std::min(i, j) + 1, std::max(i, j) + 1), 0);
+      c(i, j) = to_ginac(entry(member.c, place(i), place(j)), table);
+    }
+  }
+  const GiNaC::matrix j = canonical_j(static_cast<unsigned>(m));
+  GiNaC::matrix one(size, size);
+  for (unsigned i = 0; i < size; ++i) one(i, i) = 1;
+  const GiNaC::matrix js = j.mul(s).mul_scalar(h);
+  const GiNaC::matrix plus = one.sub(js.mul(one.mul_scalar(half).add(c)));
+  const GiNaC::matrix minus = one.add(js.mul(one.mul_scalar(half).sub(c)));
+  const GiNaC::matrix left = plus.mul(j).mul(plus.transpose());
+  const GiNaC::matrix right = minus.mul(j).mul(minus.transpose());
+  for (unsigned row = 0; row < size; ++row) {
+    for (unsigned column = 0; column < size; ++column) {
+      const GiNaC::ex difference = (left(row, column) - right(row, column)).expand();
+      if (difference.is_zero()) continue;
+      return {"symplectic", Verdict::refuted,
+              fmt::format("entry ({}, {}) of A+ J A+^T - A- J A-^T is {}", row + 1, column + 1,
+                          to_text(from_ginac(difference, table)))};
+    }
+  }
+  if (m == n) {
+    return {"symplectic", Verdict::proved,
+            fmt::format("A+ J A+^T = A- J A-^T for every symmetric Hessian, all {} entries expand "
+                        "to zero; for exactly solved steps",
+                        size * size)};
+  }
+  const Finding gauge = prove_gauge(member);
+  return {"symplectic", gauge.verdict,
+          fmt::format("A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J, and {}; checked entry by "
+                      "entry on the first {} of {} degrees of freedom",
+                      gauge.detail, m, n)};
+}
+
+Finding prove_symmetric(const Member& member) {
+  for (const auto& [place, value] : member.c) {
+    const Expression reflected = substitute(value, {{"h", -Expression::symbol("h", kRankOfStep)}});
+    if (vanishes(reflected + value)) continue;
+    return {"symmetric", Verdict::refuted,
+            fmt::format("C(-h) + C(h) has the entry ({}, {}) = {}; the adjoint is the member -C",
+                        place.first + 1, place.second + 1, to_text(reflected + value))};
+  }
+  return {"symmetric", Verdict::proved, "C(-h) = -C(h): the step is its own adjoint"};
+}
+
+// With f = J grad H and C = C0 + h C1 + O(h^2), the step minus the flow is
+//   h^2 f'(C0 f) + h^3 ( f'(C1 f) - f''(f, f)/24 + f'(f'(f))/12 + terms in C0 ) + O(h^4):
+// zbar = z + h (1/2 + C) f + ..., Z = z + h f(zbar), against the flow's h^2/2 f'f + h^3/6 (...).
+Finding prove_order(const Member& member) {
+  for (const auto& [place, value] : member.c) {
+    const Expression at_zero = substitute(value, {{"h", Expression(0)}});
+    if (vanishes(at_zero)) continue;
+    return {"order 1", Verdict::proved,
+            fmt::format("leading error h^2 f'(C0 f), f = J grad H; C0 has the entry ({}, {}) = {}",
+                        place.first + 1, place.second + 1, to_text(at_zero))};
+  }
+  return {"order 2", Verdict::proved,
+          "C(0) = 0; leading error h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12), f = J grad H"};
+}
+
+}  // namespace hamgen

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/verify/proof.hpp"
+
+namespace hamgen {
+
+Proof verify(const SolvePlan& plan) {
+  const Member& member = plan.equations.scheme.member;
+  Proof proof{prove_gauge(member)};
+  if (plan.sweeps) {
+    // After K sweeps Z is off the solution by O(h^(K+2)), an error no symplectic map needs.
+    proof.push_back({"symplectic", Verdict::refuted,
+                     fmt::format("{} sweeps leave the step unsolved: the defect M^T J M - J is "
+                                 "O(h^{})",
+                                 *plan.sweeps, *plan.sweeps + 2)});
+    proof.push_back({"symmetric", Verdict::refuted, "the predictor is explicit Euler"});
+    return proof;
+  }
+  proof.push_back(prove_step_symplectic(member));
+  proof.push_back(prove_symmetric(member));
+  proof.push_back(prove_order(member));
+  for (Finding& finding : prove_invariants(plan.equations.mechanics, member)) {
+    proof.push_back(std::move(finding));
+  }
+  return proof;
+}
+
+std::string to_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::proved: return "proved";
+    case Verdict::refuted: return "refuted";
+    case Verdict::not_decided: return "not decided";
+  }
+  return "";
+}
+
+std::string to_text(const Proof& proof) {
+  std::size_t width = 0;
+  for (const Finding& finding : proof) width = std::max(width, finding.property.size());
+  std::string text;
+  for (const Finding& finding : proof) {
+    text += fmt::format("{:{}}  {:11}  {}\n", finding.property, width, to_text(finding.verdict),
+                        finding.detail);
+  }
+  return text;
+}
+
+}  // namespace hamgen
