@@ -32,7 +32,7 @@ void check_scenes(const Model& model) {
 }
 
 int check(const MethodOptions& options) {
-  const SourceText source = read_source(options.model);
+  const SourceText source = read_model_source(options);
   const Request request = request_with_sizes(options, source);
   const Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) print_error(render(model.warnings, source));

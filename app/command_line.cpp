@@ -107,16 +107,17 @@ std::vector<Assignment> split_assignments(std::string_view option, std::string_v
   return assignments;
 }
 
-long positive_integer(const std::string& option, const std::string& text) {
+long integer_value(const std::string& what, const std::string& text, long least) {
   constexpr long largest = 1'000'000'000'000'000;
   std::optional<Rational> value;
   try {
-    value = evaluate_constant(read_expression(option, text, {}), make_source(option, text), {});
+    value = evaluate_constant(read_expression(what, text, {}), make_source(what, text), {});
   } catch (const ModelError&) {
     value.reset();
   }
-  if (!value || value->get_den() != 1 || *value < 1 || *value > largest)
-    throw UsageError(fmt::format("{} {}: not an integer between 1 and 1e15", option, text));
+  if (!value || value->get_den() != 1 || *value < least || *value > largest)
+    throw UsageError(fmt::format("{}: not an integer between {} and 1e15", what,
+                                 least == -largest ? "-1e15" : std::to_string(least)));
   return value->get_num().get_si();
 }
 
@@ -128,11 +129,18 @@ SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set
     const bool is_size = std::ranges::any_of(
         model.sizes, [&name = name](const Size& size) { return size.name == name; });
     if (is_size)
-      result.sizes[name] = positive_integer("--set " + name, value);
+      result.sizes[name] = integer_value("--set " + text, value, -1'000'000'000'000'000);
     else
       result.rest.push_back(assignment);
   }
   return result;
+}
+
+SourceText read_model_source(const MethodOptions& options) {
+  if (on_one_line(options.model) != options.model)
+    throw UsageError(fmt::format("{}: a path with control characters cannot be quoted",
+                                 on_one_line(options.model)));
+  return read_source(options.model);
 }
 
 Request request_of(const MethodOptions& options) {

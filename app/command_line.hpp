@@ -19,6 +19,7 @@ enum ExitStatus : int {
   model_error = 3,
   tool_failure = 4,
   proof_failed = 5,
+  interrupted = 130,  // as shells report it
 };
 
 // A subcommand: how its arguments are read, and what it does once they are (its exit status).
@@ -31,6 +32,7 @@ struct Command {
 [[nodiscard]] Command add_show(CLI::App& app);
 [[nodiscard]] Command add_generate(CLI::App& app);
 [[nodiscard]] Command add_run(CLI::App& app);
+[[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);
 
@@ -56,8 +58,9 @@ using Assignment = std::pair<std::string, std::string>;
 // before it, which becomes a list.
 [[nodiscard]] std::vector<Assignment> split_assignments(std::string_view option,
                                                         std::string_view text);
-// A positive integer such as "100" or "1e6"; throws UsageError naming the option.
-[[nodiscard]] long positive_integer(const std::string& option, const std::string& text);
+// An integer such as "100" or "1e6" within [least, 1e15]; throws UsageError that begins with
+// `what`, the option and its value as typed.
+[[nodiscard]] long integer_value(const std::string& what, const std::string& text, long least);
 
 // --set of sizes goes into the request, the rest is handed back in the order given.
 struct SizesAndRest {
@@ -66,6 +69,9 @@ struct SizesAndRest {
 };
 [[nodiscard]] SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set);
 
+// The model's text.  Throws UsageError if it cannot be read, or if its path has characters that the
+// emitted files, which quote it, cannot hold.
+[[nodiscard]] SourceText read_model_source(const MethodOptions& options);
 // The request without sizes.  Throws UsageError where the options contradict each other.
 [[nodiscard]] Request request_of(const MethodOptions& options);
 // The request of a command that knows no run-time values: --set is for sizes only.

@@ -87,7 +87,7 @@ int generate_files(const GenerateOptions& options) {
   if (options.check && options.output.empty())
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   require_namespace(options.name_space);
-  const SourceText source = read_source(options.method.model);
+  const SourceText source = read_model_source(options.method);
   Request request = request_with_sizes(options.method, source);
   request.format = options.format;
   request.name_space = options.name_space;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "generator/base/diagnostic.hpp"
+#include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -28,8 +29,8 @@ void require_folded_defaults(const Model& model, const SceneValues& scene) {
       throw UsageError(
           fmt::format("--fold {0}: its default {1} is burnt in, but this run sets it to {2}\n"
                       "help: leave out --fold {0}, or change the default in {3}",
-                      parameter.name, shortest_decimal(to_double(defaults[i])),
-                      shortest_decimal(to_double(scene.parameters[i])), model.source.path));
+                      parameter.name, runtime::number_text(to_double(defaults[i])),
+                      runtime::number_text(to_double(scene.parameters[i])), model.source.path));
     }
     first = end;
   }
@@ -39,8 +40,13 @@ std::string state_text(const std::vector<std::string>& names, const std::vector<
   constexpr std::size_t largest = 8;
   std::string text;
   for (std::size_t i = 0; i < std::min(state.size(), largest); ++i)
-    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i], shortest_decimal(state[i]));
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i], runtime::number_text(state[i]));
   return state.size() > largest ? text + ", ..." : text;
+}
+
+// The sign of a nan means nothing.
+std::string not_finite_text(double value) {
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
 }
 
 // "dH/dq[2] = nan", empty if H and its gradient are finite.
@@ -49,10 +55,11 @@ std::string undefined_component(const runtime::Library& library,
                                 const std::vector<double>& parameters,
                                 const std::vector<double>& state) {
   const double energy = library.energy(parameters, state);
-  if (!std::isfinite(energy)) return fmt::format("H = {}", energy);
+  if (!std::isfinite(energy)) return "H = " + not_finite_text(energy);
   const std::vector<double> gradient = library.gradient(parameters, state);
   for (std::size_t i = 0; i < gradient.size(); ++i) {
-    if (!std::isfinite(gradient[i])) return fmt::format("dH/d{} = {}", names[i], gradient[i]);
+    if (!std::isfinite(gradient[i]))
+      return fmt::format("dH/d{} = {}", names[i], not_finite_text(gradient[i]));
   }
   return "";
 }

@@ -6,11 +6,11 @@ namespace hamgen::app {
 namespace {
 
 // A signal handler can reach nothing but globals.
-std::atomic<bool> interrupted = false;
+std::atomic<bool> flag = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void interrupt(int signal) {
-  interrupted = true;
+  flag = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -19,7 +19,7 @@ extern "C" void interrupt(int signal) {
 const std::atomic<bool>& interrupt_flag() {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
-  return interrupted;
+  return flag;
 }
 
 }  // namespace hamgen::app

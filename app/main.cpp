@@ -5,6 +5,7 @@
 #include <new>
 
 #include "app/command_line.hpp"
+#include "app/interrupt.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/tool_error.hpp"
@@ -18,6 +19,10 @@ void refuse_empty_values(const std::vector<std::string>& words) {
     if (word.starts_with("--") && word.size() > 3 && word.find('=') == word.size() - 1)
       throw UsageError(fmt::format("{} has no value", word));
   }
+}
+
+std::string_view without_line_end(std::string_view text) {
+  return text.substr(0, text.find_last_not_of('\n') + 1);
 }
 
 const CLI::App& chosen(const CLI::App& app) {
@@ -58,8 +63,9 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
 int run_command(const std::vector<std::string>& words) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
-  const std::vector<Command> commands = {add_check(app), add_show(app), add_generate(app),
-                                         add_run(app),   add_list(app), add_cache(app)};
+  const std::vector<Command> commands = {add_check(app), add_show(app),   add_generate(app),
+                                         add_run(app),   add_verify(app), add_list(app),
+                                         add_cache(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
@@ -94,10 +100,11 @@ int guarded(const std::vector<std::string>& words) {
     print_error(error.what());
     return model_error;
   } catch (const UsageError& error) {
-    print_error(fmt::format("hamgen: {}\n", error.what()));
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return usage_error;
   } catch (const runtime::ToolError& error) {
-    print_error(fmt::format("hamgen: {}\n", error.what()));
+    if (interrupt_flag()) return interrupted;  // a compilation that was given up
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return tool_failure;
   } catch (const std::bad_alloc&) {
     print_error("hamgen: out of memory\n");

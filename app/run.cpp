@@ -25,9 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// As shells report a command that was interrupted.
-constexpr int interrupted_status = 130;
-
 struct RunOptions {
   MethodOptions method;
   std::string compiler;
@@ -62,7 +59,7 @@ SceneRequest scene_request(const RunOptions& options, std::vector<Assignment> se
 // flood of rows, as a scene's distance may with many more steps than the scene has.
 long record_distance(const RunOptions& options, const SceneValues& scene) {
   constexpr long flood = 10'000'000;
-  if (!options.every.empty()) return positive_integer("--every", options.every);
+  if (!options.every.empty()) return integer_value("--every " + options.every, options.every, 1);
   const long every = scene.every.value_or(1);
   const long rows = *scene.steps / every;
   if (!options.output.empty() && rows > flood)
@@ -137,7 +134,7 @@ int status_of(const runtime::RunSummary& summary) {
     case runtime::Status::done:
       return done;
     case runtime::Status::stopped:
-      return interrupted_status;
+      return interrupted;
     case runtime::Status::not_converged:
     case runtime::Status::not_finite:
       return numerical_failure;
@@ -160,7 +157,7 @@ int run(const RunOptions& options) {
     throw UsageError(
         "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
         "FILE.csv");
-  const SourceText source = read_source(options.method.model);
+  const SourceText source = read_model_source(options.method);
   Request request = request_of(options.method);
   SizesAndRest set = split_sizes(read_model(source), options.method.set);
   request.sizes = set.sizes;

@@ -78,6 +78,13 @@ TEST(Generate, RegeneratesForAnotherSize) {
   EXPECT_EQ(hamgen({"generate", model, "--set", "N=0.5"}).status, 2);
 }
 
+TEST(Generate, RefusesAPathThatACommentCannotHold) {
+  const Scratch scratch;
+  const Result result = hamgen({"generate", scratch.write("a\nb.ham", pendulum)});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "control characters")) << result.err;
+}
+
 TEST(Generate, RefusesAnUnwritableDirectory) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
