@@ -79,7 +79,7 @@ struct NewtonRule {
     if (!(size <= 1.0e308)) return Verdict::failed;
     const Real round_off = 0x1p-52 * scale;
     if (previous > 0) {
-      const Real seen = size / (previous * previous);
+      const Real seen = (size < round_off ? round_off : size) / (previous * previous);
       if (size > 64 * round_off || seen < contraction) contraction = seen;
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
