@@ -10,7 +10,7 @@ namespace hamgen::app {
 namespace {
 
 int verify(const MethodOptions& options, bool json) {
-  const SourceText source = read_source(options.model);
+  const SourceText source = read_model_source(options);
   const Proof proof = verify_step(source, request_with_sizes(options, source));
   bool symplectic = true;
   auto rows = nlohmann::ordered_json::array();
