@@ -180,8 +180,9 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 Proof verify_step(const SourceText& source, const Request& request) {
   const Model model = read(source, request);
   const Mechanics mechanics = derive(model);
-  return verify(plan_solve(discretise(mechanics, choose_scheme(model, mechanics, request)),
-                           request.solver));
+  const Scheme scheme = choose_scheme(model, mechanics, request);
+  const SolvePlan plan = plan_solve(discretise(mechanics, scheme), request.solver);
+  return verify(mechanics, scheme, plan.sweeps);
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request) {

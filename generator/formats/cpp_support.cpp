@@ -33,7 +33,7 @@ std::string cpp_newton_rule(const ScalarType& scalar) {
 // where the contraction is measured, kept from step to step and checked at least every 64th step.
 // The last increment still enters the solution, so an iteration may stop when the next one would
 // be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
-// momenta it counts 1/h times: the factor 2^-30 keeps it below the sum of the rounding errors.
+// momenta it counts 1/h times: the factor 2^-20 keeps it below the sum of the rounding errors.
 struct NewtonRule {{
   Real contraction = {largest};
   int unchecked = 0;
@@ -58,7 +58,7 @@ struct NewtonRule {{
       ++unchecked;
     }}
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 64 && contraction * size * size * 1073741824 <= round_off) return Verdict::done;
+    if (unchecked < 64 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}

@@ -1,10 +1,12 @@
 // What is proved of a step, property by property.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "generator/solvers/solve_plan.hpp"
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/schemes/scheme.hpp"
 
 namespace hamgen {
 
@@ -18,8 +20,10 @@ struct Finding {
 
 using Proof = std::vector<Finding>;
 
-// Everything that can be decided by algebra about the step of this plan.
-[[nodiscard]] Proof verify(const SolvePlan& plan);
+// Everything that can be decided by algebra about the scheme's step for this system.  With sweeps, the
+// step is not solved but swept that many times.
+[[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme,
+                           std::optional<int> sweeps);
 
 // The single proofs.  A member must satisfy C J + J C^T = 0; the residual entries are exact.
 [[nodiscard]] Finding prove_gauge(const Member& member);

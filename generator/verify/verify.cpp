@@ -6,22 +6,22 @@
 
 namespace hamgen {
 
-Proof verify(const SolvePlan& plan) {
-  const Member& member = plan.equations.scheme.member;
+Proof verify(const Mechanics& mechanics, const Scheme& scheme, std::optional<int> sweeps) {
+  const Member& member = scheme.member;
   Proof proof{prove_gauge(member)};
-  if (plan.sweeps) {
+  if (sweeps) {
     // After K sweeps Z is off the solution by O(h^(K+2)), an error no symplectic map needs.
     proof.push_back({"symplectic", Verdict::refuted,
                      fmt::format("{} sweeps leave the step unsolved: the defect M^T J M - J is "
                                  "O(h^{})",
-                                 *plan.sweeps, *plan.sweeps + 2)});
+                                 *sweeps, *sweeps + 2)});
     proof.push_back({"symmetric", Verdict::refuted, "the predictor is explicit Euler"});
     return proof;
   }
   proof.push_back(prove_step_symplectic(member));
   proof.push_back(prove_symmetric(member));
   proof.push_back(prove_order(member));
-  for (Finding& finding : prove_invariants(plan.equations.mechanics, member)) {
+  for (Finding& finding : prove_invariants(mechanics, member)) {
     proof.push_back(std::move(finding));
   }
   return proof;
