@@ -67,7 +67,7 @@ enum class Verdict { go_on, done, failed };
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^2,
-// where the contraction is measured, kept from step to step and checked at least every 64th step.
+// where the contraction is measured, kept from step to step and checked at least every 32nd step.
 // The last increment still enters the solution, so an iteration may stop when the next one would
 // be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
 // momenta it counts 1/h times: the factor 2^-20 keeps it below the sum of the rounding errors.
@@ -86,7 +86,13 @@ struct NewtonRule {
     const Real round_off = 0x1p-52 * scale;
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / (previous * previous);
-      if (size > 64 * round_off || seen < contraction) contraction = seen;
+      // It may rise at once but falls slowly: one small increment may be luck.
+      const bool first = contraction >= 1.0e308;
+      if (first || (size > 64 * round_off && seen > contraction)) {
+        contraction = seen;
+      } else if (seen < contraction) {
+        contraction = 4 * seen < contraction ? contraction / 4 : seen;
+      }
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
@@ -95,7 +101,7 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 64 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
+    if (unchecked < 32 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }

@@ -129,6 +129,12 @@ Stages run_stages(const SourceText& source, const Request& request) {
   Mechanics mechanics = derive(model, keep_sums);
   StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, request));
   SolvePlan plan = plan_solve(equations, request.solver);
+  if (request.scalar == "quad" && plan.arrays && uses_sparse_matrix(*plan.arrays)) {
+    // Eigen's sparse solver does not know quad numbers: everything is written out instead.
+    mechanics = derive(model, false);
+    equations = discretise(mechanics, choose_scheme(model, mechanics, request));
+    plan = plan_solve(equations, request.solver);
+  }
   Program program = build_program(plan);
   return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
           std::move(program)};

@@ -133,7 +133,8 @@ class HeaderWriter {
       if (!stage.solve) continue;
       const Solve& solve = *stage.solve;
       if (solve.linear_solver != LinearSolver::written_out) {
-        (solve.linear_solver == LinearSolver::eigen_dense ? eigen_ : elimination_) = true;
+        // Eigen does not know quad numbers.
+        (solve.linear_solver == LinearSolver::eigen_dense && !quad() ? eigen_ : elimination_) = true;
         if (solve.constant_matrix) inverse_ = true;
       }
       if (solve.kind == BlockKind::newton) newton_ = true;
@@ -608,7 +609,7 @@ class HeaderWriter {
     if (solve.kind == BlockKind::newton) {
       write_newton(out, cpp, names, solve, s, declared);
     } else {
-      write_fixed_point(out, cpp, names, solve, declared);
+      write_fixed_point(out, cpp, names, solve, s, declared);
     }
     for (int j = 0; j < size; ++j) {
       const LoopVariable& v = solve.variables[at(j)];
@@ -675,9 +676,10 @@ class HeaderWriter {
   }
 
   void write_fixed_point(CodeWriter& out, CppExpression& cpp, Names& names, const Solve& solve,
-                         const std::set<std::string>& declared) {
+                         std::size_t s, const std::set<std::string>& declared) {
     const std::size_t m = solve.variables.size();
-    out.line(fmt::format("FixedPointRule<{}> rule;", m));
+    const std::string rule = fmt::format("rule_{}", s);
+    out.line(fmt::format("FixedPointRule<{}> {};", m, rule));
     out.open("for (int iteration = 1;; ++iteration)");
     write_statements(out, cpp, names, solve.body, declared);
     std::string values;
@@ -689,7 +691,7 @@ class HeaderWriter {
     for (std::size_t j = 0; j < m; ++j) {
       out.line(fmt::format("{} += increment[{}];", names.local(solve.variables[j].name), j));
     }
-    out.line("const Progress progress = rule(increment, scale, iteration);");
+    out.line("const Progress progress = " + rule + "(increment, scale, iteration);");
     out.line("if (progress == Progress::go_on) continue;");
     out.line("report.iterations += iteration;");
     out.line("if (progress == Progress::done) break;");
@@ -1022,11 +1024,7 @@ std::string cpp_plugin(const Program& program, const CppOptions& options) {
 }
 
 bool needs_eigen(const Program& program) {
-  if (program.plan.arrays) {
-    const ArrayMethod method = program.plan.arrays->method;
-    return method == ArrayMethod::full_newton ||
-           (method == ArrayMethod::reduced_newton && !program.plan.arrays->bandwidth);
-  }
+  if (program.plan.arrays) return uses_sparse_matrix(*program.plan.arrays);
   return std::ranges::any_of(program.stages, [](const Stage& stage) {
     return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
   });

@@ -30,7 +30,7 @@ std::string cpp_newton_rule(const ScalarType& scalar) {
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^2,
-// where the contraction is measured, kept from step to step and checked at least every 64th step.
+// where the contraction is measured, kept from step to step and checked at least every 32nd step.
 // The last increment still enters the solution, so an iteration may stop when the next one would
 // be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
 // momenta it counts 1/h times: the factor 2^-20 keeps it below the sum of the rounding errors.
@@ -49,7 +49,13 @@ struct NewtonRule {{
     const Real round_off = {epsilon} * scale;
     if (previous > 0) {{
       const Real seen = (size < round_off ? round_off : size) / (previous * previous);
-      if (size > 64 * round_off || seen < contraction) contraction = seen;
+      // It may rise at once but falls slowly: one small increment may be luck.
+      const bool first = contraction >= {largest};
+      if (first || (size > 64 * round_off && seen > contraction)) {{
+        contraction = seen;
+      }} else if (seen < contraction) {{
+        contraction = 4 * seen < contraction ? contraction / 4 : seen;
+      }}
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
@@ -58,7 +64,7 @@ struct NewtonRule {{
       ++unchecked;
     }}
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 64 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
+    if (unchecked < 32 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}
@@ -70,11 +76,11 @@ struct NewtonRule {{
 std::string cpp_fixed_point_rule(const ScalarType& scalar) {
   return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
 
-// When to stop a fixed-point iteration: at stagnation with one second chance, that is when no
-// component's increment has decreased twice in a row.
+// When to stop a fixed-point iteration: at stagnation with one second chance, that is when twice in
+// a row no component's increment has been smaller than ever before.
 template <int Size>
 struct FixedPointRule {{
-  Real previous[Size] = {{}};
+  Real least[Size] = {{}};
   int stuck = 0;
 
   Progress operator()(const Real (&increment)[Size], Real scale, int iterations) {{
@@ -82,8 +88,10 @@ struct FixedPointRule {{
     Real size = 0;
     for (int i = 0; i < Size; ++i) {{
       const Real now = magnitude(increment[i]);
-      if (iterations == 1 || now < previous[i]) decreased = true;
-      previous[i] = now;
+      if (iterations == 1 || now < least[i]) {{
+        decreased = true;
+        least[i] = now;
+      }}
       size += now;
     }}
     if (!(size <= {largest})) return Progress::failed;
@@ -91,8 +99,10 @@ struct FixedPointRule {{
     // Among many components one always flickers: below their rounding together they are done too.
     const bool invisible = size * 8 <= {epsilon} * scale;
     stuck = decreased && !invisible ? 0 : stuck + 1;
-    if (stuck >= 2) return size <= 4096 * {epsilon} * scale ? Progress::done : Progress::failed;
-    return iterations < 500 ? Progress::go_on : Progress::failed;
+    const bool small = size <= 4096 * {epsilon} * scale;
+    if (stuck >= 2 && small) return Progress::done;
+    if (iterations < 500) return Progress::go_on;
+    return small ? Progress::done : Progress::failed;
   }}
 }};
 )",

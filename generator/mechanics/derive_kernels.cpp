@@ -162,6 +162,8 @@ class KernelBuilder {
                std::vector<Reference>& references, std::set<std::string>& lets) const {
     if (const auto* name = std::get_if<NameNode>(&node->value)) {
       if (!name->subscript) {
+        // A scalar coordinate in a loop would need a slot of its own kind: then all is written out.
+        if (!indices.empty() && variables_.contains(name->name)) return false;
         for (const Definition& definition : model_.definitions) {
           if (definition.name == name->name && lets.insert(name->name).second &&
               !collect(definition.value, indices, references, lets)) {
@@ -209,6 +211,9 @@ class KernelBuilder {
     std::vector<Reference> references;
     std::set<std::string> lets;
     if (!collect(term.body, indices, references, lets)) return false;
+    for (const auto& [factor, divides] : term.factors) {
+      if (!collect(factor, indices, references, lets)) return false;
+    }
     if (ranges.empty()) {
       instance(term, {});
       return true;
@@ -335,6 +340,14 @@ class KernelBuilder {
   }
 
   void finish(Kernel kernel, const GiNaC::ex& value, const SymbolTable& table) {
+    std::set<std::string> slots;
+    for (const Slot& slot : kernel.slots) slots.insert(slot.symbol);
+    for (const std::string& symbol : symbols(kernel.value)) {
+      const std::string base = symbol.substr(0, symbol.find('['));
+      if (variables_.contains(base) && !slots.contains(symbol)) {
+        internal_error("a variable of a kernel has no slot: " + symbol);
+      }
+    }
     std::vector<GiNaC::ex> gradient;
     for (const Slot& slot : kernel.slots) {
       gradient.push_back(value.diff(table.find(slot.symbol)));

@@ -189,11 +189,12 @@ class Builder {
     const int outside = loop || !written_out ? after(stage_) : straight();
 
     for (const int x : block.unknowns) {
-      const Expression start = equations_.mechanics.variable(x);
       if (loop) {
         lowering_.declare(stage_value_[index(x)].name(), where);
       } else {
-        stage_value_[index(x)] = start;  // an affine system: any start will do
+        // An affine system may start anywhere.  From 0 the increment is the solution itself, and
+        // nothing cancels for large h; from z it would lose (h omega)^2 units of rounding.
+        stage_value_[index(x)] = Expression(0);
       }
     }
     std::vector<int> members = block.unknowns;
@@ -306,10 +307,12 @@ class Builder {
           terms.push_back(hessian(k, v) * moved[v]);
         }
       }
-      renew(gradient_[index(k)], Expression::sum(std::move(terms)), outside);
+      renew(gradient_[index(k)], gradient_[index(k)].name(), Expression::sum(std::move(terms)),
+            outside);
     }
     for (const int v : members) {
-      renew(stage_value_[index(v)], stage_value_[index(v)] + moved[v], outside);
+      renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + moved[v],
+            outside);
     }
   }
 
@@ -378,10 +381,9 @@ class Builder {
   }
 
   // Gives a value a new symbol from here on.
-  void renew(Expression& value, const Expression& renewed, int section) {
+  void renew(Expression& value, const std::string& name, const Expression& renewed, int section) {
     if (renewed == value) return;
-    const Expression symbol =
-        Expression::symbol(value.name() + "*", value.kind() == Kind::symbol ? value.rank() : 0);
+    const Expression symbol = Expression::symbol(name + "*", kRankOfTemporary);
     define(symbol, renewed, section);
     value = symbol;
   }

@@ -30,7 +30,19 @@ constexpr std::string_view kOurs[] = {
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
     "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert"};
 
+// Macros of the standard headers that a user's program may have included before ours.
+bool is_macro(std::string_view name) {
+  constexpr std::string_view kMacros[] = {"NULL",   "EOF",    "INFINITY", "NAN",    "HUGE_VAL",
+                                          "BUFSIZ", "stdin",  "stdout",   "stderr", "errno",
+                                          "assert", "RAND_MAX", "MB_CUR_MAX"};
+  constexpr std::string_view kPrefixes[] = {"M_",   "DBL_", "FLT_",  "LDBL_", "INT_", "UINT_",
+                                            "LONG_", "CHAR_", "SEEK_", "EXIT_", "FP_", "SIG", "CLOCKS_"};
+  return std::ranges::find(kMacros, name) != std::end(kMacros) ||
+         std::ranges::any_of(kPrefixes, [&](std::string_view p) { return name.starts_with(p); });
+}
+
 bool is_keyword(std::string_view name) {
+  if (is_macro(name)) return true;
   return std::ranges::find(kKeywords, name) != std::end(kKeywords);
 }
 

@@ -47,6 +47,11 @@ std::optional<int> bandwidth(const std::vector<Kernel>& kernels) {
 
 }  // namespace
 
+bool uses_sparse_matrix(const ArrayPlan& plan) {
+  return plan.method == ArrayMethod::full_newton ||
+         (plan.method == ArrayMethod::reduced_newton && !plan.bandwidth);
+}
+
 SolvePlan plan_arrays(const StepEquations& equations) {
   SolvePlan plan{.equations = equations};
   const Member& member = equations.scheme.member;

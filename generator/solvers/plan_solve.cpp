@@ -120,6 +120,11 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   if (component.size() == 1 && !depends(component[0], component[0])) {
     return {.kind = BlockKind::assign, .unknowns = component};
   }
+  // Tearing saves a fixed-point iteration little, and takes long to plan for a large block.
+  constexpr std::size_t kLargeBlock = 64;
+  if (fixed_point && component.size() > kLargeBlock) {
+    return {.kind = BlockKind::fixed_point, .unknowns = component};
+  }
   const int n = equations.mechanics.degrees_of_freedom;
   auto may_self = [&](int i) { return !fixed_point && is_affine_in(equations, i, i); };
   // Momenta first: with quadratic kinetic energy they are the cheap ones to eliminate.
@@ -220,8 +225,8 @@ std::vector<std::string> what_was_left_out(const SolvePlan& plan) {
 
 std::string solver_line(const SolvePlan& plan) {
   if (plan.sweeps) {
-    return fmt::format("{} fixed-point sweeps (Algorithm 1 of the paper): not symplectic",
-                       *plan.sweeps);
+    return fmt::format("{} fixed-point sweep{} (Algorithm 1 of the paper): not symplectic",
+                       *plan.sweeps, *plan.sweeps == 1 ? "" : "s");
   }
   std::vector<std::string> parts;
   for (const Block& block : plan.blocks) {
@@ -259,7 +264,10 @@ SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) 
                                  solver));
   }
   const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
-  for (const auto& component : strongly_connected_components(needed, depends)) {
+  // Sweeps take all stage values together: no blocks.
+  const auto components = plan.sweeps ? std::vector<std::vector<int>>{}
+                                      : strongly_connected_components(needed, depends);
+  for (const auto& component : components) {
     plan.blocks.push_back(plan_block(equations, component, solver == "fixed-point"));
   }
   plan.solver = solver_line(plan);

@@ -56,6 +56,7 @@ struct SolvePlan {
 
 // solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
 [[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
+[[nodiscard]] bool uses_sparse_matrix(const ArrayPlan& plan);
 [[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
