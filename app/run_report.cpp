@@ -66,8 +66,16 @@ std::string seconds_text(double seconds) {
 std::string energy_text(const RunReport& report) {
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
-                     energy.max_error(), energy.spread(), energy.final_error());
+  const std::string text =
+      fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
+                  energy.max_error(), energy.spread(), energy.final_error());
+  // A step across a singularity, or far too large, solves its equations and means nothing.
+  constexpr double kMeaningless = 10.0;
+  const bool lost = energy.initial != 0.0 &&
+                    energy.max_error() > kMeaningless * std::fabs(energy.initial);
+  return lost ? text + " - warning: far more than H(0) itself, so the trajectory is not to be "
+                       "trusted; try a smaller step"
+              : text;
 }
 
 std::string time_text(const RunReport& report) {

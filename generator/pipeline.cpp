@@ -88,9 +88,13 @@ Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Reque
   if (!request.alpha.empty()) alpha = request.alpha;
   if (!request.beta.empty()) beta = request.beta;
   if (!request.gamma.empty()) gamma = request.gamma;
-  return family_member(mechanics.degrees_of_freedom, scheme_parameters(model, "alpha", alpha),
-                       scheme_parameters(model, "beta", beta),
-                       scheme_parameters(model, "gamma", gamma));
+  Scheme scheme = family_member(mechanics.degrees_of_freedom,
+                                scheme_parameters(model, "alpha", alpha),
+                                scheme_parameters(model, "beta", beta),
+                                scheme_parameters(model, "gamma", gamma));
+  // In the user's own words: 0.03, not 3/100.
+  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
+  return scheme;
 }
 
 std::string stem(const std::string& path) {
