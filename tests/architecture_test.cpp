@@ -147,10 +147,10 @@ std::vector<Include> includes_of(const std::string& text) {
   return found;
 }
 
-// Relative path -> its includes, for every C or C++ file of the folders with rules.
-std::map<std::string, std::vector<Include>> read_tree() {
+// Relative path -> text, for every C or C++ file of the folders with rules.
+std::map<std::string, std::string> read_texts() {
   const fs::path root = HAMGEN_SOURCE_DIR;
-  std::map<std::string, std::vector<Include>> tree;
+  std::map<std::string, std::string> texts;
   for (const char* folder : {"generator", "runtime", "app", "generated"}) {
     if (!fs::exists(root / folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
@@ -158,11 +158,33 @@ std::map<std::string, std::vector<Include>> read_tree() {
       static const std::regex source(R"(.*\.(h|hpp|cpp|h\.in|hpp\.in|cpp\.in))");
       if (!entry.is_regular_file() || !std::regex_match(name, source)) continue;
       std::ifstream in(entry.path());
-      const std::string text((std::istreambuf_iterator<char>(in)), {});
-      tree[entry.path().lexically_relative(root).generic_string()] = includes_of(text);
+      texts[entry.path().lexically_relative(root).generic_string()] =
+          std::string(std::istreambuf_iterator<char>(in), {});
     }
   }
+  return texts;
+}
+
+std::map<std::string, std::vector<Include>> read_tree() {
+  std::map<std::string, std::vector<Include>> tree;
+  for (const auto& [file, text] : read_texts()) tree[file] = includes_of(text);
   return tree;
+}
+
+// The types a header defines at namespace scope, with their namespace: "hamgen::Model".
+std::vector<std::string> types_of(const std::string& text) {
+  static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]+) \{|)"
+                               R"((?:struct|class|enum class|enum) (\w+)[^;\n]*\{))");
+  std::vector<std::string> found;
+  std::string space;
+  for (std::sregex_iterator match(text.begin(), text.end(), line), end; match != end; ++match) {
+    if ((*match)[1].matched) {
+      space = (*match)[1];
+    } else {
+      found.push_back(space + "::" + (*match)[2].str());
+    }
+  }
+  return found;
 }
 
 // The chain of files from `file` to GiNaC, empty if there is none.
@@ -277,6 +299,29 @@ TEST(Architecture, AChainToGinacIsNamed) {
   EXPECT_EQ(path_to_ginac(tree, "generator/solvers/a.cpp", seen),
             "generator/solvers/a.cpp -> generator/mechanics/b.hpp -> generator/mechanics/c.hpp -> "
             "ginac/ginac.h");
+}
+
+// Two headers that never meet may each define a type of one name; the linker then merges their
+// inline functions, and the program does what it likes.  No compiler warns of it.
+TEST(Architecture, ATypeHasOneDefinition) {
+  std::map<std::string, std::string> defined_in;
+  for (const auto& [file, text] : read_texts()) {
+    if (!file.ends_with(".hpp") || file.starts_with("generated/")) continue;
+    for (const std::string& type : types_of(text)) {
+      const auto [first, added] = defined_in.emplace(type, file);
+      EXPECT_TRUE(added) << type << " is defined in " << first->second << " and in " << file;
+    }
+  }
+  EXPECT_TRUE(defined_in.contains("hamgen::Model")) << "no types were found";
+}
+
+TEST(Architecture, TypesAreReadWithTheirNamespace) {
+  const std::string text =
+      "namespace hamgen {\nstruct Model;\nstruct Model {  // one\n  struct Inner {};\n};\n"
+      "enum class Kind : int { a };\n}\nnamespace hamgen::app {\nclass Command : public X {\n};\n";
+  const std::vector<std::string> expected = {"hamgen::Model", "hamgen::Kind",
+                                             "hamgen::app::Command"};
+  EXPECT_EQ(types_of(text), expected);
 }
 
 }  // namespace
