@@ -309,7 +309,8 @@ TEST(Plan, ZeroBetaAndGammaAreAbsentAndOthersArePresent) {
 TEST(Plan, ZeroEntriesOfAListAreAbsentToo) {
   const Outcome small = outcome(two + "parameter b = 1\nH = p1^2/2 - cos(q1) + p2^2/2 - cos(q2)\n",
                                 {.alpha = "0,1/2", .beta = "0,b*h", .gamma = "0,0"});
-  EXPECT_TRUE(contains(small.plan, "assign q1\nassign p1\n")) << small.plan;
+  EXPECT_TRUE(contains(small.plan, "assign q1\n")) << small.plan;
+  EXPECT_TRUE(contains(small.plan, "assign p1\n")) << small.plan;
   EXPECT_TRUE(contains(small.plan, "Newton of size 1 on q2; p2 torn out\n")) << small.plan;
   expect_newton(small, 1);
 }

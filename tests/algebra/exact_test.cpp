@@ -1,0 +1,79 @@
+// Exact numbers and the literals they become.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+
+#include "generator/algebra/exact.hpp"
+#include "generator/formats/scalar.hpp"
+
+namespace hamgen {
+namespace {
+
+Rational decimal(const char* text) { return *parse_decimal(text); }
+
+TEST(Exact, DecimalsAreReadExactly) {
+  EXPECT_EQ(decimal("0.1"), Rational(1, 10));
+  EXPECT_EQ(decimal("1.5e-3"), Rational(3, 2000));
+  EXPECT_EQ(decimal("12"), Rational(12));
+  EXPECT_EQ(decimal("1e2"), Rational(100));
+  EXPECT_EQ(decimal(".5"), Rational(1, 2));
+  EXPECT_FALSE(parse_decimal("1e999999999").has_value());
+}
+
+TEST(Exact, TheNearestDoubleIsTheOneTheCompilerChooses) {
+  EXPECT_EQ(to_double(decimal("0.1")), 0.1);
+  EXPECT_EQ(to_double(Rational(1, 3)), 1.0 / 3.0);
+  EXPECT_EQ(to_double(decimal("1e-320")), 1e-320);
+  EXPECT_EQ(to_double(decimal("123456789012345678901")), 123456789012345678901.0);
+  EXPECT_EQ(to_double(decimal("2.2250738585072011e-308")), 2.2250738585072011e-308);
+  EXPECT_EQ(to_double(decimal("4.9406564584124654e-324")), 4.9406564584124654e-324);
+  EXPECT_EQ(to_double(decimal("2e-324")), 0.0);
+  EXPECT_EQ(to_double(decimal("1e309")), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(to_double(-decimal("1e309")), -std::numeric_limits<double>::infinity());
+  // Halfway between two doubles: to the even one.
+  EXPECT_EQ(to_double(Rational("9007199254740993")), 9007199254740992.0);
+  EXPECT_EQ(to_double(Rational("9007199254740995")), 9007199254740996.0);
+}
+
+TEST(Exact, AnyDoubleComesBackFromItsExactValue) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    EXPECT_EQ(to_double(from_double(value)), value);
+    EXPECT_EQ(std::strtod(shortest_decimal(value).c_str(), nullptr), value);
+  }
+}
+
+TEST(Exact, ThreeDoublesHoldAHundredAndFiftyBits) {
+  for (const Rational& value : {Rational(1, 3), decimal("0.1"), decimal("123456789012345678901")}) {
+    const TripleDouble parts = to_triple(value);
+    const Rational sum = from_double(parts.hi) + from_double(parts.lo) + from_double(parts.lower);
+    Rational bound = abs(value);
+    mpq_div_2exp(bound.get_mpq_t(), bound.get_mpq_t(), 159);
+    EXPECT_LE(abs(sum - value), bound);
+  }
+}
+
+TEST(Literal, OfADoubleIsTheShortestThatReadsBack) {
+  const ScalarType& scalar = find_scalar("double");
+  EXPECT_EQ(literal(decimal("0.1"), scalar), "0.1");
+  EXPECT_EQ(literal(Rational(1, 2), scalar), "0.5");
+  EXPECT_EQ(literal(Rational(1, 3), scalar), "(1.0 / 3.0)");
+  EXPECT_EQ(literal(decimal("1e-320"), scalar), "1e-320");
+  EXPECT_EQ(literal(decimal("123456789012345678901"), scalar), "123456789012345683968.0");
+}
+
+TEST(Literal, HasASuffixInFloatAndLongDouble) {
+  EXPECT_EQ(literal(Rational(1, 2), find_scalar("float")), "0.5f");
+  EXPECT_EQ(literal(Rational(1, 2), find_scalar("long-double")), "0.5L");
+  EXPECT_EQ(literal(Rational(1, 2), find_scalar("quad")), "Real(0.5)");
+  EXPECT_EQ(literal(decimal("0.1"), find_scalar("float")), "0.1f");
+}
+
+}  // namespace
+}  // namespace hamgen

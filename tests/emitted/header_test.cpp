@@ -1,0 +1,184 @@
+// Every shipped model, in several members and scalars, through two compilers' strictest warnings.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "generator/base/source_text.hpp"
+#include "tests/emitted/compiled.hpp"
+
+namespace hamgen::emitted_test {
+namespace {
+
+struct Variant {
+  std::string name;
+  Request request;
+};
+
+std::vector<Variant> variants() {
+  return {{"midpoint", {.scheme = "implicit-midpoint"}},
+          {"euler_a", {.scheme = "symplectic-euler-a"}},
+          {"euler_b", {.scheme = "symplectic-euler-b"}},
+          {"general", {.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}},
+          {"fixed_point", {.solver = "fixed-point"}},
+          {"sweeps", {.solver = "sweeps:3"}}};
+}
+
+// The header of a shipped model, in the namespace MODEL::VARIANT_SCALAR.
+std::string header(const std::filesystem::path& model, const Variant& variant,
+                   const std::string& scalar) {
+  Request request = variant.request;
+  request.scalar = scalar;
+  std::string suffix = scalar;
+  std::erase(suffix, '-');
+  request.name_space = "shipped_" + model.stem().string() + "::" + variant.name + "_" + suffix;
+  return generate(read_source(model.string()), request).at(0).text;
+}
+
+// All of them as one translation unit, with a use of everything in it.
+std::string unit(const std::vector<std::filesystem::path>& models, const std::string& scalar) {
+  std::string text;
+  for (const auto& model : models) {
+    for (const Variant& variant : variants()) {
+      text += "#line 1 \"" + model.stem().string() + "_" + variant.name + ".hpp\"\n";
+      text += without_pragma(header(model, variant, scalar));
+    }
+  }
+  return text;
+}
+
+std::vector<std::filesystem::path> models_for_every_scalar() {
+  const std::set<std::string> names{"pendulum",          "kepler",  "double_pendulum", "fput",
+                                    "driven_oscillator", "product", "phi4",            "magnetic"};
+  std::vector<std::filesystem::path> models;
+  for (const auto& model : shipped_models()) {
+    if (names.contains(model.stem().string())) models.push_back(model);
+  }
+  return models;
+}
+
+class EmittedHeader : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto found = compilers();
+    if (std::ranges::find(found, std::string(GetParam())) == found.end()) {
+      GTEST_SKIP() << "no " << GetParam() << " here";
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compilers, EmittedHeader, ::testing::Values("g++", "clang++"), [](const auto& info) {
+  return std::string(info.param) == "g++" ? "gcc" : "clang";
+});
+
+TEST_P(EmittedHeader, OfEveryShippedModelAndMemberCompilesWithoutAWarning) {
+  ASSERT_GT(shipped_models().size(), 10u);
+  EXPECT_EQ(messages(GetParam(), unit(shipped_models(), "double")), "");
+}
+
+TEST_P(EmittedHeader, InFloatCompilesWithoutAWarning) {
+  EXPECT_EQ(messages(GetParam(), unit(models_for_every_scalar(), "float")), "");
+}
+
+TEST_P(EmittedHeader, InLongDoubleCompilesWithoutAWarning) {
+  EXPECT_EQ(messages(GetParam(), unit(models_for_every_scalar(), "long-double")), "");
+}
+
+TEST_P(EmittedHeader, InQuadCompilesWithoutAWarning) {
+  EXPECT_EQ(messages(GetParam(), unit(models_for_every_scalar(), "quad")), "");
+}
+
+TEST_P(EmittedHeader, IsCaughtWhenItIsWrong) {
+  // Negative control: a conversion that loses digits.
+  EXPECT_NE(messages(GetParam(), "inline float narrow(double x) { return x; }\n"), "");
+}
+
+// With the optimiser on, compilers look further: uninitialised values, array bounds.
+TEST(OptimisedHeader, CompilesWithoutAWarning) {
+  std::string text;
+  std::string uses;
+  int number = 0;
+  for (const auto& model : shipped_models()) {
+    const std::string name = model.stem().string();
+    if (name == "outer_solar_system" || name == "figure_eight") continue;  // Eigen: too slow
+    for (const Variant& variant : variants()) {
+      if (variant.name != "midpoint" && variant.name != "general") continue;
+      const std::string code = header(model, variant, "double");
+      if (code.find("Eigen") != std::string::npos) continue;
+      text += without_pragma(code);
+      const std::string space = "shipped_" + name + "::" + variant.name + "_double";
+      uses += "int use_" + std::to_string(number++) + "(" + space + "::State& z) {\n  " + space +
+              "::Propagator run(" + space + "::Parameters{}, 0.1, z);\n" +
+              "  const int n = run.advance(3).iterations;\n  z = run.state();\n  return n + (" + space +
+              "::energy({}, z) > 0);\n}\n";
+    }
+  }
+  ASSERT_GT(number, 20);
+  std::vector<std::string> flags = strict_flags();
+  flags.insert(flags.end(), {"-O2", "-Warray-bounds", "-Wmaybe-uninitialized"});
+  EXPECT_EQ(messages("g++", text + uses, flags, "-S"), "");
+}
+
+TEST(EmittedHeaders, StandAloneWithTheHeadersTheyInclude) {
+  for (const auto& model : shipped_models()) {
+    EXPECT_EQ(messages("g++", without_pragma(header(model, variants()[0], "double"))), "")
+        << model.stem();
+  }
+}
+
+TEST(EmittedHeaders, IncludeNothingThatTheyDoNotUse) {
+  for (const auto& model : shipped_models()) {
+    for (const Variant& variant : variants()) {
+      const SourceText source = read_source(model.string());
+      const std::string text = header(model, variant, "double");
+      SCOPED_TRACE(model.stem().string() + ", " + variant.name);
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("#")) continue;
+        const bool known = line == "#pragma once" || line == "#include <cmath>" ||
+                           line.starts_with("#include <Eigen/");
+        EXPECT_TRUE(known) << line;
+      }
+      const bool eigen = text.find("#include <Eigen/") != std::string::npos;
+      EXPECT_EQ(eigen, generate_plugin(source, variant.request).needs_eigen);
+      // Without Newton, or with few unknowns, there is no linear system for Eigen.
+      if (variant.name != "midpoint" && variant.name != "general") {
+        EXPECT_FALSE(eigen);
+      }
+      if (model.stem() != "outer_solar_system") {
+        EXPECT_FALSE(eigen);
+      }
+      const bool cmath = text.find("#include <cmath>") != std::string::npos;
+      EXPECT_EQ(cmath, text.find("std::") != std::string::npos);
+      EXPECT_EQ(text.find("GiNaC"), std::string::npos);
+      EXPECT_EQ(text.find("ginac"), std::string::npos);
+    }
+  }
+}
+
+TEST(EmittedHeaders, HaveLinesOfAtMostAHundredColumnsAndNoTrailingBlanks) {
+  for (const auto& model : shipped_models()) {
+    std::istringstream lines(header(model, variants()[3], "double"));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("//")) continue;  // the user's own text
+      EXPECT_LE(line.size(), 100u) << model.stem() << ": " << line;
+      EXPECT_FALSE(line.ends_with(' ')) << model.stem() << ": '" << line << "'";
+    }
+  }
+}
+
+TEST(EmittedHeaders, HaveTheFormatOfTheProject) {
+  // Indentation by two: an opening brace is never preceded by an odd number of blanks.
+  for (const auto& model : shipped_models()) {
+    std::istringstream lines(header(model, variants()[0], "double"));
+    for (std::string line; std::getline(lines, line);) {
+      const auto indent = line.find_first_not_of(' ');
+      if (indent == std::string::npos || line.find("{") != indent) continue;
+      EXPECT_EQ(indent % 2, 0u) << model.stem() << ": '" << line << "'";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::emitted_test
