@@ -575,6 +575,13 @@ class HeaderWriter {
       for (const Statement& st : stage.before) collect_symbols(st.value, needed);
       if (stage.solve) {
         for (const Statement& st : stage.solve->body) collect_symbols(st.value, needed);
+        for (const Expression& e : stage.solve->residual) collect_symbols(e, needed);
+        for (const auto& row : stage.solve->matrix) {
+          for (const Expression& e : row) collect_symbols(e, needed);
+        }
+        for (const LoopVariable& v : stage.solve->variables) {
+          for (const Expression& e : {v.cold, v.next, v.correction}) collect_symbols(e, needed);
+        }
       }
     }
     for (const Expression& e : program_.increments) collect_symbols(e, needed);
@@ -716,6 +723,9 @@ class HeaderWriter {
       out.line(fmt::format("{} = {};", names.local(solve.variables[j].name), next[j]));
     }
     out.close();
+    for (const LoopVariable& v : solve.variables) {
+      out.line(fmt::format("const Real {} = {};", names.local(v.name + "*"), names.local(v.name)));
+    }
     out.line(fmt::format("report.iterations = {};", *solve.sweeps));
   }
 

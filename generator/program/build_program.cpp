@@ -432,6 +432,13 @@ class Builder {
           lowering_.want(equations_.mechanics.gradient[index(k)], before(stage_)));
       pending.next.push_back(lowering_.want(equations_.stage_gradient(k), where));
     }
+    // After the loop the gradient is a value of its own: what the loop made of the one before it does
+    // not hold for it.
+    for (Expression& component : gradient_) {
+      if (component.is_zero()) continue;
+      component = Expression::symbol(component.name() + "*", kRankOfTemporary);
+      lowering_.declare(component.name(), after(stage_));
+    }
     solves_.push_back(std::move(pending));
   }
 
