@@ -58,6 +58,15 @@ Expression Expression::symbol(std::string name, int rank) {
 Expression Expression::apply(std::string function, std::vector<Expression> arguments) {
   // sqrt and powers are one thing.
   if (function == "sqrt") return power(arguments.at(0), Rational(1, 2));
+  // sin(-x) and sin(x) share one evaluation.
+  const bool odd = function == "sin" || function == "tan" || function == "sinh" ||
+                   function == "tanh" || function == "asin" || function == "atan" ||
+                   function == "asinh" || function == "atanh";
+  const bool even = function == "cos" || function == "cosh" || function == "abs";
+  if ((odd || even) && arguments.at(0).split_coefficient().first < 0) {
+    const Expression positive = apply(function, {-arguments[0]});
+    return odd ? -positive : positive;
+  }
   return make(Kind::function, 0, std::move(function), 0, std::move(arguments));
 }
 

@@ -60,6 +60,10 @@ const ScalarType& find_scalar(std::string_view name) {
 std::string literal(const Rational& value, const ScalarType& scalar) {
   const bool quad = scalar.digits == 113;
   auto spell = [&](double x) {
+    // A long double literal is read with 64 bits: only the exact decimal, or hexadecimal, will do.
+    if (scalar.digits == 64 && parse_decimal(shortest_decimal(std::fabs(x))) != from_double(std::fabs(x))) {
+      return fmt::format("{:a}L", x);
+    }
     return quad ? fmt::format("Real({})", shortest_decimal(x))
                 : shortest_decimal(x) + std::string(scalar.suffix);
   };

@@ -38,8 +38,8 @@ const Expression& Lowering::wanted(std::size_t handle) const { return wants_[han
 
 void Lowering::inline_trivial() {
   Substitution replacements;
-  std::vector<Definition> kept;
-  for (Definition& definition : definitions_) {
+  std::vector<WantedValue> kept;
+  for (WantedValue& definition : definitions_) {
     definition.value = substitute(definition.value, replacements);
     const Expression& value = definition.value;
     // A multiple of one symbol is cheaper used than stored.
@@ -57,7 +57,7 @@ void Lowering::inline_trivial() {
 void Lowering::drop_unused() {
   std::set<std::string> used;
   for (const Want& want : wants_) collect_symbols(want.value, used);
-  std::vector<Definition> kept;
+  std::vector<WantedValue> kept;
   for (auto it = definitions_.rbegin(); it != definitions_.rend(); ++it) {
     if (!used.contains(it->name)) continue;
     collect_symbols(it->value, used);
@@ -224,9 +224,9 @@ Expression Lowering::rewrite_power(const Expression& base, const Rational& expon
 void Lowering::run() {
   inline_trivial();
   drop_unused();
-  for (const Definition& definition : definitions_) count(definition.value);
+  for (const WantedValue& definition : definitions_) count(definition.value);
   for (const Want& want : wants_) count(want.value);
-  for (const Definition& definition : definitions_) {
+  for (const WantedValue& definition : definitions_) {
     const int where = place(definition.value, definition.section);
     const Expression symbol = Expression::symbol(definition.name, kRankOfTemporary);
     if (const auto known = named_.find(definition.value); known != named_.end()) {

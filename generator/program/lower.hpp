@@ -15,7 +15,7 @@ struct Section {
   bool is_loop = false;
 };
 
-struct Definition {
+struct WantedValue {
   std::string name;
   Expression value;
   int section = 0;       // where it is wanted; it moves up if it depends on less
@@ -56,7 +56,7 @@ class Lowering {
   [[nodiscard]] Expression temporary(const Expression& value, const Expression& key, int section);
 
   std::vector<Section> sections_;
-  std::vector<Definition> definitions_;
+  std::vector<WantedValue> definitions_;
   std::vector<Want> wants_;
   std::map<std::string, int> levels_;
   std::map<const void*, int> level_cache_;

@@ -68,8 +68,8 @@ class EmittedHeader : public ::testing::TestWithParam<const char*> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Compilers, EmittedHeader, ::testing::Values("g++", "clang++"), [](const auto& info) {
-  return std::string(info.param) == "g++" ? "gcc" : "clang";
+INSTANTIATE_TEST_SUITE_P(Compilers, EmittedHeader, ::testing::Values("g++", "clang++"), [](const auto& instance) {
+  return std::string(instance.param) == "g++" ? "gcc" : "clang";
 });
 
 TEST_P(EmittedHeader, OfEveryShippedModelAndMemberCompilesWithoutAWarning) {

@@ -112,7 +112,7 @@ TEST(HostileNames, OfTheSystemGiveNamespacesThatCompile) {
 }
 
 TEST(HostileNames, OfCoordinatesInPluginsCompile) {
-  for (const std::string& name : {"state", "run", "plugin", "create", "parameters", "z", "par", "values"}) {
+  for (const std::string name : {"state", "run", "plugin", "create", "parameters", "z", "par", "values"}) {
     const std::string text = "system hostile\ncoordinate " + name + "\nmomentum p\nparameter " + name +
                              "0 = 1\nH = p^2/2 - " + name + "0*cos(" + name + ")\ninvariant energy2 = p^2\n";
     std::string code;

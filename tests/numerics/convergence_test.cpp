@@ -28,7 +28,7 @@ long double worst_step(const Emitted& emitted, long double h, int steps) {
 
 class Convergence : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, Convergence, ::testing::Values("newton", "fixed-point"),
-                         [](const auto& info) { return info.index == 0 ? "newton" : "fixed_point"; });
+                         [](const auto& instance) { return instance.index == 0 ? "newton" : "fixed_point"; });
 
 TEST_P(Convergence, IsToRoundOffAtEveryStep) {
   const Emitted emitted(pendulum, {.solver = GetParam()});

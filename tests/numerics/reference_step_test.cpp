@@ -162,7 +162,7 @@ class ReferenceStep : public ::testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Models, ReferenceStep,
                          ::testing::Values("double_pendulum", "magnetic", "product", "henon_heiles",
                                            "toda", "affine", "six"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& instance) { return instance.param; });
 
 TEST_P(ReferenceStep, IsWhatEveryMemberGives) {
   for (const MemberCase& member : members()) {

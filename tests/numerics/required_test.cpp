@@ -240,28 +240,29 @@ const std::vector<Sum>& sums() {
 TEST(Loops, AreWhatTheStepByHandIs) {
   const long double h = 0.03125L;
   const std::size_t n = 26;
+  bool general = false;
   for (const Sum& sum : sums()) {
-    for (const bool general : {false, true}) {
-      SCOPED_TRACE(sum.name + (general ? ", general member" : ", midpoint"));
-      Request request;
-      Parameters3<long double> c{Vector(n, 0.5L), Vector(n, 0), Vector(n, 0)};
-      if (general) {
-        request = {.alpha = "3/10", .beta = "1/8", .gamma = "-1/16"};
-        c = {Vector(n, 0.3L), Vector(n, 0.125L), Vector(n, -0.0625L)};
-      }
-      Vector z;
-      for (std::size_t i = 0; i < 2 * n; ++i) z.push_back(0.3L * std::sin(1.7L * static_cast<long double>(i)));
-      for (long double& value : z) value = static_cast<double>(value);
-      try {
-        const Emitted loops(sum.text, request);
-        ASSERT_NE(loops.source().solver.find("in loops"), std::string::npos) << loops.source().solver;
-        const Vector emitted = loops.after(4, z, h);
-        // The map contracts by about h times second derivatives of at most 4: 30 sweeps are plenty.
-        for (int i = 0; i < 4; ++i) z = algorithm_1<long double>(sum.hamiltonian, c, h, z, 30);
-        EXPECT_LT(distance(emitted, z), 3e-15L);
-      } catch (const std::exception& error) {
-        ADD_FAILURE() << error.what();
-      }
+    // A sparse system takes Eigen seconds to compile: each sum with one member.
+    general = !general;
+    SCOPED_TRACE(sum.name + (general ? ", general member" : ", midpoint"));
+    Request request;
+    Parameters3<long double> c{Vector(n, 0.5L), Vector(n, 0), Vector(n, 0)};
+    if (general) {
+      request = {.alpha = "3/10", .beta = "1/8", .gamma = "-1/16"};
+      c = {Vector(n, 0.3L), Vector(n, 0.125L), Vector(n, -0.0625L)};
+    }
+    Vector z;
+    for (std::size_t i = 0; i < 2 * n; ++i) z.push_back(0.3L * std::sin(1.7L * static_cast<long double>(i)));
+    for (long double& value : z) value = static_cast<double>(value);
+    try {
+      const Emitted loops(sum.text, request);
+      ASSERT_NE(loops.source().solver.find("in loops"), std::string::npos) << loops.source().solver;
+      const Vector emitted = loops.after(4, z, h);
+      // The map contracts by about h times second derivatives of at most 4: 30 sweeps are plenty.
+      for (int i = 0; i < 4; ++i) z = algorithm_1<long double>(sum.hamiltonian, c, h, z, 30);
+      EXPECT_LT(distance(emitted, z), 3e-15L);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
     }
   }
 }
