@@ -282,8 +282,7 @@ std::string to_text(const SolvePlan& plan) {
   } else if (plan.sweeps) {
     text += "predict Z by explicit Euler; sweep all stage values together\n";
   } else {
-    text += "blocks, in order:\n";
-    for (const Block& block : plan.blocks) text += "  " + describe(plan.equations, block) + "\n";
+    for (const Block& block : plan.blocks) text += describe(plan.equations, block) + "\n";
   }
   text += "left out:\n";
   for (const std::string& item : plan.left_out) text += "  " + item + "\n";
