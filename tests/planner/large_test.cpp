@@ -47,13 +47,6 @@ TEST(LargePlan, AHarmonicChainIsFactorisedOnce) {
   EXPECT_FALSE(contains(small.plan, "Newton")) << small.plan;
 }
 
-TEST(LargePlan, AShortSumIsWrittenOut) {
-  const Outcome small = outcome(chain(3));
-  EXPECT_FALSE(contains(small.plan, "stay loops")) << small.plan;
-  EXPECT_TRUE(contains(small.plan, "Newton of size 3 on q[1], q[2], q[3]; p[1], p[2], p[3] torn out"))
-      << small.plan;
-}
-
 TEST(LargePlan, ParametersPerDegreeOfFreedomAndOtherSolversWriteTheSumOut) {
   std::string list = "1/2";
   for (int i = 1; i < 30; ++i) list += ",1/2";
