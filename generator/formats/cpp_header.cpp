@@ -54,7 +54,13 @@ std::vector<std::string> fields(const std::vector<Group>& groups) {
   return result;
 }
 
-// The user's words as the end of a // comment: a backslash there would swallow the next line.
+// The user's words as the end of a // comment: a line's end there, or a backslash before it, would
+// let the compiler read on.
+std::string one_line(std::string text) {
+  std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
+  return text.ends_with('\\') ? text + "." : text;
+}
+
 std::string remark(const Quantity& quantity) {
   std::string text = quantity.comment;
   std::ranges::replace(text, '\\', '/');
@@ -173,8 +179,8 @@ class HeaderWriter {
                          mechanics_.name, scheme.name));
     out.line("//");
     out.line(fmt::format("//   made by   hamgen {}", HAMGEN_VERSION));
-    if (!options_.command.empty()) out.line("//   command   " + options_.command);
-    if (!options_.model_path.empty()) out.line("//   model     " + options_.model_path);
+    if (!options_.command.empty()) out.line("//   command   " + one_line(options_.command));
+    if (!options_.model_path.empty()) out.line("//   model     " + one_line(options_.model_path));
     std::string formula = mechanics_.hamiltonian_text;
     std::ranges::replace(formula, '\n', ' ');
     out.comment("//   H(q, p) = ", formula);

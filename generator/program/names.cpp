@@ -30,16 +30,23 @@ constexpr std::string_view kOurs[] = {
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
     "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert"};
 
-// Macros of the standard headers that a user's program may have included before ours.
+// Macros of the standard headers that a user's program may have included before ours.  A name with a
+// small letter is none of them.
 bool is_macro(std::string_view name) {
-  constexpr std::string_view kMacros[] = {"NULL",   "EOF",    "INFINITY", "NAN",    "HUGE_VAL",
-                                          "BUFSIZ", "stdin",  "stdout",   "stderr", "errno",
-                                          "assert", "RAND_MAX", "MB_CUR_MAX"};
-  constexpr std::string_view kPrefixes[] = {"M_",   "DBL_", "FLT_",  "LDBL_", "INT_", "UINT_",
-                                            "LONG_", "CHAR_", "SEEK_", "EXIT_", "FP_", "SIG", "CLOCKS_"};
+  constexpr std::string_view kMacros[] = {"NULL",   "EOF",    "INFINITY", "NAN",     "HUGE_VAL",
+                                          "BUFSIZ", "stdin",  "stdout",   "stderr",  "errno",
+                                          "assert", "RAND_MAX", "SIGABRT", "SIGFPE", "SIGILL",
+                                          "SIGINT", "SIGSEGV", "SIGTERM", "MB_CUR_MAX"};
+  constexpr std::string_view kPrefixes[] = {"M_",    "DBL_",  "FLT_",  "LDBL_", "INT_", "UINT_",
+                                            "LONG_", "CHAR_", "SEEK_", "EXIT_", "FP_",  "SIG_",
+                                            "CLOCKS_"};
   return std::ranges::find(kMacros, name) != std::end(kMacros) ||
-         std::ranges::any_of(kPrefixes, [&](std::string_view p) { return name.starts_with(p); });
+         (std::ranges::any_of(kPrefixes, [&](std::string_view p) { return name.starts_with(p); }) &&
+          std::ranges::none_of(name, [](char c) { return 'a' <= c && c <= 'z'; }));
 }
+
+// A name next to a reserved one, itself free.
+std::string beside(const std::string& name) { return name + (is_macro(name) ? "_value" : "_"); }
 
 bool is_keyword(std::string_view name) {
   if (is_macro(name)) return true;
@@ -59,7 +66,7 @@ std::string identifier(const std::string& name) {
     if (c == '_' && text.ends_with('_')) continue;
     text += c;
   }
-  if (is_reserved(text)) text += "_";
+  if (is_reserved(text)) text = beside(text);
   return text;
 }
 
@@ -79,9 +86,10 @@ ElementName split_element(const std::string& name) {
 }
 
 std::string Names::unique(const std::string& wanted) {
-  std::string text = wanted;
+  const std::string base = is_macro(wanted) ? beside(wanted) : wanted;
+  std::string text = base;
   for (int i = 2; taken_.contains(text) || is_reserved(text); ++i) {
-    text = fmt::format("{}{}{}", wanted, wanted.ends_with('_') ? "" : "_", i);
+    text = fmt::format("{}{}{}", base, base.ends_with('_') ? "" : "_", i);
   }
   taken_.insert(text);
   return text;
