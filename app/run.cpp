@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
+#include "app/load_integrator.hpp"
 #include "app/run_report.hpp"
 #include "app/terminal.hpp"
 #include "app/trajectory_table.hpp"
@@ -68,19 +69,6 @@ long record_distance(const RunOptions& options, const SceneValues& scene) {
                     "--every {} if you mean it",
                     options.output, rows, std::max(1L, *scene.steps / 10'000), every));
   return every;
-}
-
-runtime::LoadedPlugin load(const PluginSource& plugin, const RunOptions& options) {
-  runtime::PluginSource source;
-  source.text = plugin.text;
-  source.uses_eigen = plugin.needs_eigen;
-  source.uses_quadmath = plugin.needs_quadmath;
-  runtime::CompileOptions compile_options;
-  compile_options.stop = &interrupt_flag();
-  const std::optional<std::string> choice =
-      options.compiler.empty() ? std::nullopt : std::optional(options.compiler);
-  return runtime::load_plugin(source, runtime::find_compiler(choice), compile_options,
-                              runtime::open_cache());
 }
 
 Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
@@ -175,7 +163,7 @@ int run(const RunOptions& options) {
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
-  const runtime::LoadedPlugin loaded = load(plugin, options);
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler);
   report.from_cache = loaded.from_cache;
   report.compile_seconds = loaded.compile_seconds;
   if (!options.quiet) {
