@@ -205,12 +205,10 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   if (plugin.scheme_name == "member") plugin.scheme_name = stages.equations.scheme.description;
   plugin.solver = stages.plan.solver;
   plugin.left_out = stages.plan.left_out;
-  std::set<std::string> used;
-  for (const auto& [place, value] : stages.equations.stage_matrix) collect_symbols(value, used);
   for (const Quantity& parameter : stages.mechanics.parameters) {
     plugin.parameter_names.push_back(parameter.name);
   }
-  plugin.needs_energy_parameter = used.contains("E0");
+  plugin.needs_energy_parameter = uses_energy_parameter(stages.equations);
   if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");
   for (const NamedExpression& invariant : stages.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "generator/equations/step_equations.hpp"
@@ -76,10 +78,16 @@ Expression StepEquations::increment(int i) const {
   return i < n ? step_size() * gradient_symbol(i + n) : -(step_size() * gradient_symbol(i - n));
 }
 
+bool uses_energy_parameter(const StepEquations& equations) {
+  return std::ranges::any_of(equations.stage_matrix,
+                             [](const auto& entry) { return depends_on(entry.second, "E0"); });
+}
+
 StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
   StepEquations equations{.mechanics = mechanics,
                           .scheme = scheme,
-                          .stage_matrix = stage_matrix(scheme.member)};
+                          .stage_matrix = {}};
+  if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   std::erase_if(equations.stage_matrix, [](const auto& entry) { return entry.second.is_zero(); });
   return equations;
 }

@@ -35,6 +35,9 @@ struct StepEquations {
   [[nodiscard]] Expression increment(int i) const;
 };
 
+// Is the initial energy, E0, a parameter of the step?
+[[nodiscard]] bool uses_energy_parameter(const StepEquations& equations);
+
 // The step size.
 [[nodiscard]] Expression step_size();
 

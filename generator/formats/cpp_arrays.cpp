@@ -492,7 +492,7 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
   out.lines(mathematics.text());
   const ArrayPlan& plan = *program.plan.arrays;
   const bool reduced = plan.method == ArrayMethod::reduced_newton;
-  const Member& member = program.plan.equations.scheme.member;
+  const Member& member = program.plan.equations.scheme.member();
   const CppExpression cpp(scalar, [&](const std::string& symbol) -> std::string {
     if (symbol == "h") return "h";
     const auto it = parameter_text.find(symbol);

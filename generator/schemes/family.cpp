@@ -57,7 +57,7 @@ Scheme family_member(int n, std::vector<Expression> alpha, std::vector<Expressio
   check_count("beta", beta, n);
   check_count("gamma", gamma, n);
   Scheme scheme;
-  Member& member = scheme.member;
+  Member member;
   member.degrees_of_freedom = n;
   const Expression half(Rational(1, 2));
   auto set = [&](int i, int j, const Expression& value) {
@@ -89,6 +89,7 @@ Scheme family_member(int n, std::vector<Expression> alpha, std::vector<Expressio
   member.alpha = std::move(alpha);
   member.beta = std::move(beta);
   member.gamma = std::move(gamma);
+  scheme.method = std::move(member);
   return scheme;
 }
 

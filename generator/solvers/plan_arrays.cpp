@@ -54,7 +54,7 @@ bool uses_sparse_matrix(const ArrayPlan& plan) {
 
 SolvePlan plan_arrays(const StepEquations& equations) {
   SolvePlan plan{.equations = equations};
-  const Member& member = equations.scheme.member;
+  const Member& member = equations.scheme.member();
   const std::vector<Kernel>& kernels = equations.mechanics.kernels;
   const bool separable = equations.mechanics.is_separable();
   const bool plain = member.beta[0].is_zero() && member.gamma[0].is_zero();

@@ -187,7 +187,7 @@ std::vector<std::string> what_was_left_out(const SolvePlan& plan) {
   const Mechanics& mechanics = equations.mechanics;
   const int n = mechanics.degrees_of_freedom;
   std::vector<std::string> list;
-  const Member& member = equations.scheme.member;
+  const Member& member = equations.scheme.member();
   auto all_zero = [](const std::vector<Expression>& values) {
     return std::ranges::all_of(values, [](const Expression& e) { return e.is_zero(); });
   };

@@ -7,7 +7,7 @@
 namespace hamgen {
 
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, std::optional<int> sweeps) {
-  const Member& member = scheme.member;
+  const Member& member = scheme.member();
   Proof proof{prove_gauge(member)};
   if (sweeps) {
     // After K sweeps Z is off the solution by O(h^(K+2)), an error no symplectic map needs.

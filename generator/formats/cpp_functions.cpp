@@ -1,0 +1,71 @@
+#include "generator/formats/cpp_functions.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+namespace {
+
+constexpr const char* kArguments =
+    "[[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z";
+
+// values[i] = result i.
+void write_results(CodeWriter& out, const CppExpression& cpp, const Evaluation& evaluation) {
+  for (std::size_t i = 0; i < evaluation.results.size(); ++i) {
+    out.line(fmt::format("values[{}] = {};", i, cpp(evaluation.results[i])));
+  }
+}
+
+}  // namespace
+
+void write_evaluation(CodeWriter& out, CppContext& context, const std::string& signature,
+                      const Evaluation& evaluation,
+                      const std::function<void(CodeWriter&, const CppExpression&)>& finish,
+                      CppContext::StateForm form) {
+  Names names;
+  names.reserve("values");
+  const CppExpression cpp = context.expression(names);
+  std::set<std::string> used = used_symbols(evaluation.statements);
+  for (const Expression& e : evaluation.results) collect_symbols(e, used);
+  out.open(signature);
+  context.load_state(out, names, used, form);
+  write_statements(out, cpp, names, evaluation.statements);
+  finish(out, cpp);
+  out.close();
+  out.line();
+  context.note(cpp);
+}
+
+void write_functions(CodeWriter& out, CppContext& context) {
+  const Program& program = context.program;
+  out.line("// H(q, p).");
+  write_evaluation(out, context, "inline Real energy(" + std::string(kArguments) + ")",
+                   program.energy, [&](CodeWriter& w, const CppExpression& cpp) {
+                     w.line("return " + cpp(program.energy.results[0]) + ";");
+                   });
+  write_invariants(out, context);
+  if (!context.options.gradient) return;
+  out.line("// grad H, the derivatives by q first.");
+  write_evaluation(
+      out, context,
+      fmt::format("inline void gradient({}, Real (&values)[{}])", kArguments, 2 * context.n()),
+      program.gradient, [&](CodeWriter& w, const CppExpression& cpp) {
+        write_results(w, cpp, program.gradient);
+      });
+}
+
+void write_invariants(CodeWriter& out, CppContext& context) {
+  const auto& invariants = context.mechanics.invariants;
+  if (invariants.empty()) return;
+  std::string list;
+  for (const NamedExpression& i : invariants) list += (list.empty() ? "" : ", ") + i.name;
+  out.line("// The model's invariants: " + list + ".");
+  write_evaluation(
+      out, context,
+      fmt::format("inline void invariants({}, Real (&values)[{}])", kArguments, invariants.size()),
+      context.program.invariants, [&](CodeWriter& w, const CppExpression& cpp) {
+        write_results(w, cpp, context.program.invariants);
+      });
+}
+
+}  // namespace hamgen

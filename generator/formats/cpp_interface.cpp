@@ -1,0 +1,146 @@
+#include "generator/formats/cpp_interface.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+namespace {
+
+// Copies an array of doubles into a struct's fields.
+void write_fill(CodeWriter& out, const CppContext& context, const std::string& target,
+                const std::vector<std::string>& names,
+                const std::string& values) {
+  if (context.arrays() && target == "result" && values == "state") {
+    const std::string low = context.scalar.digits <= 53 ? "" : " + (state_lo ? Real(state_lo[{0}]) : Real(0))";
+    out.open("for (int i = 0; i < n; ++i)");
+    out.line("result.q[i] = static_cast<Real>(state[i])" + fmt::format(fmt::runtime(low), "i") + ";");
+    out.line("result.p[i] = static_cast<Real>(state[n + i])" + fmt::format(fmt::runtime(low), "n + i") + ";");
+    out.close();
+    return;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (context.scalar.digits <= 53) {
+      out.line(fmt::format("{}.{} = static_cast<Real>({}[{}]);", target, names[i], values, i));
+    } else {
+      out.line(fmt::format("{0}.{1} = Real({2}[{3}]) + ({2}_lo ? Real({2}_lo[{3}]) : Real(0));",
+                           target, names[i], values, i));
+    }
+  }
+}
+
+}  // namespace
+
+void write_interface(CodeWriter& out, const CppContext& context) {
+  const std::string description = fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name);
+  out.line();
+  out.line("// The interface of plugin.h.");
+  out.line(fmt::format("using namespace {};", context.options.name_space));
+  out.line();
+  out.open("struct hamgen_run");
+  out.line("Propagator propagator;");
+  out.line("Parameters par;");
+  out.close(";");
+  out.line();
+  out.line("namespace {");
+  out.line();
+  auto fill = [&](const std::string& name, const std::string& type,
+                  const std::vector<std::string>& names, const std::string& values) {
+    out.open(fmt::format("{0} {1}([[maybe_unused]] const double* {2}, [[maybe_unused]] const "
+                         "double* {2}_lo)",
+                         type, name, values));
+    out.line(type + " result;");
+    write_fill(out, context, "result", names, values);
+    out.line("return result;");
+    out.close();
+    out.line();
+  };
+  fill("read_parameters", "Parameters", context.parameter_fields, "parameters");
+  fill("read_state", "State", context.state_fields, "state");
+  out.lines(R"(hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
+                   const double* state, const double* state_lo) {
+  const Parameters par = read_parameters(parameters, parameters_lo);
+  return new hamgen_run{Propagator(par, static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)), par};
+}
+
+void destroy(hamgen_run* run) { delete run; }
+
+void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* report) {
+  hamgen_report total{HAMGEN_DONE, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
+  for (long long i = 0; i < steps; ++i) {
+    const StepReport last = run->propagator.step();
+    total.last_iterations = last.iterations;
+    total.last_increment = static_cast<double>(last.increment);
+    if (!last.converged) {
+      const bool finite = total.last_increment - total.last_increment == 0.0;
+      total.status = finite ? HAMGEN_NOT_CONVERGED : HAMGEN_NOT_FINITE;
+      break;
+    }
+    total.iterations += last.iterations;
+    ++total.steps_done;
+    if (watch_energy) {
+      const double now = static_cast<double>(energy(run->par, run->propagator.state()));
+      if (i == 0 || now < total.energy_min) total.energy_min = now;
+      if (i == 0 || now > total.energy_max) total.energy_max = now;
+      total.energy_last = now;
+      if (!(now - now == 0.0)) {
+        total.status = HAMGEN_NOT_FINITE;
+        break;
+      }
+    }
+  }
+  *report = total;
+}
+)");
+  out.line();
+  out.open("void get_state(const hamgen_run* run, double* state, double* state_lo)");
+  out.line("const State& z = run->propagator.state();");
+  if (context.arrays()) {
+    out.open("for (int i = 0; i < 2 * n; ++i)");
+    out.line("const Real value = i < n ? z.q[i] : z.p[i - n];");
+    out.line("state[i] = static_cast<double>(value);");
+    out.line("if (state_lo) state_lo[i] = static_cast<double>(value - static_cast<Real>(state[i]));");
+    out.close();
+  }
+  for (int i = 0; i < (context.arrays() ? 0 : 2 * context.n()); ++i) {
+    out.line(fmt::format("state[{}] = static_cast<double>(z.{});", i, context.state_field(i)));
+    out.line(fmt::format("if (state_lo) state_lo[{0}] = static_cast<double>(z.{1} - "
+                         "static_cast<Real>(state[{0}]));",
+                         i, context.state_field(i)));
+  }
+  out.close();
+  out.line();
+  out.open("double energy_of(const double* parameters, const double* state)");
+  out.line("return static_cast<double>(energy(read_parameters(parameters, nullptr), "
+           "read_state(state, nullptr)));");
+  out.close();
+  out.line();
+  auto vector_function = [&](const std::string& name, const std::string& function,
+                             std::size_t count) {
+    out.open(fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
+                         "double* state, [[maybe_unused]] double* values)",
+                         name));
+    if (count != 0) {
+      out.line(fmt::format("Real result[{}];", count));
+      const bool flat = context.arrays() && function == "gradient";
+      out.line(fmt::format("{}(read_parameters(parameters, nullptr), read_state(state, nullptr){}, result);",
+                           function, flat ? ".q" : ""));
+      out.line(fmt::format("for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);",
+                           count));
+    }
+    out.close();
+    out.line();
+  };
+  vector_function("invariants_of", "invariants", context.mechanics.invariants.size());
+  vector_function("gradient_of", "gradient", static_cast<std::size_t>(2 * context.n()));
+  out.line(fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
+                       "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
+                       "gradient_of}};",
+                       context.n(), context.parameters.size(), context.mechanics.invariants.size(), context.scalar.digits,
+                       description, context.program.plan.solver));
+  out.line();
+  out.line("}  // namespace");
+  out.line();
+  out.line("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() { return &plugin; }");
+}
+
+}  // namespace hamgen

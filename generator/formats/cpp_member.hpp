@@ -1,0 +1,44 @@
+// A member's step in C++: what depends on h alone, the solution of its equations, many steps.
+#pragma once
+
+#include "generator/formats/cpp_context.hpp"
+
+namespace hamgen {
+
+// What the solves of a program need besides their own text.
+struct MemberParts {
+  bool newton = false;
+  bool fixed_point = false;
+  bool elimination = false;   // a linear system is solved by emitted elimination
+  bool eigen = false;         // or by Eigen
+  bool inverse = false;       // a matrix is inverted once per run
+  bool coefficients = false;  // something depends on h and parameters alone
+  std::vector<std::string> unknowns = {};  // of all loops: they have start values
+  [[nodiscard]] bool has_start() const { return !unknowns.empty(); }
+};
+[[nodiscard]] MemberParts member_parts(const Program& program, const ScalarType& scalar);
+
+// Where the symbols of the coefficients are found: "#3" is k.c1.
+using CoefficientText = std::map<std::string, std::string>;
+
+// struct Coefficients and prepare(par, h).
+[[nodiscard]] CoefficientText write_prepare(CodeWriter& out, CppContext& context,
+                                            const MemberParts& parts);
+// add, elimination, rules for stopping, struct Start.
+void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts);
+// solve(par, k, h, z, start, dz).
+void write_solve(CodeWriter& out, CppContext& context, const MemberParts& parts,
+                 const CoefficientText& coefficients);
+// matrix[i][j] = ...; for the entries that are not zero.
+void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& name,
+                  const Solve& solve);
+[[nodiscard]] std::string inverse_name(std::size_t stage);
+
+// step(par, h, z).
+void write_member_step(CodeWriter& out, const CppContext& context, const MemberParts& parts);
+// class Propagator.
+void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts);
+// The functions advance() and state() of a class with step() and z_.
+void write_advance(CodeWriter& out);
+
+}  // namespace hamgen

@@ -1,0 +1,69 @@
+#include "generator/formats/cpp_preamble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hamgen {
+
+namespace {
+
+// The user's words as the end of a // comment: a line's end there, or a backslash before it, would
+// let the compiler read on.
+std::string one_line(std::string text) {
+  std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
+  return text.ends_with('\\') ? text + "." : text;
+}
+
+Cost sum(Cost total, const Cost& more) {
+  total.additions += more.additions;
+  total.multiplications += more.multiplications;
+  total.divisions += more.divisions;
+  total.functions += more.functions;
+  return total;
+}
+
+void write_cost(CodeWriter& out, const Program& program) {
+  Cost straight;
+  Cost iteration;
+  for (const Stage& stage : program.stages) {
+    straight = sum(sum(straight, cost(stage.before)), cost(stage.after));
+    if (stage.solve) iteration = sum(iteration, cost(stage.solve->body));
+  }
+  if (iteration == Cost{}) {
+    out.line("//   cost      per step: " + to_text(straight));
+  } else {
+    out.line(fmt::format("//   cost      per iteration: {}; per step besides: {}",
+                         to_text(iteration), to_text(straight)));
+  }
+}
+
+}  // namespace
+
+void write_preamble(CodeWriter& out, const CppContext& context) {
+  const Scheme& scheme = context.equations.scheme;
+  const SolvePlan& plan = context.program.plan;
+  out.line(fmt::format("// {}, {}.  Generated: change the model, not this file.",
+                       context.mechanics.name, scheme.name));
+  out.line("//");
+  out.line(fmt::format("//   made by   hamgen {}", HAMGEN_VERSION));
+  const CppOptions& options = context.options;
+  if (!options.command.empty()) out.line("//   command   " + one_line(options.command));
+  if (!options.model_path.empty()) out.line("//   model     " + one_line(options.model_path));
+  std::string formula = context.mechanics.hamiltonian_text;
+  std::ranges::replace(formula, '\n', ' ');
+  out.comment("//   H(q, p) = ", formula);
+  const bool symplectic = scheme.symplectic && !plan.sweeps;
+  out.line(fmt::format("//   scheme    {}: order {}{}{}", scheme.description, scheme.order,
+                       scheme.symmetric ? ", symmetric" : "",
+                       symplectic ? ", symplectic" : ", not symplectic"));
+  out.comment("//   solve     ", plan.solver);
+  bool first = true;
+  for (const std::string& item : plan.left_out) {
+    out.comment(first ? "//   left out  " : "//             ", item);
+    first = false;
+  }
+  if (!context.arrays()) write_cost(out, context.program);
+}
+
+}  // namespace hamgen
