@@ -14,6 +14,7 @@
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -34,34 +35,6 @@ Model read(const SourceText& source, const Request& request) {
     it->folded = true;
   }
   return model;
-}
-
-// Splits at commas outside parentheses.
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '(') ++depth;
-    if (c == ')') --depth;
-    if (c == ',' && depth == 0) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-std::vector<Expression> scheme_parameters(const Model& model, const std::string& option,
-                                          const std::string& text) {
-  std::vector<std::string> names{"h", "E0"};
-  for (const std::string& name : element_names(model.parameters)) names.push_back(name);
-  std::vector<Expression> values;
-  for (const std::string& part : split_list(text)) {
-    const NodePtr node = read_expression("--" + option, part, names);
-    values.push_back(scheme_parameter(model, option, node));
-  }
-  return values;
 }
 
 Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
@@ -89,9 +62,9 @@ Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Reque
   if (!request.beta.empty()) beta = request.beta;
   if (!request.gamma.empty()) gamma = request.gamma;
   Scheme scheme = family_member(mechanics.degrees_of_freedom,
-                                scheme_parameters(model, "alpha", alpha),
-                                scheme_parameters(model, "beta", beta),
-                                scheme_parameters(model, "gamma", gamma));
+                                read_gauge_block(model, "alpha", alpha),
+                                read_gauge_block(model, "beta", beta),
+                                read_gauge_block(model, "gamma", gamma));
   // In the user's own words: 0.03, not 3/100.
   scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
   return scheme;

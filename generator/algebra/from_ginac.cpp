@@ -106,4 +106,11 @@ GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
   return convert(convert, e);
 }
 
+bool vanishes(const Expression& e) {
+  if (e.is_zero()) return true;
+  if (e.is_number()) return false;
+  SymbolTable table;
+  return to_ginac(e, table).expand().is_zero();
+}
+
 }  // namespace hamgen

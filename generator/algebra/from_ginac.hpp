@@ -26,6 +26,8 @@ class SymbolTable {
 // Throws std::domain_error if the expression holds something that is not real or not a scalar.
 [[nodiscard]] Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table);
 [[nodiscard]] GiNaC::ex to_ginac(const Expression& e, SymbolTable& table);
+// Is it identically 0, as far as expanding shows?
+[[nodiscard]] bool vanishes(const Expression& e);
 [[nodiscard]] GiNaC::numeric to_ginac(const Rational& value);
 [[nodiscard]] Rational to_rational(const GiNaC::numeric& value);
 

@@ -16,7 +16,7 @@ namespace hamgen {
 struct StepEquations {
   Mechanics mechanics;
   Scheme scheme;
-  std::map<std::pair<int, int>, Expression> stage_matrix;  // B, nonzero entries
+  SparseMatrix stage_matrix;  // B
 
   // Names of the symbols of the step for component i of the state.
   [[nodiscard]] Expression stage(int i) const;              // zbar_i: "bar(q)"

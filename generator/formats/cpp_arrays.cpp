@@ -492,7 +492,8 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
   out.lines(mathematics.text());
   const ArrayPlan& plan = *program.plan.arrays;
   const bool reduced = plan.method == ArrayMethod::reduced_newton;
-  const Member& member = program.plan.equations.scheme.member();
+  const FamilyParameters member =
+      uniform_parameters(program.plan.equations.scheme.member()).value();
   const CppExpression cpp(scalar, [&](const std::string& symbol) -> std::string {
     if (symbol == "h") return "h";
     const auto it = parameter_text.find(symbol);
@@ -506,7 +507,7 @@ void write_array_program(CodeWriter& out, const Program& program, const ScalarTy
     out.line("Propagator([[maybe_unused]] const Parameters& par, Real h, const State& z)");
     const std::string size = reduced ? "n" : "2 * n";
     out.line(fmt::format("    : par_(par), h_(h), z_(z), alpha_({}), beta_({}), gamma_({}){} {{",
-                         cpp(member.alpha[0]), cpp(member.beta[0]), cpp(member.gamma[0]),
+                         cpp(member.alpha), cpp(member.beta), cpp(member.gamma),
                          plan.bandwidth ? "" : ", matrix_(" + size + "), residual_(" + size + ")"));
     out.indent();
     if (reduced) {

@@ -1,26 +1,56 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
+#include "generator/algebra/from_ginac.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
 
 namespace hamgen {
 
 namespace {
 
-void check_count(const char* name, const std::vector<Expression>& values, int n) {
-  if (values.size() == 1 || values.size() == static_cast<std::size_t>(n)) return;
-  throw UsageError(fmt::format("--{} has {} values; give 1, or {}: one per degree of freedom", name,
-                               values.size(), n));
+// The block as a matrix: nonzero entries.
+SparseMatrix block_matrix(const char* name, const GaugeBlock& block, int n) {
+  const std::vector<Expression>& entries = block.entries;
+  const auto size = static_cast<std::size_t>(n);
+  SparseMatrix matrix;
+  if (block.is_matrix) {
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      if (entries[k].is_zero()) continue;
+      matrix.emplace(std::pair(static_cast<int>(k / size), static_cast<int>(k % size)), entries[k]);
+    }
+    return matrix;
+  }
+  if (entries.size() != 1 && entries.size() != size) {
+    throw UsageError(fmt::format("--{} has {} values; give 1, or {}: one per degree of freedom", name,
+                                 entries.size(), n));
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    const Expression& value = entries.size() == 1 ? entries[0] : entries[i];
+    if (!value.is_zero()) matrix.emplace(std::pair(static_cast<int>(i), static_cast<int>(i)), value);
+  }
+  return matrix;
 }
 
-const Expression& entry(const std::vector<Expression>& values, int i) {
-  return values.size() == 1 ? values[0] : values[static_cast<std::size_t>(i)];
+Expression entry(const SparseMatrix& matrix, int i, int j) {
+  const auto it = matrix.find({i, j});
+  return it == matrix.end() ? Expression(0) : it->second;
 }
 
-std::string list_text(const std::vector<Expression>& values) {
-  std::string text;
-  for (const Expression& value : values) text += (text.empty() ? "" : ", ") + to_text(value);
-  return text;
+void require_symmetric(const char* name, const SparseMatrix& matrix) {
+  for (const auto& [place, value] : matrix) {
+    const auto [i, j] = place;
+    const Expression mirror = entry(matrix, j, i);
+    if (value == mirror || vanishes(value - mirror)) continue;
+    throw UsageError(fmt::format(
+        "--{0}: entry ({1}, {2}) is {3}, but entry ({2}, {1}) is {4}\n"
+        "help: the {0} block must be symmetric: C has to lie in sp(2n), C J + J C^T = 0, or the "
+        "step is not symplectic",
+        name, i + 1, j + 1, to_text(value), to_text(mirror)));
+  }
 }
 
 // The expression with h replaced by -h.
@@ -28,80 +58,153 @@ Expression reflected(const Expression& e) {
   return substitute(e, {{"h", -Expression::symbol("h")}});
 }
 
-bool is_odd_in_h(const std::vector<Expression>& values) {
-  for (const Expression& value : values) {
-    if (!(reflected(value) + value).is_zero()) return false;
+// The different entries: a large system has few.
+std::set<Expression> distinct_entries(const SparseMatrix& c) {
+  std::set<Expression> entries;
+  for (const auto& [place, value] : c) entries.insert(value);
+  return entries;
+}
+
+bool is_odd_in_h(const SparseMatrix& c) {
+  return std::ranges::all_of(distinct_entries(c), [](const Expression& value) {
+    return vanishes(reflected(value) + value);
+  });
+}
+
+bool vanishes_with_h(const SparseMatrix& c) {
+  for (const Expression& value : distinct_entries(c)) {
+    const std::optional<Expression> limit = at_zero_step(value);
+    if (!limit || !vanishes(*limit)) return false;
   }
   return true;
 }
 
-bool all_are(const std::vector<Expression>& values, const Expression& wanted) {
-  for (const Expression& value : values) {
-    if (value != wanted) return false;
-  }
-  return true;
+// Is C = value * [[I, 0], [0, -I]]?
+bool is_diagonal_gauge(const Member& member, const Expression& value) {
+  const std::optional<FamilyParameters> parameters = uniform_parameters(member);
+  return parameters && parameters->beta.is_zero() && parameters->gamma.is_zero() &&
+         parameters->alpha == value;
 }
 
-bool vanishes_with_h(const std::vector<Expression>& values) {
-  for (const Expression& value : values) {
-    if (!substitute(value, {{"h", Expression(0)}}).is_zero()) return false;
+std::string block_text(const GaugeBlock& block, int n) {
+  std::string text;
+  for (std::size_t k = 0; k < block.entries.size(); ++k) {
+    if (k != 0) text += block.is_matrix && k % static_cast<std::size_t>(n) == 0 ? "], [" : ", ";
+    text += to_text(block.entries[k]);
   }
-  return true;
+  return block.is_matrix ? "[[" + text + "]]" : text;
 }
 
 }  // namespace
 
-Scheme family_member(int n, std::vector<Expression> alpha, std::vector<Expression> beta,
-                     std::vector<Expression> gamma) {
-  check_count("alpha", alpha, n);
-  check_count("beta", beta, n);
-  check_count("gamma", gamma, n);
+Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
+                     const GaugeBlock& gamma) {
   Scheme scheme;
   Member member;
   member.degrees_of_freedom = n;
   const Expression half(Rational(1, 2));
-  auto set = [&](int i, int j, const Expression& value) {
-    if (!value.is_zero()) member.c.insert_or_assign({i, j}, value);
-  };
+  const SparseMatrix beta_block = block_matrix("beta", beta, n);
+  const SparseMatrix gamma_block = block_matrix("gamma", gamma, n);
+  require_symmetric("beta", beta_block);
+  require_symmetric("gamma", gamma_block);
+  SparseMatrix a = block_matrix("alpha", alpha, n);
   for (int i = 0; i < n; ++i) {
-    set(i, i, entry(alpha, i) - half);
-    set(i, n + i, -entry(gamma, i));
-    set(n + i, i, -entry(beta, i));
-    set(n + i, n + i, half - entry(alpha, i));
+    Expression& diagonal = a[{i, i}];
+    diagonal = diagonal - half;
   }
-  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", list_text(alpha),
-                                   list_text(beta), list_text(gamma));
-  const bool plain = all_are(beta, Expression(0)) && all_are(gamma, Expression(0));
+  for (const auto& [place, value] : a) {
+    if (value.is_zero()) continue;
+    member.c.emplace(place, value);
+    member.c.emplace(std::pair(n + place.second, n + place.first), -value);
+  }
+  for (const auto& [place, value] : gamma_block) {
+    member.c.emplace(std::pair(place.first, n + place.second), -value);
+  }
+  for (const auto& [place, value] : beta_block) {
+    member.c.emplace(std::pair(n + place.first, place.second), -value);
+  }
+  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", block_text(alpha, n),
+                                   block_text(beta, n), block_text(gamma, n));
   // Mathematics: the adjoint of C is -C, so C(-h) = -C(h) makes the member symmetric; order 2 needs
   // C = O(h).
-  scheme.symmetric = all_are(alpha, half) && is_odd_in_h(beta) && is_odd_in_h(gamma);
-  scheme.order = all_are(alpha, half) && vanishes_with_h(beta) && vanishes_with_h(gamma) ? 2 : 1;
+  scheme.symmetric = is_odd_in_h(member.c);
+  scheme.order = vanishes_with_h(member.c) ? 2 : 1;
   scheme.source = "Jimenez-Perez, Vilotte, Romanowicz, 2015";
-  if (plain && all_are(alpha, half)) {
+  if (member.c.empty()) {
     scheme.name = "implicit-midpoint";
-  } else if (plain && all_are(alpha, Expression(0))) {
+  } else if (is_diagonal_gauge(member, Expression(0))) {
     scheme.name = "symplectic-euler-a";
-  } else if (plain && all_are(alpha, Expression(1))) {
+  } else if (is_diagonal_gauge(member, Expression(1))) {
     scheme.name = "symplectic-euler-b";
   } else {
     scheme.name = "member";
   }
-  member.alpha = std::move(alpha);
-  member.beta = std::move(beta);
-  member.gamma = std::move(gamma);
   scheme.method = std::move(member);
   return scheme;
 }
 
-std::map<std::pair<int, int>, Expression> stage_matrix(const Member& member) {
+std::optional<FamilyParameters> uniform_parameters(const Member& member) {
   const int n = member.degrees_of_freedom;
-  auto i_plus_c = member.c;
+  FamilyParameters first{.alpha = Expression(Rational(1, 2))};
+  if (n == 0) return first;
+  first.alpha = first.alpha + entry(member.c, 0, 0);
+  first.beta = -entry(member.c, n, 0);
+  first.gamma = -entry(member.c, 0, n);
+  std::size_t entries = 0;
+  for (int i = 0; i < n; ++i) {
+    if (entry(member.c, i, i) != entry(member.c, 0, 0) ||
+        entry(member.c, n + i, n + i) != entry(member.c, n, n) ||
+        entry(member.c, n + i, i) != entry(member.c, n, 0) ||
+        entry(member.c, i, n + i) != entry(member.c, 0, n)) {
+      return std::nullopt;
+    }
+    for (const auto& place : {std::pair(i, i), {n + i, n + i}, {n + i, i}, {i, n + i}}) {
+      entries += member.c.contains(place) ? 1 : 0;
+    }
+  }
+  if (entries != member.c.size()) return std::nullopt;
+  return first;
+}
+
+bool has_beta(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  for (const auto& [place, value] : member.c) {
+    if (place.first >= n && place.second < n) return true;
+  }
+  return false;
+}
+
+bool has_gamma(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  for (const auto& [place, value] : member.c) {
+    if (place.first < n && place.second >= n) return true;
+  }
+  return false;
+}
+
+std::optional<Expression> at_zero_step(const Expression& entry) {
+  if (!depends_on(entry, "h")) return entry;
+  SymbolTable table;
+  const GiNaC::ex h = table.symbol("h", kRankOfStep);
+  try {
+    // A series: 1/tan(h) - 1/h has its value at 0 only as a limit.
+    const GiNaC::ex series = to_ginac(entry, table).series(h == 0, 1);
+    if (series.ldegree(h) < 0) return std::nullopt;
+    return from_ginac(series.coeff(h, 0), table);
+  } catch (const std::exception&) {  // an essential singularity, such as sqrt(h) has
+    return std::nullopt;
+  }
+}
+
+SparseMatrix stage_matrix(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  SparseMatrix i_plus_c = member.c;
   for (int i = 0; i < 2 * n; ++i) {
     Expression& diagonal = i_plus_c[{i, i}];
     diagonal = diagonal + Expression(Rational(1, 2));
   }
   // J = [[0, I], [-I, 0]]: column j of (..) J is -column n + j, column n + j is column j.
-  std::map<std::pair<int, int>, Expression> result;
+  SparseMatrix result;
   for (const auto& [place, value] : i_plus_c) {
     if (value.is_zero()) continue;
     const auto [row, column] = place;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -11,17 +12,21 @@
 
 namespace hamgen {
 
+// Nonzero entries of a matrix by row and column.
+using SparseMatrix = std::map<std::pair<int, int>, Expression>;
+
 // A member of the family of Jimenez-Perez, Vilotte and Romanowicz:
 //
 //   Z = z + h J grad H(zbar),   zbar = (z + Z)/2 + C (Z - z),   z = (q, p)
 //
-// C is 2n x 2n, kept as its nonzero entries.  For alpha, beta, gamma per degree of freedom
-// C = [[alpha - 1/2, -gamma], [-beta, 1/2 - alpha]] with diagonal blocks.
+// C is 2n x 2n.  The step is symplectic for every H if and only if C J + J C^T = 0, that is
+//
+//   C = [[alpha - 1/2, -gamma], [-beta, 1/2 - alpha^T]],   beta and gamma symmetric.
 struct Member {
   int degrees_of_freedom = 0;  // 0 in THE LIST: made for a system by for_system
-  std::map<std::pair<int, int>, Expression> c = {};  // zero entries are absent
-  // How the user said it, one entry per degree of freedom (or one for all of them).
-  std::vector<Expression> alpha = {}, beta = {}, gamma = {};
+  SparseMatrix c = {};
+  // Steps at which C has a pole, with all their multiples; empty for most members.
+  std::vector<double> singular_steps = {};
 };
 
 // Steps of sizes substeps[0] h, substeps[1] h, ... of a symmetric member, one after the other.
@@ -62,12 +67,30 @@ struct Scheme {
   [[nodiscard]] bool has_member() const;
 };
 
-// The member with these parameters; each list has one entry, or one per degree of freedom.
-// Throws UsageError on a wrong count.
-[[nodiscard]] Scheme family_member(int degrees_of_freedom, std::vector<Expression> alpha,
-                                   std::vector<Expression> beta, std::vector<Expression> gamma);
+// A block of C as a user gives it.
+struct GaugeBlock {
+  // One entry for all degrees of freedom, one for each, or n x n entries row by row.
+  std::vector<Expression> entries;
+  bool is_matrix = false;
+};
 
-// The matrix (1/2 + C) J of zbar = z + h (I/2 + C) J grad H(zbar): nonzero entries.
-[[nodiscard]] std::map<std::pair<int, int>, Expression> stage_matrix(const Member& member);
+// The member with these blocks.  Throws UsageError on a wrong count, and on a beta or gamma that is
+// not symmetric.
+[[nodiscard]] Scheme family_member(int degrees_of_freedom, const GaugeBlock& alpha,
+                                   const GaugeBlock& beta, const GaugeBlock& gamma);
+
+// The parameters of a member that has the same ones for all degrees of freedom and no other entries.
+struct FamilyParameters {
+  Expression alpha, beta, gamma;
+};
+[[nodiscard]] std::optional<FamilyParameters> uniform_parameters(const Member& member);
+[[nodiscard]] bool has_beta(const Member& member);
+[[nodiscard]] bool has_gamma(const Member& member);
+
+// The value of an entry of C as h goes to 0; empty if it has none that could be found.
+[[nodiscard]] std::optional<Expression> at_zero_step(const Expression& entry);
+
+// The matrix (1/2 + C) J of zbar = z + h (I/2 + C) J grad H(zbar).
+[[nodiscard]] SparseMatrix stage_matrix(const Member& member);
 
 }  // namespace hamgen

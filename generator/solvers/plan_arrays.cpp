@@ -54,10 +54,10 @@ bool uses_sparse_matrix(const ArrayPlan& plan) {
 
 SolvePlan plan_arrays(const StepEquations& equations) {
   SolvePlan plan{.equations = equations};
-  const Member& member = equations.scheme.member();
+  const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
   const std::vector<Kernel>& kernels = equations.mechanics.kernels;
   const bool separable = equations.mechanics.is_separable();
-  const bool plain = member.beta[0].is_zero() && member.gamma[0].is_zero();
+  const bool plain = member.beta.is_zero() && member.gamma.is_zero();
   const int n = equations.mechanics.degrees_of_freedom;
   ArrayPlan arrays;
   auto kinetic_is_diagonal = [&] {
@@ -65,10 +65,10 @@ SolvePlan plan_arrays(const StepEquations& equations) {
       return !uses_momenta(k) || (has_constant_hessian(k) && has_diagonal_hessian(k));
     });
   };
-  if (separable && plain && member.alpha[0].is_zero()) {
+  if (separable && plain && member.alpha.is_zero()) {
     arrays.method = ArrayMethod::explicit_a;
     plan.solver = "explicit, in loops";
-  } else if (separable && plain && member.alpha[0].is_one()) {
+  } else if (separable && plain && member.alpha.is_one()) {
     arrays.method = ArrayMethod::explicit_b;
     plan.solver = "explicit, in loops";
   } else {
@@ -83,8 +83,8 @@ SolvePlan plan_arrays(const StepEquations& equations) {
                               arrays.constant_matrix ? ", factorised once" : "");
   }
   plan.arrays = arrays;
-  if (member.beta[0].is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
-  if (member.gamma[0].is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
+  if (member.beta.is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
+  if (member.gamma.is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
   plan.left_out.push_back(fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
   if (arrays.bandwidth) {
     plan.left_out.push_back(fmt::format("Eigen: the matrix has bandwidth {}", *arrays.bandwidth));

@@ -188,11 +188,8 @@ std::vector<std::string> what_was_left_out(const SolvePlan& plan) {
   const int n = mechanics.degrees_of_freedom;
   std::vector<std::string> list;
   const Member& member = equations.scheme.member();
-  auto all_zero = [](const std::vector<Expression>& values) {
-    return std::ranges::all_of(values, [](const Expression& e) { return e.is_zero(); });
-  };
-  if (all_zero(member.beta)) list.emplace_back("beta terms: beta = 0");
-  if (all_zero(member.gamma)) list.emplace_back("gamma terms: gamma = 0");
+  if (!has_beta(member)) list.emplace_back("beta terms: beta = 0");
+  if (!has_gamma(member)) list.emplace_back("gamma terms: gamma = 0");
   const std::vector<int> needed = needed_stages(equations);
   std::vector<int> cyclic;
   for (int i = 0; i < 2 * n; ++i) {

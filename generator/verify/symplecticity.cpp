@@ -9,17 +9,9 @@ namespace hamgen {
 
 namespace {
 
-using Entries = std::map<std::pair<int, int>, Expression>;
-
-Expression entry(const Entries& matrix, int i, int j) {
+Expression entry(const SparseMatrix& matrix, int i, int j) {
   const auto it = matrix.find({i, j});
   return it == matrix.end() ? Expression(0) : it->second;
-}
-
-bool vanishes(const Expression& e) {
-  if (e.is_zero()) return true;
-  SymbolTable table;
-  return to_ginac(e, table).expand().is_zero();
 }
 
 GiNaC::matrix canonical_j(unsigned n) {
@@ -36,7 +28,7 @@ GiNaC::matrix canonical_j(unsigned n) {
 Finding prove_gauge(const Member& member) {
   const int n = member.degrees_of_freedom;
   // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign turned.
-  Entries residual;
+  SparseMatrix residual;
   for (const auto& [place, value] : member.c) {
     const auto [row, column] = place;
     const int target = column < n ? column + n : column - n;

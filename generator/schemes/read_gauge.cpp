@@ -1,0 +1,106 @@
+#include "generator/schemes/read_gauge.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+class GaugeText {
+ public:
+  GaugeText(const Model& model, const std::string& option) : model_(model), option_(option) {
+    names_ = {"h", "E0"};
+    for (const std::string& name : element_names(model.parameters)) names_.push_back(name);
+  }
+
+  GaugeBlock read(const std::string& text) const {
+    const std::string_view outer = without_blanks(text);
+    GaugeBlock block;
+    if (!outer.starts_with('[')) {
+      for (const std::string_view piece : pieces(outer)) block.entries.push_back(entry(piece));
+      return block;
+    }
+    const std::vector<std::string_view> rows = pieces(inside(outer));
+    const auto n = static_cast<std::size_t>(degrees_of_freedom(model_));
+    block.is_matrix = rows[0].starts_with('[');
+    if (block.is_matrix && rows.size() != n) refuse(rows.size(), "rows");
+    for (const std::string_view row : rows) {
+      if (!block.is_matrix) {
+        block.entries.push_back(entry(row));
+        continue;
+      }
+      const std::vector<std::string_view> entries = pieces(inside(row));
+      if (entries.size() != n) refuse(entries.size(), "entries in a row");
+      for (const std::string_view piece : entries) block.entries.push_back(entry(piece));
+    }
+    return block;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw UsageError(fmt::format(
+        "--{0}: {1}\nhelp: write a number, a list a,b with one entry per degree of freedom, or a "
+        "matrix row by row: --{0} '[[a, b], [b, c]]'",
+        option_, what));
+  }
+
+  [[noreturn]] void refuse(std::size_t count, const char* what) const {
+    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom", count, what,
+                     degrees_of_freedom(model_)));
+  }
+
+  // What stands between the brackets that enclose the text.
+  [[nodiscard]] std::string_view inside(std::string_view text) const {
+    if (!text.starts_with('[') || !text.ends_with(']')) {
+      fail(fmt::format("'{}' is not a list in brackets", text));
+    }
+    return text.substr(1, text.size() - 2);
+  }
+
+  // Split at the commas outside all brackets and parentheses.
+  [[nodiscard]] std::vector<std::string_view> pieces(std::string_view text) const {
+    std::vector<std::string_view> result;
+    int depth = 0;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '(' || text[i] == '[') ++depth;
+      if (text[i] == ')' || text[i] == ']') --depth;
+      if (text[i] == ',' && depth == 0) {
+        result.push_back(without_blanks(text.substr(begin, i - begin)));
+        begin = i + 1;
+      }
+    }
+    result.push_back(without_blanks(text.substr(begin)));
+    return result;
+  }
+
+  [[nodiscard]] Expression entry(std::string_view text) const {
+    return scheme_parameter(model_, option_,
+                            read_expression("--" + option_, std::string(text), names_));
+  }
+
+  const Model& model_;
+  const std::string& option_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+GaugeBlock read_gauge_block(const Model& model, const std::string& option,
+                            const std::string& text) {
+  return GaugeText(model, option).read(text);
+}
+
+}  // namespace hamgen
