@@ -150,7 +150,7 @@ int run(const RunOptions& options) {
   SizesAndRest set = split_sizes(read_model(source), options.method.set);
   request.sizes = set.sizes;
   request.command = generate_command(options.method.model, request);
-  const Model model = read_model(source, request.sizes);
+  const Model model = read_request(source, request);
   if (!model.warnings.empty() && !options.quiet) print_error(render(model.warnings, source));
   const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
   const long every = record_distance(options, scene);

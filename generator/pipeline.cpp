@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <set>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/equations/step_equations.hpp"
@@ -21,8 +23,41 @@ namespace hamgen {
 
 namespace {
 
-Model read(const SourceText& source, const Request& request) {
-  Model model = read_model(source, request.sizes);
+// Is the name a word of the text?
+bool mentions(const std::string& text, const std::string& name) {
+  auto letter = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_');
+  };
+  for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    if ((at == 0 || !letter(at - 1)) && !letter(at + name.size())) return true;
+  }
+  return false;
+}
+
+// alpha, beta and gamma may stand for themselves: then they are run-time parameters of the
+// integrator, and `--beta beta --set beta=0.1` needs no compilation for another value.
+void add_scheme_parameters(Model& model, const Request& request) {
+  const std::string texts = request.alpha + "," + request.beta + "," + request.gamma;
+  std::set<std::string> known;
+  for (const Variable& variable : model.coordinates) known.insert(variable.name);
+  for (const Variable& variable : model.momenta) known.insert(variable.name);
+  for (const Parameter& parameter : model.parameters) known.insert(parameter.name);
+  for (const Size& size : model.sizes) known.insert(size.name);
+  for (const Definition& definition : model.definitions) known.insert(definition.name);
+  const std::pair<const char*, Rational> names[] = {
+      {"alpha", Rational(1, 2)}, {"beta", Rational(0)}, {"gamma", Rational(0)}};
+  for (const auto& [name, value] : names) {
+    if (!mentions(texts, name) || known.contains(name)) continue;
+    const Span nowhere{};
+    model.parameters.push_back(
+        {.name = name,
+         .values = {std::make_shared<const Node>(Node{nowhere, NumberNode{value}})},
+         .comment = "of the scheme"});
+  }
+}
+
+// Burns the defaults of --fold in.
+void fold_parameters(Model& model, const Request& request) {
   for (const std::string& name : request.fold) {
     const auto it = std::ranges::find(model.parameters, name, &Parameter::name);
     if (it == model.parameters.end()) {
@@ -34,7 +69,6 @@ Model read(const SourceText& source, const Request& request) {
     }
     it->folded = true;
   }
-  return model;
 }
 
 Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
@@ -99,7 +133,7 @@ struct Stages {
 };
 
 Stages run_stages(const SourceText& source, const Request& request) {
-  Model model = read(source, request);
+  Model model = read_request(source, request);
   // Loops know one way to solve and one set of parameters for all degrees of freedom.
   const bool keep_sums = (request.solver.empty() || request.solver == "newton") &&
                          (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
@@ -138,6 +172,13 @@ OutputFiles cmake_package(const SourceText& source, const Program& program,
 
 }  // namespace
 
+Model read_request(const SourceText& source, const Request& request) {
+  Model model = read_model(source, request.sizes);
+  add_scheme_parameters(model, request);
+  fold_parameters(model, request);
+  return model;
+}
+
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
   const CppOptions options = cpp_options(source, stages.program, request);
@@ -150,8 +191,8 @@ OutputFiles generate(const SourceText& source, const Request& request) {
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
-  if (stage == "model") return to_text(read(source, request));
-  if (stage == "mechanics") return to_text(derive(read(source, request)));
+  if (stage == "model") return to_text(read_request(source, request));
+  if (stage == "mechanics") return to_text(derive(read_request(source, request)));
   const Stages stages = run_stages(source, request);
   if (stage == "equations") return to_text(stages.equations);
   if (stage == "plan") return to_text(stages.plan);
@@ -161,7 +202,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 }
 
 Proof verify_step(const SourceText& source, const Request& request) {
-  const Model model = read(source, request);
+  const Model model = read_request(source, request);
   const Mechanics mechanics = derive(model);
   const Scheme scheme = choose_scheme(model, mechanics, request);
   const SolvePlan plan = plan_solve(discretise(mechanics, scheme), request.solver);

@@ -18,7 +18,8 @@ enum class Scalar { float32, float64, extended, quad };
 // What the user asks of the generator.  Texts are as on the command line; empty means default.
 struct Request {
   std::string scheme;                     // a name of `hamgen list schemes`; empty: the member below
-  std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list
+  std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list;
+                                          // by their own names: run-time parameters
   std::string solver;                     // newton, fixed-point, sweeps:K
   std::string scalar;                     // float, double, long-double, quad
   std::string format;                     // cpp-header, cpp-plugin, cmake-package
@@ -27,6 +28,10 @@ struct Request {
   std::map<std::string, long> sizes;      // other integer constants than the file's
   std::string command;                    // as the user typed it, for the header; may be empty
 };
+
+// The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma as
+// run-time parameters where the request uses them by name.
+[[nodiscard]] Model read_request(const SourceText& source, const Request& request);
 
 [[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
 

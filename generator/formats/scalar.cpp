@@ -42,6 +42,47 @@ std::string shortest_float(float value) {
   return with_point(std::string(buffer.data(), end));
 }
 
+// Beyond the range of double, or so near its end that its parts would be rounded.
+bool needs_a_wide_exponent(const Rational& value) {
+  if (value == 0) return false;
+  const long over = static_cast<long>(mpz_sizeinbase(value.get_num().get_mpz_t(), 2));
+  const long under = static_cast<long>(mpz_sizeinbase(value.get_den().get_mpz_t(), 2));
+  return over - under < -840 || over - under > 1000;
+}
+
+// The nearest multiple of 2^exponent, as that multiple.
+Integer nearest_multiple(const Rational& value, long exponent) {
+  Rational scaled = value;
+  if (exponent >= 0) {
+    mpq_div_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  } else {
+    mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  }
+  scaled += Rational(1, 2);
+  Integer floor;
+  mpz_fdiv_q(floor.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  return floor;
+}
+
+// Hexadecimal, with the exponent of long double: one number, or the sum of two for quad.
+std::string wide_literal(const Rational& value, int digits) {
+  const Rational size = abs(value);
+  const long bits = static_cast<long>(mpz_sizeinbase(size.get_num().get_mpz_t(), 2)) -
+                    static_cast<long>(mpz_sizeinbase(size.get_den().get_mpz_t(), 2)) + 1;
+  // 2^(bits - 2) < size < 2^bits: the mantissa has `digits` bits, or one too few.
+  long exponent = bits - digits;
+  Integer mantissa = nearest_multiple(size, exponent);
+  if (static_cast<long>(mpz_sizeinbase(mantissa.get_mpz_t(), 2)) < digits) {
+    mantissa = nearest_multiple(size, --exponent);
+  }
+  auto spell = [](const Integer& m, long e) { return "0x" + m.get_str(16) + fmt::format("p{}L", e); };
+  const std::string sign = value < 0 ? "-" : "";
+  if (digits <= 64) return sign + spell(mantissa, exponent);
+  const Integer low = mantissa % (Integer(1) << 56);
+  const Integer high = mantissa >> 56;
+  return fmt::format("{}(Real({}) + Real({}))", sign, spell(high, exponent + 56), spell(low, exponent));
+}
+
 bool fits_exactly(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 2) <= 53; }
 
 }  // namespace
@@ -59,6 +100,7 @@ const ScalarType& find_scalar(std::string_view name) {
 
 std::string literal(const Rational& value, const ScalarType& scalar) {
   const bool quad = scalar.digits == 113;
+  if (scalar.digits > 53 && needs_a_wide_exponent(value)) return wide_literal(value, scalar.digits);
   auto spell = [&](double x) {
     // A long double literal is read with 64 bits: only the exact decimal, or hexadecimal, will do.
     if (scalar.digits == 64 && parse_decimal(shortest_decimal(std::fabs(x))) != from_double(std::fabs(x))) {

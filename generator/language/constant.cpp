@@ -13,7 +13,7 @@
 namespace hamgen {
 namespace {
 
-constexpr long most_terms = 1'000'000;
+constexpr long most_constant_terms = 1'000'000;
 constexpr long largest_integer = 999'999'999'999'999;
 
 Constant in_range(Rational value) {
@@ -97,9 +97,9 @@ class Evaluator {
 
   void add(const Node& node, const SumNode& sum, std::size_t depth, Rational& total) {
     if (depth == sum.ranges.size()) {
-      if (++terms_ > most_terms) {
+      if (++terms_ > most_constant_terms) {
         throw ConstantError{{Severity::error, node.span,
-                             fmt::format("a constant sum of more than {} terms", most_terms),
+                             fmt::format("a constant sum of more than {} terms", most_constant_terms),
                              "give its value"}};
       }
       total += value(sum.body);

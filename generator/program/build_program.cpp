@@ -212,12 +212,20 @@ class Builder {
       evaluated.push_back(k);
       define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), where);
     };
+    // Second derivatives of this block only: those of an earlier block are from before its last
+    // increment, good enough to correct a gradient with, not to solve other equations with.
+    std::map<std::string, Expression> known_hessian;
     auto hessian = [&](int k, int j) -> Expression {
-      const Expression symbol = equations_.hessian_symbol(k, j);
-      if (symbol.is_zero()) return symbol;
-      if (known_hessian_.insert(symbol.name()).second) {
-        define(symbol, at_stage(equations_.stage_hessian(k, j)), where);
+      const Expression plain = equations_.hessian_symbol(k, j);
+      if (plain.is_zero()) return plain;
+      if (const auto it = known_hessian.find(plain.name()); it != known_hessian.end()) {
+        return it->second;
       }
+      std::string name = plain.name();
+      while (!hessian_names_.insert(name).second) name += "*";
+      const Expression symbol = Expression::symbol(name, plain.rank());
+      define(symbol, at_stage(equations_.stage_hessian(k, j)), where);
+      known_hessian.emplace(plain.name(), symbol);
       return symbol;
     };
     // sum_k h B_ik sum_v H_kv dv/dx_j over the members v known so far, without `except`.
@@ -470,7 +478,7 @@ class Builder {
   std::vector<Expression> stage_value_;
   std::vector<Expression> gradient_;
   std::vector<bool> known_gradient_;
-  std::set<std::string> known_hessian_;
+  std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;
   int stage_ = 0;
   bool solving_done_ = false;

@@ -85,5 +85,24 @@ TEST(Literals, AreCorrectlyRoundedInEveryScalar) {
   }
 }
 
+TEST(Literals, BelowTheSmallestNormalNumberAreCorrectlyRounded) {
+  const std::vector<Rational> values{*parse_decimal("1e-320"), *parse_decimal("1e-310"),
+                                     *parse_decimal("4.9406564584124654e-324")};
+  std::istringstream lines(run_program(printer(values)));
+  for (const ScalarType& scalar : all_scalars()) {
+    for (const Rational& value : values) {
+      std::string part[4];
+      lines >> part[0] >> part[1] >> part[2] >> part[3];
+      Rational got = 0;
+      for (int i = 0; i < 3; ++i) got += from_double(std::strtod(part[i].c_str(), nullptr));
+      for (int e = std::atoi(part[3].c_str()); e != 0; e += e > 0 ? -1 : 1) {
+        e > 0 ? got *= 2 : got /= 2;
+      }
+      EXPECT_LE(abs(got - value), half_unit(value, scalar))
+          << value.get_d() << " as " << scalar.name << " is " << literal(value, scalar);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::emitted_test

@@ -73,6 +73,10 @@ struct Jet {
     const Real e = std::exp(a.value);
     return a.through(e, e, e);
   }
+  friend Jet atan(const Jet& a) {
+    const Real r = 1 / (1 + a.value * a.value);
+    return a.through(std::atan(a.value), r, -2 * a.value * r * r);
+  }
   friend Jet sqrt(const Jet& a) {
     const Real r = std::sqrt(a.value);
     return a.through(r, 1 / (2 * r), -1 / (4 * r * a.value));
