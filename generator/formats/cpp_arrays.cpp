@@ -13,10 +13,18 @@ namespace {
 // Which kernels a function sums, by what they read.
 enum class Part { all, potential, kinetic };
 
+constexpr std::string_view kLocals[] = {"x", "sum", "gradient", "put", "n"};
+
+// A loop's index: the user's name unless the function around it uses that itself.
+std::string loop_index(const std::string& name) {
+  const bool taken = std::ranges::find(kLocals, name) != std::end(kLocals);
+  return taken ? name + "_index" : identifier(name);
+}
+
 std::string affine(const AffineIndex& a) {
   std::string text;
   for (const auto& [index, factor] : a.factors) {
-    const std::string name = identifier(index);
+    const std::string name = loop_index(index);
     if (factor == 1) {
       text += (text.empty() ? "" : " + ") + name;
     } else {
@@ -74,7 +82,8 @@ class ArrayWriter {
   template <class Use>
   void write_kernel(const Kernel& kernel, const std::vector<Expression>& values, Use use) {
     Names names;
-    for (const char* local : {"x", "sum", "gradient", "put", "n"}) names.reserve(local);
+    for (const std::string_view local : kLocals) names.reserve(std::string(local));
+    for (const KernelRange& range : kernel.ranges) names.reserve(loop_index(range.index));
     for (const Slot& slot : kernel.slots) names.set(slot.symbol, names.unique(slot_name(slot.symbol)));
     const CppExpression cpp(scalar_, [&](const std::string& symbol) -> std::string {
       if (const auto it = parameter_text_.find(symbol); it != parameter_text_.end()) {
@@ -85,7 +94,7 @@ class ArrayWriter {
         return fmt::format("par.{}[{}]", member_identifier(slot.parameter), affine(slot.position));
       }
       for (const KernelRange& range : kernel.ranges) {
-        if (range.index == symbol) return fmt::format("Real({})", identifier(symbol));
+        if (range.index == symbol) return fmt::format("Real({})", loop_index(symbol));
       }
       if (symbol == "pi") return literal(*parse_decimal("3.14159265358979323846264338327950288"), scalar_);
       return names.local(symbol);
@@ -98,7 +107,7 @@ class ArrayWriter {
     for (const Expression& value : values) handles.push_back(lowering.want(value, 0));
     lowering.run();
     for (const KernelRange& range : kernel.ranges) {
-      out_.open(fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", identifier(range.index),
+      out_.open(fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", loop_index(range.index),
                             affine(range.lower), affine(range.upper)));
     }
     if (kernel.ranges.empty()) out_.open("");

@@ -28,7 +28,17 @@ constexpr std::string_view kKeywords[] = {
 constexpr std::string_view kOurs[] = {
     "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
-    "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert"};
+    "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert",
+    "Verdict", "History", "NewtonRule", "FixedPointRule"};
+
+// rule_0, matrix_1: what the emitted functions number themselves.
+bool is_numbered(std::string_view name) {
+  constexpr std::string_view kStems[] = {"rule_", "vector_", "matrix_", "product_", "inverse_"};
+  return std::ranges::any_of(kStems, [&](std::string_view stem) {
+    return name.starts_with(stem) && name.size() > stem.size() &&
+           std::ranges::all_of(name.substr(stem.size()), [](char c) { return '0' <= c && c <= '9'; });
+  });
+}
 
 // Macros of the standard headers that a user's program may have included before ours.  A name with a
 // small letter is none of them.
@@ -54,7 +64,7 @@ bool is_keyword(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  return is_keyword(name) || std::ranges::find(kOurs, name) != std::end(kOurs);
+  return is_keyword(name) || is_numbered(name) || std::ranges::find(kOurs, name) != std::end(kOurs);
 }
 
 }  // namespace
