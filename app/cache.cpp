@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command_line.hpp"
@@ -35,11 +36,16 @@ int list_entries(const runtime::Cache& cache) {
   std::string text;
   for (const runtime::CacheEntry& entry : entries) {
     total += entry.bytes;
-    text += fmt::format("{:.16}  {:>10}  used {}\n", entry.key, size_text(entry.bytes),
-                        age_text(entry.last_used));
+    text += fmt::format("{:.16}{}  {:>10}  used {}\n", entry.key,
+                        entry.extension == ".txt" ? " reference " : "           ",
+                        size_text(entry.bytes), age_text(entry.last_used));
   }
-  print(fmt::format("{}{}: {} compiled integrator{}, {} of at most {}\n", text,
-                    cache.directory.string(), entries.size(), entries.size() == 1 ? "" : "s",
+  const auto references = static_cast<std::size_t>(
+      std::ranges::count(entries, ".txt", &runtime::CacheEntry::extension));
+  const std::size_t compiled = entries.size() - references;
+  print(fmt::format("{}{}: {} compiled integrator{}{}, {} of at most {}\n", text,
+                    cache.directory.string(), compiled, compiled == 1 ? "" : "s",
+                    references == 0 ? "" : fmt::format(", {} reference solutions", references),
                     size_text(total), size_text(runtime::kCacheLimit)));
   return done;
 }

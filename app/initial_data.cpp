@@ -11,11 +11,6 @@
 namespace hamgen::app {
 namespace {
 
-runtime::Wide wide(const Rational& value) {
-  const TripleDouble parts = to_triple(value);
-  return {.hi = parts.hi, .lo = parts.lo};
-}
-
 // A folded parameter has the model's default in the code, whatever the scene or --set says.
 void require_folded_defaults(const Model& model, const SceneValues& scene) {
   Model without_scenes = model;
@@ -84,6 +79,11 @@ void require_defined(const Model& model, const SceneValues& scene, const runtime
 }
 
 }  // namespace
+
+runtime::Wide wide(const Rational& value) {
+  const TripleDouble parts = to_triple(value);
+  return {.hi = parts.hi, .lo = parts.lo};
+}
 
 std::vector<double> rounded(const std::vector<runtime::Wide>& values) {
   std::vector<double> result(values.size());

@@ -22,6 +22,8 @@ namespace hamgen::app {
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);
 
+// The value as hi + lo: 106 bits.
+[[nodiscard]] runtime::Wide wide(const Rational& value);
 // The upper halves.
 [[nodiscard]] std::vector<double> rounded(const std::vector<runtime::Wide>& values);
 

@@ -53,6 +53,29 @@ fs::path object_path(const Cache& cache, const std::string& key) {
   return cache.directory / (key + ".so");
 }
 
+fs::path text_path(const Cache& cache, const std::string& key) {
+  return cache.directory / (key + ".txt");
+}
+
+// The sealed file, with its seal, if it is there, ours and undamaged; marks it as used now.
+std::optional<std::string> read_sealed(const Cache& cache, const std::string& key,
+                                       const fs::path& path) {
+  if (!cache.usable() || !directory_problem(cache.directory).empty()) return {};
+  struct stat info {};
+  if (::lstat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_uid != ::geteuid() ||
+      (info.st_mode & 022) != 0) {
+    return {};
+  }
+  try {
+    std::string content = read_file(path);
+    if (!is_intact(key, content)) return {};
+    ::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+    return content;
+  } catch (const ToolError&) {
+    return {};
+  }
+}
+
 const char* environment(const char* name) {
   const char* const value = std::getenv(name);
   return value != nullptr && value[0] != '\0' ? value : nullptr;
@@ -157,20 +180,8 @@ std::string cache_key(const PluginSource& source, const Compiler& compiler,
 }
 
 std::optional<fs::path> find_object(const Cache& cache, const std::string& key) {
-  if (!cache.usable() || !directory_problem(cache.directory).empty()) return {};
   const fs::path path = object_path(cache, key);
-  struct stat info {};
-  if (::lstat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_uid != ::geteuid() ||
-      (info.st_mode & 022) != 0) {
-    return {};
-  }
-  try {
-    if (!is_intact(key, read_file(path))) return {};
-  } catch (const ToolError&) {
-    return {};
-  }
-  ::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
-  return path;
+  return read_sealed(cache, key, path) ? std::optional(path) : std::nullopt;
 }
 
 fs::path publish_object(const Cache& cache, const std::string& key, const fs::path& object) {
@@ -189,13 +200,33 @@ fs::path publish_object(const Cache& cache, const std::string& key, const fs::pa
   return place;
 }
 
+std::optional<std::string> find_text(const Cache& cache, const std::string& key) {
+  std::optional<std::string> content = read_sealed(cache, key, text_path(cache, key));
+  if (content) content->resize(content->size() - kSealSize);
+  return content;
+}
+
+void publish_text(const Cache& cache, const std::string& key, std::string_view text) {
+  if (std::string problem = directory_problem(cache.directory); !problem.empty()) {
+    throw ToolError({.message = problem});
+  }
+  const fs::path place = text_path(cache, key);
+  AtomicFile file(place);
+  file.write(text);
+  file.write(seal(key, text));
+  file.publish();
+  if (::chmod(place.c_str(), 0600) != 0) throw file_error("write", place, errno);
+}
+
 std::vector<CacheEntry> list_cache(const Cache& cache) {
   std::vector<CacheEntry> list;
   for (const fs::directory_entry& entry : entries_of(cache)) {
     const fs::path name = entry.path().filename();
     std::error_code failed;
-    if (name.extension() != ".so" || !is_key(name.stem().string())) continue;
+    const std::string extension = name.extension().string();
+    if ((extension != ".so" && extension != ".txt") || !is_key(name.stem().string())) continue;
     const CacheEntry found{.key = name.stem().string(),
+                           .extension = extension,
                            .bytes = entry.file_size(failed),
                            .last_used = entry.last_write_time(failed)};
     if (!failed) list.push_back(found);
@@ -227,7 +258,8 @@ CacheRemoval prune_cache(const Cache& cache, std::uintmax_t limit) {
   for (const CacheEntry& entry : list_cache(cache)) {
     kept += entry.bytes;
     std::error_code failed;
-    if (kept <= limit || !fs::remove(object_path(cache, entry.key), failed)) continue;
+    if (kept <= limit || !fs::remove(cache.directory / (entry.key + entry.extension), failed))
+      continue;
     ++removal.entries;
     removal.bytes += entry.bytes;
   }

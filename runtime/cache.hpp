@@ -1,4 +1,5 @@
-// The cache of compiled plugins: one file KEY.so per plugin, in a directory nobody else can write.
+// The cache of compiled plugins and of what was computed with them: one file KEY.so or KEY.txt
+// each, in a directory nobody else can write.
 #pragma once
 
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/compile.hpp"
@@ -42,8 +44,13 @@ struct Cache {
 std::filesystem::path publish_object(const Cache& cache, const std::string& key,
                                      const std::filesystem::path& object);
 
+// The same for a text, such as a reference solution.  A damaged one is not found.
+[[nodiscard]] std::optional<std::string> find_text(const Cache& cache, const std::string& key);
+void publish_text(const Cache& cache, const std::string& key, std::string_view text);
+
 struct CacheEntry {
   std::string key;
+  std::string extension;  // ".so" or ".txt"
   std::uintmax_t bytes = 0;
   std::filesystem::file_time_type last_used;
 };

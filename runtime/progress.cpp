@@ -45,7 +45,8 @@ std::string progress_line(std::string_view label, const Progress& progress, int 
   const std::string left = rate > 0.0 ? duration_text((all - done) / rate) : "?";
   const std::string head = fmt::format("{}  ", label);
   const std::string tail =
-      fmt::format("  {:3.0f} %  {:.3g} steps/s  {} left", std::floor(100.0 * fraction), rate, left);
+      fmt::format("  {:3.0f} %{}  {} left", std::floor(100.0 * fraction),
+                  progress.show_rate ? fmt::format("  {:.3g} steps/s", rate) : std::string(), left);
   const long long room =
       width - static_cast<long long>(head.size()) - static_cast<long long>(tail.size()) - 2;
   if (room < 5) {

@@ -23,6 +23,7 @@ struct Progress {
   long long steps_done = 0;
   long long steps = 0;  // in all
   double seconds = 0.0;
+  bool show_rate = true;  // of the steps; false where they only stand for parts of the work
 };
 
 struct IntegrateOptions {

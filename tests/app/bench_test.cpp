@@ -1,0 +1,184 @@
+// hamgen bench: its rows, its answer, its files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+using nlohmann::json;
+
+// A bench of few rows and one round: times are not what these tests look at.
+Result bench(std::vector<std::string> words) {
+  const std::vector<std::string> quick = {"--rounds", "1", "--quiet"};
+  words.insert(words.begin(), "bench");
+  words.insert(words.end(), quick.begin(), quick.end());
+  return hamgen(words);
+}
+
+json bench_json(std::vector<std::string> words) {
+  words.emplace_back("--json");
+  const Result result = bench(words);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return json::parse(result.out);
+}
+
+TEST(Bench, ErrorsFallWithTheOrderOfTheMethod) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h",
+                                  "0.1,0.05", "--schemes", "implicit-midpoint,symplectic-euler-a"});
+  ASSERT_EQ(result["rows"].size(), 4u);
+  const auto ratio = [&](std::size_t row, const char* error) {
+    return result["rows"][row][error].get<double>() / result["rows"][row + 1][error].get<double>();
+  };
+  // Orders 2 and 1: halving h divides the errors by 4 and 2, up to terms of higher order in h,
+  // which at h = 0.1 and a frequency of 0.17 are below a twentieth.
+  for (const char* error : {"state_error", "max_energy_error"}) {
+    EXPECT_NEAR(ratio(0, error), 4.0, 0.2) << error;
+    EXPECT_NEAR(ratio(2, error), 2.0, 0.2) << error;
+  }
+  EXPECT_EQ(result["rows"][0]["steps"], 100);
+  EXPECT_GT(result["rows"][0]["ns_per_step"].get<double>(), 0.0);
+}
+
+TEST(Bench, TakesMembersOfTheFamilyAsMethods) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.1",
+                                  "--schemes", "alpha=0,symplectic-euler-a,alpha=1/2:gamma=-h/12"});
+  const json& rows = result["rows"];
+  EXPECT_EQ(rows[0]["state_error"], rows[1]["state_error"]);  // the same member by two names
+  EXPECT_LT(rows[2]["state_error"], rows[0]["state_error"]);
+}
+
+TEST(Bench, AnswersWhichStepReachesATarget) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  const json result = bench_json({model, "--time", "10", "--h", "0.2,0.1", "--target", "1e-7",
+                                  "--schemes", "implicit-midpoint,symplectic-euler-a"});
+  // Neither step is small enough: smaller ones were tried by the errors' power of h.
+  const json& answer = result["answer"];
+  ASSERT_TRUE(answer["row"].is_number());
+  const json& row = result["rows"][answer["row"].get<std::size_t>()];
+  EXPECT_GT(answer["row"].get<std::size_t>(), 3u);
+  EXPECT_EQ(row["scheme"], "implicit-midpoint");
+  EXPECT_LE(row["state_error"].get<double>(), 1e-7);
+  EXPECT_GE(row["state_error"].get<double>(), 0.5e-7);
+  EXPECT_EQ(answer["command"], "hamgen generate " + model + " --scheme implicit-midpoint");
+}
+
+TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {
+  const Scratch scratch;
+  const Result result = bench({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.2,0.1",
+                               "--target", "1e-30", "--schemes", "implicit-midpoint"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.out, "no method reaches the state error 1e-30")) << result.out;
+}
+
+TEST(Bench, AFailureIsARowAndNotTheEnd) {
+  const Scratch scratch;
+  // Falls into the singularity at t = 0.707: there is no reference, and no step gets past it.
+  const Result result = bench({scratch.write("m.ham", collapse), "--time", "1", "--h", "0.01",
+                               "--schemes", "implicit-midpoint", "--json"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(contains(result.err, "no reference solution")) << result.err;
+  const json rows = json::parse(result.out)["rows"];
+  EXPECT_NE(rows[0]["outcome"], "done");
+  EXPECT_TRUE(rows[0]["state_error"].is_null());
+  EXPECT_TRUE(rows[0]["s_per_time"].is_null());
+}
+
+TEST(Bench, EveryRowEndsAtTheSameTime) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "1", "--h", "0.3",
+                                  "--schemes", "implicit-midpoint"});
+  EXPECT_EQ(result["rows"][0]["steps"], 4);
+  EXPECT_EQ(result["rows"][0]["h"], 0.25);
+}
+
+TEST(Bench, KeepsReferencesAndFindsThemAgain) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", two_oscillators);
+  const std::vector<std::string> words = {
+      "bench", model,      "--initial", "x=1,py=1", "--time",  "3",         "--h",
+      "0.1",   "--rounds", "1",         "--json",   "--quiet", "--schemes", "implicit-midpoint"};
+  const std::vector<std::string> own = {"HAMGEN_CACHE=" + scratch.path("cache")};
+  const json first = json::parse(hamgen(words, own).out)["reference"];
+  const json second = json::parse(hamgen(words, own).out)["reference"];
+  EXPECT_FALSE(first["from_cache"]);
+  EXPECT_TRUE(second["from_cache"]);
+  EXPECT_EQ(first["state"], second["state"]);
+  // x = cos t, y = (1/2) sin 2t, each to the rounding of a double.
+  EXPECT_DOUBLE_EQ(second["state"][0][0], std::cos(3.0));
+  EXPECT_DOUBLE_EQ(second["state"][1][0], std::sin(6.0) / 2);
+  EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "1 reference solution"));
+  // Another time is another reference.
+  std::vector<std::string> other = words;
+  other[5] = "4";
+  EXPECT_FALSE(json::parse(hamgen(other, own).out)["reference"]["from_cache"]);
+  EXPECT_EQ(hamgen({"cache", "clear"}, own).status, 0);
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path("cache")))
+    ADD_FAILURE() << entry.path() << " is left in the cache";
+}
+
+TEST(Bench, WritesTableScriptAndPicture) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  const Result result = bench({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.2,0.1",
+                               "--schemes", "implicit-midpoint", "-o", directory});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::vector<std::string> table = lines(read(directory + "/bench.csv"));
+  ASSERT_EQ(std::ranges::count_if(table, [](const auto& line) { return !line.starts_with("#"); }),
+            3);
+  EXPECT_EQ(json::parse(read(directory + "/bench.json"))["rows"].size(), 2u);
+  const std::string picture = read(directory + "/bench.svg");
+  EXPECT_TRUE(contains(picture, "<svg"));
+  EXPECT_TRUE(contains(picture, "implicit-midpoint"));
+}
+
+TEST(Bench, WithoutGnuplotTheScriptStays) {
+  const Scratch scratch;
+  // Nothing but what the compiler calls in the path, so no gnuplot.
+  for (const char* tool : {"as", "ld"})
+    std::filesystem::create_symlink(std::string("/usr/bin/") + tool, scratch.path(tool));
+  const Result result = hamgen({"bench", scratch.write("m.ham", pendulum), "--time", "10", "--h",
+                                "0.2,0.1", "--schemes", "implicit-midpoint", "--rounds", "1",
+                                "--compiler", "/usr/bin/g++", "-o", scratch.path("out")},
+                               {"PATH=" + scratch.path("")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "no picture: gnuplot could not be started")) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path("out/bench.gp")));
+  EXPECT_TRUE(std::filesystem::exists(scratch.path("out/bench.csv")));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("out/bench.svg")));
+}
+
+TEST(Bench, RefusesWhatMakesNoSense) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--schemes", "implicit-midpiont"}, "did you mean 'implicit-midpoint'?"},
+      {{"--schemes", "alpha=1/2:delta=1"}, "'delta=1' is none of"},
+      {{"--observe", "phase"}, "energy and state"},
+      {{"--target", "0"}, "not a positive number"},
+      {{"--h", "0"}, "h"},
+      {{"--time", "1e12"}, "change --h or --time"},
+      {{"--time", "-5"}, "opposite directions"},
+      {{"--plot", "picture.pdf"}, ".svg or .png"},
+      {{"--rounds", "0"}, "not an integer"}};
+  for (const auto& [words, part] : cases) {
+    std::vector<std::string> all = {"bench", model, "--quiet"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Result result = hamgen(all);
+    EXPECT_EQ(result.status, 2) << words[0] << ' ' << words[1] << ": " << result.err;
+    EXPECT_TRUE(contains(result.err, part)) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
