@@ -12,16 +12,17 @@ namespace {
 int verify(const MethodOptions& options, bool json) {
   const SourceText source = read_model_source(options);
   const Proof proof = verify_step(source, request_with_sizes(options, source));
-  bool symplectic = true;
+  bool holds = true;
   auto rows = nlohmann::ordered_json::array();
   for (const Finding& finding : proof) {
     rows.push_back({{"property", finding.property},
                     {"verdict", to_text(finding.verdict)},
                     {"detail", finding.detail}});
-    if (finding.property == "symplectic") symplectic = finding.verdict != Verdict::refuted;
+    const bool required = finding.property == "symplectic" || finding.property == "emitted code";
+    if (required && finding.verdict == Verdict::refuted) holds = false;
   }
   print(json ? rows.dump(2) + "\n" : to_text(proof));
-  return symplectic ? done : proof_failed;
+  return holds ? done : proof_failed;
 }
 
 }  // namespace

@@ -151,6 +151,13 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(program)};
 }
 
+Proof prove(const Stages& stages) {
+  const Expression hamiltonian = stages.mechanics.keeps_sums()
+                                     ? written_out_hamiltonian(stages.model)
+                                     : stages.mechanics.energy;
+  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian);
+}
+
 OutputFiles cmake_package(const SourceText& source, const Program& program,
                           const CppOptions& options) {
   const std::string name = stem(source.path);
@@ -202,11 +209,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 }
 
 Proof verify_step(const SourceText& source, const Request& request) {
-  const Model model = read_request(source, request);
-  const Mechanics mechanics = derive(model);
-  const Scheme scheme = choose_scheme(model, mechanics, request);
-  const SolvePlan plan = plan_solve(discretise(mechanics, scheme), request.solver);
-  return verify(mechanics, scheme, plan.sweeps);
+  return prove(run_stages(source, request));
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request) {

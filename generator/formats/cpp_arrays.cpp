@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
-#include "generator/program/lower.hpp"
 #include "generator/program/names.hpp"
 
 namespace hamgen {
@@ -99,13 +98,9 @@ class ArrayWriter {
       if (symbol == "pi") return literal(*parse_decimal("3.14159265358979323846264338327950288"), scalar_);
       return names.local(symbol);
     }, builtins_);
-    Lowering lowering({Section{}});
     std::set<std::string> used;
     for (const Expression& value : values) collect_symbols(value, used);
-    for (const std::string& symbol : used) lowering.declare(symbol, 0);
-    std::vector<std::size_t> handles;
-    for (const Expression& value : values) handles.push_back(lowering.want(value, 0));
-    lowering.run();
+    const Evaluation evaluation = evaluate_together(values);
     for (const KernelRange& range : kernel.ranges) {
       out_.open(fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", loop_index(range.index),
                             affine(range.lower), affine(range.upper)));
@@ -115,12 +110,12 @@ class ArrayWriter {
       if (!used.contains(slot.symbol)) continue;
       out_.line(fmt::format("const Real {} = x[{}];", names.local(slot.symbol), affine(slot.position)));
     }
-    for (const Statement& s : lowering.statements(0)) {
+    for (const Statement& s : evaluation.statements) {
       const std::string text = cpp(s.value);
       out_.line(fmt::format("const Real {} = {};", names.local(s.name), text));
     }
     std::vector<std::string> texts;
-    for (const std::size_t handle : handles) texts.push_back(cpp(lowering.wanted(handle)));
+    for (const Expression& result : evaluation.results) texts.push_back(cpp(result));
     use(texts);
     if (kernel.ranges.empty()) out_.close();
     for (std::size_t i = 0; i < kernel.ranges.size(); ++i) out_.close();

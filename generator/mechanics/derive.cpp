@@ -51,6 +51,15 @@ std::vector<Quantity> run_time_parameters(const Model& model) {
   return result;
 }
 
+GiNaC::ex hamiltonian(const Model& model, TreeConverter& converter, const SymbolTable& table) {
+  GiNaC::ex energy = converter.convert(model.hamiltonian);
+  // Extended phase space: H(q, p, t) + p_t makes t advance as t' = 1 and keeps the step symplectic.
+  for (const Variable& momentum : model.momenta) {
+    if (momentum.is_time) energy += table.find(momentum.name);
+  }
+  return energy;
+}
+
 }  // namespace
 
 Mechanics derive(const Model& model, bool keep_sums) {
@@ -84,11 +93,7 @@ Mechanics derive(const Model& model, bool keep_sums) {
       return mechanics;
     }
   }
-  GiNaC::ex energy = converter.convert(model.hamiltonian);
-  // Extended phase space: H(q, p, t) + p_t makes t advance as t' = 1 and keeps the step symplectic.
-  for (const Variable& momentum : model.momenta) {
-    if (momentum.is_time) energy += table.find(momentum.name);
-  }
+  const GiNaC::ex energy = hamiltonian(model, converter, table);
   mechanics.energy = from_ginac(energy, table);
   std::vector<GiNaC::ex> gradient;
   for (int i = 0; i < size; ++i) {
@@ -112,6 +117,16 @@ Mechanics derive(const Model& model, bool keep_sums) {
         {invariant.name, from_ginac(converter.convert(invariant.value), table)});
   }
   return mechanics;
+}
+
+Expression written_out_hamiltonian(const Model& model) {
+  SymbolTable table;
+  TreeConverter converter(model, table);
+  int rank = kRankOfVariable;
+  for (const auto* group : {&model.coordinates, &model.momenta}) {
+    for (const Quantity& variable : quantities(*group)) table.symbol(variable.name, rank++);
+  }
+  return from_ginac(hamiltonian(model, converter, table), table);
 }
 
 Expression scheme_parameter(const Model& model, const std::string& option, const NodePtr& node) {

@@ -11,6 +11,8 @@ namespace hamgen {
 // their form allows it.
 inline constexpr int kMostWrittenOut = 24;
 [[nodiscard]] Mechanics derive(const Model& model, bool keep_sums = true);
+// H with its sums written out, whatever its size.
+[[nodiscard]] Expression written_out_hamiltonian(const Model& model);
 
 // A free-standing expression over h, E0 and the model's parameters (folded ones by value).
 [[nodiscard]] Expression scheme_parameter(const Model& model, const std::string& option,

@@ -484,10 +484,13 @@ class Builder {
   bool solving_done_ = false;
 };
 
-Evaluation build_evaluation(const Mechanics& mechanics, const std::vector<Expression>& values) {
+}  // namespace
+
+Evaluation evaluate_together(const std::vector<Expression>& values) {
   Lowering lowering({Section{}});
-  for (const Quantity& parameter : mechanics.parameters) lowering.declare(parameter.name, 0);
-  for (const Quantity& variable : mechanics.variables) lowering.declare(variable.name, 0);
+  std::set<std::string> free;
+  for (const Expression& value : values) collect_symbols(value, free);
+  for (const std::string& symbol : free) lowering.declare(symbol, 0);
   std::vector<std::size_t> handles;
   for (const Expression& value : values) handles.push_back(lowering.want(value, 0));
   lowering.run();
@@ -496,19 +499,17 @@ Evaluation build_evaluation(const Mechanics& mechanics, const std::vector<Expres
   return evaluation;
 }
 
-}  // namespace
-
 Program build_program(const SolvePlan& plan) {
   const Mechanics& mechanics = plan.equations.mechanics;
   Program program{.plan = plan};
   if (!plan.arrays) {
     program = Builder(plan).build();
-    program.energy = build_evaluation(mechanics, {mechanics.energy});
-    program.gradient = build_evaluation(mechanics, mechanics.gradient);
+    program.energy = evaluate_together({mechanics.energy});
+    program.gradient = evaluate_together(mechanics.gradient);
   }
   std::vector<Expression> invariants;
   for (const NamedExpression& invariant : mechanics.invariants) invariants.push_back(invariant.value);
-  program.invariants = build_evaluation(mechanics, invariants);
+  program.invariants = evaluate_together(invariants);
   return program;
 }
 

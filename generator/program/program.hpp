@@ -66,6 +66,8 @@ struct Program {
   Evaluation invariants;
 };
 
+// Values of free symbols, computed together: what they share is computed once.
+[[nodiscard]] Evaluation evaluate_together(const std::vector<Expression>& values);
 [[nodiscard]] Program build_program(const SolvePlan& plan);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "generator/mechanics/mechanics.hpp"
+#include "generator/program/program.hpp"
 #include "generator/schemes/scheme.hpp"
 
 namespace hamgen {
 
-enum class Verdict { proved, refuted, not_decided };
+// `tested`: no counterexample at many random points, which is less than a proof.
+enum class Verdict { proved, tested, refuted, not_decided };
 
 struct Finding {
   std::string property;  // "symplectic"
@@ -20,10 +22,10 @@ struct Finding {
 
 using Proof = std::vector<Finding>;
 
-// Everything that can be decided by algebra about the scheme's step for this system.  With sweeps, the
-// step is not solved but swept that many times.
-[[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme,
-                           std::optional<int> sweeps);
+// Everything that can be decided by algebra about the scheme's step for this system, and about the
+// program that computes it.  `hamiltonian` is H with its sums written out.
+[[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+                           const Expression& hamiltonian);
 
 // The single proofs.  A member must satisfy C J + J C^T = 0; the residual entries are exact.
 [[nodiscard]] Finding prove_gauge(const Member& member);
@@ -34,6 +36,10 @@ using Proof = std::vector<Finding>;
 [[nodiscard]] Finding prove_order(const Member& member);
 // {I, H} = 0, and whether the scheme conserves I exactly.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Member& member);
+// The instructions of the program, substituted back into expressions, are the step's equations, their
+// derivatives, their solution and H.
+[[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
+                                    const Program& program, const Expression& hamiltonian);
 
 [[nodiscard]] std::string to_text(Verdict verdict);
 [[nodiscard]] std::string to_text(const Proof& proof);

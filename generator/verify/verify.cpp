@@ -6,7 +6,9 @@
 
 namespace hamgen {
 
-Proof verify(const Mechanics& mechanics, const Scheme& scheme, std::optional<int> sweeps) {
+Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+             const Expression& hamiltonian) {
+  const std::optional<int> sweeps = program.plan.sweeps;
   const Member& member = scheme.member();
   Proof proof{prove_gauge(member)};
   if (sweeps) {
@@ -16,6 +18,7 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, std::optional<int
                                  "O(h^{})",
                                  *sweeps, *sweeps + 2)});
     proof.push_back({"symmetric", Verdict::refuted, "the predictor is explicit Euler"});
+    proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
     return proof;
   }
   proof.push_back(prove_step_symplectic(member));
@@ -24,12 +27,14 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, std::optional<int
   for (Finding& finding : prove_invariants(mechanics, member)) {
     proof.push_back(std::move(finding));
   }
+  proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
   return proof;
 }
 
 std::string to_text(Verdict verdict) {
   switch (verdict) {
     case Verdict::proved: return "proved";
+    case Verdict::tested: return "tested";
     case Verdict::refuted: return "refuted";
     case Verdict::not_decided: return "not decided";
   }

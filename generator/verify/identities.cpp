@@ -1,0 +1,299 @@
+#include "generator/verify/identities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/algebra/from_ginac.hpp"
+#include "generator/verify/precise.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// Sizes as trees up to which differences are expanded, and brought over one denominator.
+constexpr std::size_t kExpandable = 3000;
+constexpr std::size_t kNormalisable = 2000;
+constexpr int kPoints = 200;
+// The first points only refute: most mistakes show at once.
+constexpr int kFirstPoints = 3;
+
+std::size_t tree_size(const Expression& e, std::map<const void*, std::size_t>& known) {
+  if (e.operands().empty()) return 1;
+  if (const auto it = known.find(e.identity()); it != known.end()) return it->second;
+  std::size_t size = 1;
+  for (const Expression& operand : e.operands()) {
+    size = std::min(size + tree_size(operand, known), 2 * kExpandable);
+  }
+  known[e.identity()] = size;
+  return size;
+}
+
+// Square roots as symbols: s_b^k for b^(k/2), with s_b^2 = b to be used afterwards.
+struct SquareRoots {
+  std::map<Expression, Expression> symbols;
+  Expression replace(const Expression& e) {
+    if (e.operands().empty()) return e;
+    if (e.kind() == Kind::power && e.operands()[1].is_number() &&
+        e.operands()[1].number().get_den() == 2) {
+      const Expression base = replace(e.operands()[0]);
+      const auto name = "sqrt#" + std::to_string(symbols.size());
+      const Expression symbol = symbols.try_emplace(base, Expression::symbol(name)).first->second;
+      return Expression::power(symbol, Expression(Rational(e.operands()[1].number() * 2)));
+    }
+    std::vector<Expression> operands;
+    for (const Expression& operand : e.operands()) operands.push_back(replace(operand));
+    switch (e.kind()) {
+      case Kind::sum: return Expression::sum(std::move(operands));
+      case Kind::product: return Expression::product(std::move(operands));
+      case Kind::power: return Expression::power(operands[0], operands[1]);
+      case Kind::function: return Expression::apply(e.name(), std::move(operands));
+      case Kind::number:
+      case Kind::symbol: break;
+    }
+    return e;
+  }
+};
+
+// The numerator with s^(2k) = b^k and s^(2k+1) = s b^k: zero if it vanishes so.
+bool vanishes_with_roots(GiNaC::ex numerator, const SquareRoots& roots, SymbolTable& table) {
+  for (const auto& [base, symbol] : roots.symbols) {
+    const GiNaC::ex s = table.symbol(symbol.name(), 0);
+    const GiNaC::ex b = to_ginac(base, table).normal();
+    numerator = numerator.expand();
+    GiNaC::ex reduced = 0;
+    for (int k = numerator.ldegree(s); k <= numerator.degree(s); ++k) {
+      reduced += numerator.coeff(s, k) * GiNaC::pow(b, k / 2) * (k % 2 == 0 ? GiNaC::ex(1) : s);
+    }
+    numerator = reduced.normal().numer();
+  }
+  return numerator.expand().is_zero();
+}
+
+// Is it not zero at some point?  Cheaper than any algebra.
+bool differs_from_zero(const Expression& e) {
+  std::mt19937_64 source(1);
+  std::map<std::string, Precise> free;
+  for (const std::string& name : symbols(e)) {
+    if (name != "pi") free.emplace(name, random_precise(source));
+  }
+  const auto value = PreciseValues(std::move(free), {})(e);
+  return value && cln::abs(*value) > precise(*parse_decimal("1e-30"));
+}
+
+class Decider {
+ public:
+  explicit Decider(const Identities& identities) : identities_(identities) {
+    for (const Statement& s : identities.emitted) emitted_.emplace(s.name, s.value);
+  }
+
+  Decision run() {
+    Decision decision{.claims = static_cast<int>(identities_.claims.size())};
+    if (!is_ordered(decision) || !test(decision, 0, kFirstPoints)) return decision;
+    for (const Statement& s : identities_.expected) match(s.name, s.value);
+    for (const Claim& claim : identities_.claims) {
+      if (equal(reduced(claim.emitted), reduced(claim.expected))) ++decision.by_algebra;
+    }
+    if (decision.by_algebra == decision.claims) {
+      decision.verdict = Verdict::proved;
+      decision.points = 0;
+      return decision;
+    }
+    if (!test(decision, kFirstPoints, kPoints)) return decision;
+    decision.verdict = Verdict::tested;
+    return decision;
+  }
+
+ private:
+  // Every value is computed once, and before it is used.
+  bool is_ordered(Decision& decision) const {
+    std::set<std::string> later;
+    auto fail = [&](const std::string& why) {
+      decision.verdict = Verdict::refuted;
+      decision.witness = why;
+      return false;
+    };
+    for (const Statement& s : identities_.emitted) {
+      if (!later.insert(s.name).second) return fail(s.name + " is computed twice");
+    }
+    for (const Statement& s : identities_.emitted) {
+      for (const std::string& name : symbols(s.value)) {
+        if (later.contains(name)) return fail(name + " is used before it is computed");
+      }
+      later.erase(s.name);
+    }
+    return true;
+  }
+
+  // Both sides with definitions replaced by what is known of them.
+  Expression reduced(const Expression& e) {
+    std::set<std::string> names;
+    collect_symbols(e, names);
+    Substitution replacements;
+    for (const std::string& name : names) {
+      const Expression value = definition(name);
+      if (value.kind() != Kind::symbol || value.name() != name) replacements.emplace(name, value);
+    }
+    return replacements.empty() ? e : substitute(e, replacements);
+  }
+
+  Expression definition(const std::string& name) {
+    if (const auto it = known_.find(name); it != known_.end()) return it->second;
+    const auto it = emitted_.find(name);
+    if (it == emitted_.end()) return Expression::symbol(name);
+    const Expression value = reduced(it->second);
+    known_.emplace(name, value);
+    return value;
+  }
+
+  void match(const std::string& name, const Expression& expected) {
+    Expression value = reduced(expected);
+    const std::string partner = name.substr(1);
+    if (const auto it = opaque_.find(value); it != opaque_.end()) {
+      const Expression symbol = it->second;
+      if (emitted_as(partner, value)) known_[partner] = symbol;
+      known_[name] = symbol;
+      return;
+    }
+    if (value.kind() != Kind::symbol && !value.is_number() && emitted_as(partner, value)) {
+      // From here on both are one symbol, free as far as the other claims care.
+      const Expression symbol = Expression::symbol("~" + partner);
+      opaque_.emplace(value, symbol);
+      spelled_.emplace(symbol.name(), value);
+      known_[partner] = symbol;
+      value = symbol;
+    }
+    known_[name] = value;
+  }
+
+  bool emitted_as(const std::string& name, const Expression& value) {
+    return emitted_.contains(name) && equal(definition(name), value);
+  }
+
+  // Matched symbols are spelled out again before the answer is no: first those that one side only
+  // has, then the others.
+  bool equal(Expression a, Expression b) const {
+    for (int depth = 0; depth < 3; ++depth) {
+      if (a == b || is_zero_by_algebra(a - b)) return true;
+      const std::set<std::string> of_a = symbols(a);
+      const std::set<std::string> of_b = symbols(b);
+      Substitution of_one;
+      Substitution of_any;
+      for (const auto& [name, value] : spelled_) {
+        if (of_a.contains(name) || of_b.contains(name)) of_any.emplace(name, value);
+        if (of_a.contains(name) != of_b.contains(name)) of_one.emplace(name, value);
+      }
+      if (of_any.empty()) return false;
+      a = substitute(a, of_one.empty() ? of_any : of_one);
+      b = substitute(b, of_one.empty() ? of_any : of_one);
+    }
+    return false;
+  }
+
+  // False and a witness if some claim fails at one of the points first..last-1.
+  bool test(Decision& decision, int first, int last) {
+    std::set<std::string> free;
+    for (const Claim& claim : identities_.claims) {
+      collect_symbols(claim.emitted, free);
+      collect_symbols(claim.expected, free);
+    }
+    for (const auto& [name, value] : emitted_) collect_symbols(value, free);
+    Substitution definitions = emitted_;
+    for (const Statement& s : identities_.expected) {
+      collect_symbols(s.value, free);
+      definitions.emplace(s.name, s.value);
+    }
+    std::erase_if(free, [&](const std::string& name) {
+      return name == "pi" || definitions.contains(name);
+    });
+    for (int point = first; point < last; ++point) {
+      std::mt19937_64 source(static_cast<std::uint64_t>(point) + 1);
+      // A point may lie outside the domain of H: then another is taken.
+      for (int attempt = 0;; ++attempt) {
+        if (attempt == 50) {
+          decision.witness = "no point was found where all of it is defined";
+          return false;
+        }
+        std::map<std::string, Precise> values;
+        for (const std::string& name : free) {
+          const Precise value = random_precise(source);
+          // The step is small: closed roots need it.
+          values.emplace(name, name == "h" ? value / precise(10) : value);
+        }
+        const auto outcome = compare(values, definitions, decision);
+        if (!outcome) continue;
+        if (!*outcome) return false;
+        break;
+      }
+      decision.points = point + 1;
+    }
+    return true;
+  }
+
+  // Empty outside the domain.
+  std::optional<bool> compare(const std::map<std::string, Precise>& free,
+                              const Substitution& definitions, Decision& decision) const {
+    static const Precise tolerance = precise(*parse_decimal("1e-30"));
+    PreciseValues values(free, definitions);
+    for (const Claim& claim : identities_.claims) {
+      const auto emitted = values(claim.emitted);
+      const auto expected = values(claim.expected);
+      if (!expected) return std::nullopt;
+      if (!emitted) {
+        decision.verdict = Verdict::refuted;
+        decision.witness = claim.what + " is not defined at a random point where it should be";
+        return false;
+      }
+      const Precise size = std::max(cln::abs(*emitted), cln::abs(*expected));
+      if (cln::abs(*emitted - *expected) <= tolerance * size) continue;
+      if (size <= tolerance) continue;  // two zeros
+      decision.verdict = Verdict::refuted;
+      decision.witness = fmt::format("{} is {:.10g} and should be {:.10g} at a random point",
+                                     claim.what, to_double(*emitted), to_double(*expected));
+      return false;
+    }
+    return true;
+  }
+
+  const Identities& identities_;
+  Substitution emitted_;
+  Substitution known_;
+  ExpressionMap<Expression> opaque_;  // what a matched definition is -> its symbol
+  Substitution spelled_;              // and back
+};
+
+}  // namespace
+
+bool is_zero_by_algebra(const Expression& e) {
+  if (e.is_zero()) return true;
+  if (e.is_number()) return false;
+  std::map<const void*, std::size_t> known;
+  const std::size_t size = tree_size(e, known);
+  if (size > kExpandable) return false;
+  if (differs_from_zero(e)) return false;
+  SymbolTable table;
+  if (to_ginac(e, table).expand().is_zero()) return true;
+  if (size > kNormalisable) return false;
+  SquareRoots roots;
+  const Expression rational = roots.replace(e);
+  try {
+    return vanishes_with_roots(to_ginac(rational, table).normal().numer(), roots, table);
+  } catch (const std::exception&) {  // GiNaC met a denominator that vanishes identically
+    return false;
+  }
+}
+
+Decision decide(const Identities& identities) { return Decider(identities).run(); }
+
+std::string to_text(const Decision& decision) {
+  if (decision.verdict == Verdict::refuted || decision.verdict == Verdict::not_decided) {
+    return decision.witness;
+  }
+  if (decision.verdict == Verdict::proved) {
+    return fmt::format("{} identities by algebra", decision.claims);
+  }
+  return fmt::format("{} identities, {} by algebra, all at {} points to 1e-30", decision.claims,
+                     decision.by_algebra, decision.points);
+}
+
+}  // namespace hamgen
