@@ -92,8 +92,10 @@ class ExpectedStep {
   }
   Expression define(const std::string& what, const Expression& value) {
     if (value.is_number()) return value;
-    identities_.expected.push_back({"=" + what, value});
-    return Expression::symbol("=" + what);
+    std::string unique = "=" + what;
+    while (!names_.insert(unique).second) unique += "*";
+    identities_.expected.push_back({unique, value});
+    return Expression::symbol(unique);
   }
 
   // h (I/2 + C) J: row i of zbar = z + h (I/2 + C) J grad H(zbar).
@@ -184,6 +186,7 @@ class ExpectedStep {
   void newton(const Block& block) {
     const bool linear = block.kind == BlockKind::linear;
     const std::size_t m = block.unknowns.size();
+    second_.clear();  // those of an earlier block are taken before its last increment
     const Solve* solve = nullptr;
     if (!linear || m > 3) solve = &next_solve(block.kind);
     std::vector<int> members;
@@ -369,6 +372,7 @@ class ExpectedStep {
   std::map<std::pair<int, int>, Expression> second_;
   std::vector<const Solve*> solves_;
   std::size_t next_solve_ = 0;
+  std::set<std::string> names_;
   Identities identities_;
 };
 

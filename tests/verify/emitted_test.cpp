@@ -31,7 +31,7 @@ struct Case {
 Expression half() { return Expression(Rational(1, 2)); }
 Expression number(long over, long under) { return Expression(Rational(over, under)); }
 
-Scheme scheme_of(const Case& c, int n) { return family_member(n, {c.alpha}, {c.beta}, {c.gamma}); }
+Scheme scheme_of(const Case& c, int n) { return family_member(n, {{c.alpha}}, {{c.beta}}, {{c.gamma}}); }
 
 Mechanics mechanics_of(const Case& c) {
   return derive(read_model(make_source("case.ham", "system case\n" + c.text)));
@@ -52,6 +52,8 @@ const std::string kSpring = "coordinate q\nmomentum p\nparameter w = 2\nH = p^2/
 const std::string kMagnetic =
     "coordinate x, y\nmomentum px, py\nparameter B = 1\n"
     "H = (px + B*y/2)^2/2 + (py - B*x/2)^2/2 + x^2*y^2\n";
+const std::string kSuccessive =
+    "coordinate q1, q2\nmomentum p1, p2\nH = q1*p1^3/3 + q2*p1*p2 + q1^2 + p1*p2^2\n";
 const std::string kRing =
     "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
@@ -70,6 +72,7 @@ std::vector<Case> cases() {
       {"dense Newton, full gauge", kMagnetic, "", number(1, 3), number(1, 5), number(1, 7)},
       {"linear", kSpring, "", half(), zero, zero},
       {"quadratic", kProduct, "", zero, zero, zero},
+      {"Newton, then linear", kSuccessive, "", zero, zero, zero},
       {"fixed point", kHenonHeiles, "fixed-point", half(), zero, zero},
       {"sweeps", kKepler, "sweeps:3", half(), number(1, 9), zero},
   };
@@ -378,7 +381,7 @@ TEST(EmittedCode, LoopsOverSumsAreReadToo) {
   Mechanics mechanics = derive(model);
   ASSERT_TRUE(mechanics.keeps_sums());
   const Expression hamiltonian = written_out_hamiltonian(model);
-  const Scheme scheme = family_member(40, {half()}, {Expression(0)}, {Expression(0)});
+  const Scheme scheme = family_member(40, {{half()}}, {{Expression(0)}}, {{Expression(0)}});
   const Program program = program_of(mechanics, scheme, "");
   // Tested, not proved: the solver around the loops is not read.
   EXPECT_EQ(prove_emitted(mechanics, scheme, program, hamiltonian).verdict, Verdict::tested);
