@@ -136,7 +136,7 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int height) {
   }
   x = padded(x, panel.logarithmic_x);
   y = padded(y, panel.logarithmic_y);
-  const std::vector<EndLabel> labels = end_labels(panel, y, 16.0 / (0.78 * height));
+  const std::vector<EndLabel> labels = end_labels(panel, y, 18.0 / (0.78 * height));
   std::size_t longest = 0;
   for (const EndLabel& label : labels) longest = std::max(longest, label.text.size());
 
@@ -185,7 +185,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
       "set border 3 lc rgb '#555555'\nset tics nomirror out scale 0.6\n"
       "set grid lc rgb '#DDDDDD' lw 0.6 dt 1\nset samples 2\n",
       png ? "pngcairo" : "svg", factor * plot.width * static_cast<int>(count), factor * plot.height,
-      png ? "Sans" : "Helvetica, Arial, sans-serif", png ? 11 : 12,
+      png ? "Sans" : "Helvetica, Arial, sans-serif", png ? 11 : 14,
       png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", quoted(output));
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
   text += fmt::format("set multiplot layout 1,{}\n", count);

@@ -25,25 +25,19 @@ std::string exact_text(const runtime::Wide& value) {
   return fmt::format("{:a} {:a}\n", value.hi, value.lo);
 }
 
-std::string reference_key(const PluginSource& plugin, const runtime::InitialValues& start,
-                          const runtime::Wide& time) {
-  runtime::Sha256 hash;
-  hash.update_field("reference 1");
-  hash.update_field(plugin.text);
-  for (const auto& value : start.parameters) hash.update_field(exact_text(value));
-  for (const auto& value : start.state) hash.update_field(exact_text(value));
-  hash.update_field(exact_text(time));
-  return hash.hex();
-}
-
-// The error, then hi and lo of each component: hexadecimal, so nothing is rounded.
-std::string text_of(const ReferenceSolution& reference) {
-  std::string text = fmt::format("{:a}\n", reference.error);
-  for (const auto& value : reference.state) text += exact_text(value);
+// A number, then hi and lo of each component: hexadecimal, so nothing is rounded.
+std::string text_of(double first, const std::vector<runtime::Wide>& values) {
+  std::string text = fmt::format("{:a}\n", first);
+  for (const auto& value : values) text += exact_text(value);
   return text;
 }
 
-ReferenceSolution reference_from(const std::string& text) {
+struct NumberAndValues {
+  double first = 0.0;
+  std::vector<runtime::Wide> values;
+};
+
+NumberAndValues read_numbers(const std::string& text) {
   std::vector<double> numbers;
   const char* at = text.c_str();
   for (char* end = nullptr;; at = end) {
@@ -51,12 +45,42 @@ ReferenceSolution reference_from(const std::string& text) {
     if (end == at) break;
     numbers.push_back(value);
   }
-  ReferenceSolution reference;
-  reference.error = numbers.empty() ? 0.0 : numbers.front();
+  NumberAndValues result{.first = numbers.empty() ? 0.0 : numbers.front()};
   for (std::size_t i = 1; i + 1 < numbers.size(); i += 2)
-    reference.state.push_back({.hi = numbers[i], .lo = numbers[i + 1]});
-  reference.from_cache = true;
-  return reference;
+    result.values.push_back({.hi = numbers[i], .lo = numbers[i + 1]});
+  return result;
+}
+
+// The integrator that is extrapolated, and where it starts.
+struct Midpoint {
+  PluginSource plugin;
+  runtime::LoadedPlugin loaded;
+  runtime::InitialValues start;
+};
+
+Midpoint load_midpoint(const SourceText& source, const SceneValues& scene,
+                       const ReferenceRequest& request) {
+  Request quad;
+  quad.scheme = "implicit-midpoint";
+  quad.scalar = "quad";
+  quad.sizes = request.sizes;
+  quad.fold = request.fold;
+  Midpoint midpoint{.plugin = generate_plugin(source, quad)};
+  midpoint.loaded = load_integrator(midpoint.plugin, request.compiler);
+  midpoint.start = initial_values(midpoint.plugin, scene, *midpoint.loaded.library);
+  return midpoint;
+}
+
+std::string reference_key(const Midpoint& midpoint, const std::string& what,
+                          const runtime::Wide& time) {
+  runtime::Sha256 hash;
+  hash.update_field("reference 1");
+  hash.update_field(what);
+  hash.update_field(midpoint.plugin.text);
+  for (const auto& value : midpoint.start.parameters) hash.update_field(exact_text(value));
+  for (const auto& value : midpoint.start.state) hash.update_field(exact_text(value));
+  hash.update_field(exact_text(time));
+  return hash.hex();
 }
 
 double largest_difference(const std::vector<runtime::Wide>& x,
@@ -97,28 +121,53 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
 ReferenceSolution reference_solution(const SourceText& source, const SceneValues& scene,
                                      const Rational& time, const ReferenceRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  Request midpoint;
-  midpoint.scheme = "implicit-midpoint";
-  midpoint.scalar = "quad";
-  midpoint.sizes = request.sizes;
-  midpoint.fold = request.fold;
-  const PluginSource plugin = generate_plugin(source, midpoint);
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, request.compiler);
-  const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
+  const Midpoint midpoint = load_midpoint(source, scene, request);
   const runtime::Wide end = wide(time);
-  const std::string key = reference_key(plugin, start, end);
+  const std::string key = reference_key(midpoint, "end", end);
   const runtime::Cache cache = runtime::open_cache();
   ReferenceSolution reference;
   if (const auto text = runtime::find_text(cache, key)) {
-    reference = reference_from(*text);
+    NumberAndValues kept = read_numbers(*text);
+    reference = {.state = std::move(kept.values), .error = kept.first, .from_cache = true};
   } else {
-    reference = compute(loaded, start, end, request);
+    reference = compute(midpoint.loaded, midpoint.start, end, request);
     if (reference.failure.empty() && cache.usable())
-      runtime::publish_text(cache, key, text_of(reference));
+      runtime::publish_text(cache, key, text_of(reference.error, reference.state));
   }
   reference.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return reference;
+}
+
+std::vector<std::vector<runtime::Wide>> reference_track(const SourceText& source,
+                                                        const SceneValues& scene,
+                                                        const Rational& interval, int count,
+                                                        const ReferenceRequest& request) {
+  Midpoint midpoint = load_midpoint(source, scene, request);
+  const std::size_t size = midpoint.start.state.size();
+  const std::string key = reference_key(midpoint, fmt::format("track {}", count), wide(interval));
+  const runtime::Cache cache = runtime::open_cache();
+  std::vector<runtime::Wide> all;
+  if (const auto text = runtime::find_text(cache, key)) {
+    all = read_numbers(*text).values;
+  } else {
+    runtime::ExtrapolationOptions options{.tolerance = kTolerance, .stop = &interrupt_flag()};
+    std::string failure;
+    for (int i = 0; i < count && failure.empty(); ++i) {
+      const runtime::Extrapolation next = runtime::extrapolate_midpoint(
+          midpoint.loaded.library, midpoint.start, wide(interval), options);
+      failure = next.failure;
+      if (!failure.empty()) break;
+      all.insert(all.end(), next.state.begin(), next.state.end());
+      midpoint.start.state = next.state;
+      if (request.on_progress) request.on_progress((i + 1.0) / count);
+    }
+    if (failure.empty() && cache.usable()) runtime::publish_text(cache, key, text_of(0.0, all));
+  }
+  std::vector<std::vector<runtime::Wide>> track;
+  for (auto at = all.begin(); at != all.end(); at += static_cast<std::ptrdiff_t>(size))
+    track.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+  return track;
 }
 
 }  // namespace hamgen::app

@@ -34,4 +34,10 @@ struct ReferenceSolution {
                                                    const SceneValues& scene, const Rational& time,
                                                    const ReferenceRequest& request);
 
+// The states at interval, 2 interval, ..., count interval, of the finer tolerance alone; fewer
+// where the solution ends.  Cached alike.
+[[nodiscard]] std::vector<std::vector<runtime::Wide>> reference_track(
+    const SourceText& source, const SceneValues& scene, const Rational& interval, int count,
+    const ReferenceRequest& request);
+
 }  // namespace hamgen::app

@@ -1,0 +1,25 @@
+// The whole measurement of `hamgen bench`, for the commands that show it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/bench_output.hpp"
+
+namespace hamgen::app {
+
+// Texts as on the command line; empty means the default.
+struct BenchRequest {
+  std::string model, scene, schemes, h, time, target, compiler;
+  std::vector<std::string> set, initial;
+  std::string observe = "state";
+  std::string rounds = "9";
+  bool quiet = false;
+};
+
+// Loads the methods, computes the reference, measures errors, then times; with progress bars on a
+// terminal unless quiet.  After an interrupt it returns early.  Throws UsageError, ModelError and
+// ToolError.
+[[nodiscard]] Bench run_bench(const BenchRequest& request);
+
+}  // namespace hamgen::app

@@ -1,0 +1,142 @@
+// hamgen report: all there is to know of a model and a method, on one page.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "app/bench_run.hpp"
+#include "app/command_line.hpp"
+#include "app/initial_data.hpp"
+#include "app/interrupt.hpp"
+#include "app/report_page.hpp"
+#include "app/scheme_spec.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "runtime/atomic_file.hpp"
+
+namespace hamgen::app {
+namespace {
+
+struct ReportOptions {
+  MethodOptions method;
+  std::string scene, output, schemes, compiler;
+  std::vector<std::string> initial;
+  std::string rounds = "5";
+  bool quiet = false;
+};
+
+// A figure's three files; the picture's text for the page.
+ReportPicture draw_figure(const Figure& figure, const std::filesystem::path& directory,
+                          std::string& problem) {
+  ReportPicture picture{.name = figure.name, .caption = figure.caption};
+  const std::filesystem::path svg = directory / (figure.name + ".svg");
+  const std::filesystem::path png = directory / (figure.name + ".png");
+  const std::filesystem::path script = directory / (figure.name + ".gp");
+  runtime::atomic_write(script, gnuplot_script(figure.plot, png.string()));
+  problem = run_gnuplot(script);
+  if (!problem.empty()) return picture;
+  runtime::atomic_write(script, gnuplot_script(figure.plot, svg.string()));
+  problem = run_gnuplot(script);
+  if (problem.empty()) picture.svg = runtime::read_file(svg);
+  return picture;
+}
+
+std::vector<ReportPicture> draw_all(const std::vector<Figure>& figures,
+                                    const std::filesystem::path& directory) {
+  std::vector<ReportPicture> pictures;
+  std::string problem;
+  for (const Figure& figure : figures) {
+    std::string failed;
+    pictures.push_back(draw_figure(figure, directory, failed));
+    if (problem.empty()) problem = failed;
+  }
+  if (!problem.empty())
+    print_error(fmt::format("hamgen: pictures are missing: {}\nhelp: the scripts *.gp are in {}\n",
+                            problem, directory.string()));
+  return pictures;
+}
+
+BenchMethod chosen_method(const ReportOptions& options, const SourceText& source,
+                          const Request& request) {
+  BenchMethod method = bench_method(options.method.scheme, source, request, options.compiler);
+  if (!method.refusal.empty())
+    throw UsageError(fmt::format("{}: {}", options.method.model, method.refusal));
+  return method;
+}
+
+int report(const ReportOptions& options) {
+  const SourceText source = read_model_source(options.method);
+  SizesAndRest set = split_sizes(read_model(source), options.method.set);
+  Request request = request_of(options.method);
+  request.sizes = set.sizes;
+  request.command = generate_command(options.method.model, request);
+  const Model model = read_model(source, set.sizes);
+  SceneRequest wanted{.scene = options.scene, .set = std::move(set.rest)};
+  for (const std::string& text : options.initial) {
+    for (Assignment& assignment : split_assignments("--initial", text))
+      wanted.initial.push_back(std::move(assignment));
+  }
+  const SceneValues scene = complete_scene(model, wanted);
+  const BenchMethod method = chosen_method(options, source, request);
+  const Mechanics mechanics = derive(model);
+
+  const Bench bench = run_bench({.model = options.method.model,
+                                 .scene = options.scene,
+                                 .schemes = options.schemes,
+                                 .compiler = options.compiler,
+                                 .set = options.method.set,
+                                 .initial = options.initial,
+                                 .rounds = options.rounds,
+                                 .quiet = options.quiet});
+  if (interrupt_flag()) return interrupted;
+  const ReferenceRequest reference{.sizes = request.sizes, .compiler = options.compiler};
+  ReportFigures drawn = report_figures(method, scene, source, bench, reference);
+  if (interrupt_flag()) return interrupted;
+
+  const std::filesystem::path directory =
+      options.output.empty() ? model.name + "-report" : options.output;
+  const ReportContent content{.plugin = &method.plugin,
+                              .mechanics = &mechanics,
+                              .scene = &scene,
+                              .bench = &bench,
+                              .proof = verify_step(source, request),
+                              .orbit = drawn.orbit,
+                              .pictures = draw_all(drawn.figures, directory),
+                              .command = request.command};
+  const std::filesystem::path page = directory / "report.html";
+  runtime::atomic_write(page, report_page(content));
+  runtime::atomic_write(directory / "bench.csv", csv_text(bench));
+  print(page.string() + "\n");
+  return done;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& app) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* parser = app.add_subcommand("report", "writes a page about a model and a method");
+  parser->add_option("--scene", options->scene, "of the model; default: its first")
+      ->type_name("NAME");
+  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
+      ->type_name("NAME=VALUE");
+  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
+      ->type_name("NAME=VALUE,...");
+  parser
+      ->add_option("-o,--output", options->output,
+                   "report.html, pictures and scripts; default: MODEL-report")
+      ->type_name("DIRECTORY");
+  parser->add_option("--schemes", options->schemes, "methods compared, as for bench")
+      ->type_name("A,B,...");
+  parser->add_option("--rounds", options->rounds, "samples of each time; default 5")
+      ->type_name("N");
+  parser->add_flag("--quiet", options->quiet, "no progress");
+  add_method_options(*parser, options->method);
+  parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
+      ->type_name("PROGRAM");
+  return {parser, [options] { return report(*options); }};
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,274 @@
+// Error against run time: hamgen's methods beside Boost.odeint's and GSL's, on the same models and
+// with the same emitted gradient.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <map>
+#include <optional>
+
+#include "app/bench_measure.hpp"
+#include "app/initial_data.hpp"
+#include "app/scheme_spec.hpp"
+#include "benchmarks/peers/peer.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+
+namespace hamgen::peers {
+namespace {
+
+struct Case {
+  std::string path;
+  std::string scene;
+  std::string time;
+};
+
+constexpr int kRounds = 5;
+
+// A method with one setting (a step size, or a tolerance).
+struct Result {
+  std::string method;
+  bool is_peer = false;
+  double setting = 0.0;
+  double energy_error = 0.0;
+  double state_error = 0.0;
+  std::vector<double> seconds;  // of the whole time, one a round
+  std::function<double()> sample;
+
+  [[nodiscard]] double median() const {
+    std::vector<double> sorted = seconds;
+    std::ranges::sort(sorted);
+    return sorted[sorted.size() / 2];
+  }
+};
+
+double processor_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double distance(const std::vector<double>& z, const std::vector<runtime::Wide>& reference) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double difference = (z[i] - reference[i].hi) - reference[i].lo;
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+// H = |p|^2/2 + V(q), as far as the gradient at one state with two momenta tells.
+bool has_unit_mass(const Flow& flow, const std::vector<double>& z) {
+  const std::size_t n = flow.n();
+  std::vector<double> moved = z;
+  for (std::size_t i = 0; i < n; ++i) moved[n + i] += 0.3 + 0.1 * static_cast<double>(i);
+  std::vector<double> gradient(2 * n);
+  std::vector<double> other(2 * n);
+  flow.gradient(z.data(), gradient.data());
+  flow.gradient(moved.data(), other.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    if (gradient[i] != other[i] || other[n + i] != moved[n + i]) return false;
+  }
+  return true;
+}
+
+struct Problem {
+  SourceText source;
+  SceneValues scene;
+  Rational time;
+  bool separable = false;
+  app::ReferenceSolution reference;
+};
+
+Problem read_problem(const Case& chosen) {
+  Problem problem;
+  problem.source = read_source(chosen.path);
+  const Model model = read_model(problem.source);
+  problem.scene = app::complete_scene(model, {.scene = chosen.scene});
+  problem.time = evaluate_constant(read_expression("time", chosen.time, {}),
+                                   make_source("time", chosen.time), {});
+  problem.separable = derive(model).is_separable();
+  problem.reference = app::reference_solution(problem.source, problem.scene, problem.time, {});
+  return problem;
+}
+
+void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMethod>>& methods,
+                std::vector<Result>& results) {
+  for (const std::string& spec : app::default_specs(problem.separable)) {
+    methods.push_back(std::make_unique<app::BenchMethod>(
+        app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), "")));
+    const app::BenchMethod& method = *methods.back();
+    for (int power = 3; power >= -5; --power) {
+      app::BenchRow row;
+      const Rational count = problem.time / *problem.scene.h *
+                             (power < 0 ? Rational(1L << -power) : Rational(1, 1L << power));
+      row.steps = std::max(1L, std::lround(count.get_d()));
+      row.h = problem.time / row.steps;
+      app::measure_errors(method, problem.scene, problem.reference, row);
+      if (!row.ok()) continue;
+      results.push_back({.method = spec,
+                         .setting = row.h.get_d(),
+                         .energy_error = row.energy_error.value_or(0.0),
+                         .state_error = row.state_error.value_or(0.0),
+                         .sample = [&method, &problem, row]() mutable {
+                           row.samples.clear();
+                           app::measure_time(method, problem.scene, row);
+                           return row.samples.front();
+                         }});
+    }
+  }
+}
+
+void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& start,
+              const Problem& problem, std::vector<Result>& results) {
+  if (peer.needs_unit_mass && !has_unit_mass(flow, start)) return;
+  const double time = problem.time.get_d();
+  std::vector<double> settings;
+  if (peer.adaptive) {
+    for (double tolerance = 1e-3; tolerance > 0.5e-14; tolerance *= 0.1)
+      settings.push_back(tolerance);
+  } else {
+    for (int power = 3; power >= -5; --power)
+      settings.push_back(problem.scene.h->get_d() * std::ldexp(1.0, power));
+  }
+  const double energy = flow.energy(start);
+  for (const double setting : settings) {
+    Result result{.method = peer.name, .is_peer = true, .setting = setting};
+    std::vector<double> z = start;
+    const bool done = peer.integrate(flow, z, time, setting, [&](const std::vector<double>& now) {
+      result.energy_error = std::max(result.energy_error, std::fabs(flow.energy(now) - energy));
+    });
+    result.state_error = distance(z, problem.reference.state);
+    if (!done || !std::isfinite(result.state_error)) continue;
+    const auto once = [&peer, &flow, &start, time, setting] {
+      std::vector<double> state = start;
+      const double begin = processor_seconds();
+      peer.integrate(flow, state, time, setting, {});
+      return processor_seconds() - begin;
+    };
+    const int runs = static_cast<int>(std::clamp(std::ceil(2e-3 / once()), 1.0, 1e4));
+    result.sample = [once, runs] {
+      double total = 0.0;
+      for (int run = 0; run < runs; ++run) total += once();
+      return total / runs;
+    };
+    results.push_back(std::move(result));
+  }
+}
+
+std::optional<double> seconds_for(const std::vector<Result>& results, const std::string& method,
+                                  double target, double Result::*error) {
+  std::vector<const Result*> rows;  // by growing run time
+  for (const Result& result : results) {
+    if (result.method == method && result.*error > 0.0) rows.push_back(&result);
+  }
+  std::ranges::sort(rows, {}, [](const Result* row) { return row->median(); });
+  const auto good =
+      std::ranges::find_if(rows, [&](const Result* row) { return row->*error <= target; });
+  if (good == rows.end()) return {};
+  if (good == rows.begin()) return (*good)->median();
+  const Result& fine = **good;
+  const Result& coarse = **(good - 1);
+  // Between two measured settings the error is a power of the time.
+  const double part = std::log(coarse.*error / target) / std::log(coarse.*error / fine.*error);
+  return coarse.median() * std::pow(fine.median() / coarse.median(), part);
+}
+
+void print_targets(const std::vector<Result>& results, const std::string& title, double time,
+                   double Result::*error) {
+  std::vector<std::pair<std::string, bool>> methods;  // in order; is it a peer?
+  for (const Result& result : results) {
+    if (methods.empty() || methods.back().first != result.method)
+      methods.emplace_back(result.method, result.is_peer);
+  }
+  const std::vector<double> targets = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  fmt::print("\n  {:<24}", title);
+  for (const double target : targets) fmt::print(" {:>10.0e}", target);
+  fmt::print("\n");
+  std::map<std::pair<bool, double>, double> best;
+  for (const auto& [method, is_peer] : methods) {
+    fmt::print("  {:<24}", method);
+    for (const double target : targets) {
+      const auto seconds = seconds_for(results, method, target, error);
+      fmt::print(" {:>10}", seconds ? fmt::format("{:.3g}", 1e6 * *seconds / time) : "-");
+      if (!seconds) continue;
+      const auto [at, added] = best.emplace(std::pair(is_peer, target), *seconds);
+      if (!added) at->second = std::min(at->second, *seconds);
+    }
+    fmt::print("\n");
+  }
+  fmt::print("  {:<24}", "best peer / best hamgen");
+  for (const double target : targets) {
+    const auto peer = best.find({true, target});
+    const auto own = best.find({false, target});
+    fmt::print(" {:>10}", peer != best.end() && own != best.end()
+                              ? fmt::format("{:.2f}", peer->second / own->second)
+                          : own != best.end()  ? "no peer"
+                          : peer != best.end() ? "no hamgen"
+                                               : "-");
+  }
+  fmt::print("\n");
+}
+
+void compare(const Case& chosen, bool all_rows) {
+  const Problem problem = read_problem(chosen);
+  std::vector<std::unique_ptr<app::BenchMethod>> methods;
+  std::vector<Result> results;
+  add_hamgen(problem, methods, results);
+  const app::BenchMethod& first = *methods.front();
+  const runtime::InitialValues values =
+      app::initial_values(first.plugin, problem.scene, *first.loaded.library);
+  const Flow flow(first.loaded.library, app::rounded(values.parameters));
+  const std::vector<double> start = app::rounded(values.state);
+  for (const auto& peers : {odeint_peers(), gsl_peers()}) {
+    for (const Peer& peer : peers) add_peer(peer, flow, start, problem, results);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    for (Result& result : results) result.seconds.push_back(result.sample());
+  }
+  const double time = problem.time.get_d();
+  fmt::print("\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}\n", chosen.path,
+             problem.scene.name, time, problem.reference.error);
+  if (all_rows) {
+    fmt::print("  {:<24} {:>9} {:>12} {:>13} {:>12}\n", "method", "h or tol", "us/unit time",
+               "energy error", "state error");
+    for (const Result& result : results)
+      fmt::print("  {:<24} {:>9.3g} {:>12.4g} {:>13.2e} {:>12.2e}\n", result.method, result.setting,
+                 1e6 * result.median() / time, result.energy_error, result.state_error);
+  }
+  print_targets(results, "us/unit, state error", time, &Result::state_error);
+  print_targets(results, "us/unit, energy error", time, &Result::energy_error);
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string models = HAMGEN_SOURCE_DIR "/hamiltonians/";
+  std::vector<Case> cases = {{models + "pendulum.ham", "paper", "100"},
+                             {models + "henon_heiles.ham", "regular", "100"},
+                             {models + "kepler.ham", "e06", "20"},
+                             {models + "double_pendulum.ham", "horizontal", "10"}};
+  std::vector<std::string> rest = words;
+  const bool all_rows = std::erase(rest, "--rows") > 0;
+  if (rest.size() == 3) {
+    cases = {{rest[0], rest[1], rest[2]}};
+  } else if (!rest.empty()) {
+    fmt::print(stderr, "usage: peers_benchmark [--rows] [MODEL.ham SCENE TIME]\n");
+    return 2;
+  }
+  for (const Case& chosen : cases) compare(chosen, all_rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace hamgen::peers
+
+int main(int argc, char** argv) {
+  try {
+    return hamgen::peers::run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,139 @@
+// hamgen report: its files, and the page in a browser.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "runtime/process.hpp"
+#include "runtime/tool_error.hpp"
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+using nlohmann::json;
+
+Result report(const std::string& model, const std::string& directory,
+              std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {"report", model, "-o", directory, "--rounds", "1", "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  return hamgen(words);
+}
+
+TEST(Report, IsOnePageWithItsPicturesAndScripts) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  const Result result = report(scratch.write("m.ham", pendulum), directory);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, directory + "/report.html\n");
+  const std::string page = read(directory + "/report.html");
+  for (const char* part : {"<math", "symplectic", "proved", "max |H − H(0)|", "ns/step",
+                           "The emitted step", "cost", "torn out", "hamgen generate"})
+    EXPECT_TRUE(contains(page, part)) << part;
+  for (const char* name :
+       {"portrait", "energy", "energy_zoom", "state", "bench_energy", "bench_state"}) {
+    for (const char* ending : {".svg", ".png", ".gp"})
+      EXPECT_TRUE(std::filesystem::exists(directory + "/" + name + ending)) << name << ending;
+    EXPECT_TRUE(contains(page, std::string("<figure id='") + name + "'><img")) << name;
+  }
+  // Nothing is fetched from anywhere.
+  for (const char* part : {"http://", "https://", "<script", "<link", "@import"})
+    EXPECT_FALSE(contains(page, part)) << part;
+}
+
+TEST(Report, WhatTheUserWroteIsTextAndNotMarkup) {
+  const Scratch scratch;
+  std::string text = std::string(pendulum);
+  text.insert(0, "# <script>alert('a')</script> & more\n");
+  const std::string directory = scratch.path("out");
+  ASSERT_EQ(
+      report(scratch.write("m.ham", text), directory, {"--schemes", "implicit-midpoint"}).status,
+      0);
+  const std::string page = read(directory + "/report.html");
+  EXPECT_FALSE(contains(page, "<script"));
+  EXPECT_TRUE(contains(page, "&lt;script&gt;alert('a')&lt;/script&gt; &amp; more"));
+}
+
+// The attribute's value of a page inside a frame.
+std::string as_attribute(const std::string& page) {
+  std::string text;
+  for (const char c : page) {
+    if (c == '&') {
+      text += "&amp;";
+    } else if (c == '"') {
+      text += "&quot;";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+// A page with the report in two frames, 400 and 1280 pixels wide, that says what it sees of each:
+// width of the contents, pictures, and how many of those are drawn, and the smallest text.
+std::string probe_page(const std::string& page) {
+  std::string text = "<!DOCTYPE html><meta charset='utf-8'><body>\n";
+  for (const char* width : {"400", "1280"})
+    text += std::string("<iframe style='border:0' width='") + width + "' height='900' srcdoc=\"" +
+            as_attribute(page) + "\"></iframe>\n";
+  return text + R"(<pre id='seen'></pre><script>
+window.addEventListener('load', () => {
+  const seen = [];
+  for (const frame of document.querySelectorAll('iframe')) {
+    const page = frame.contentDocument;
+    const images = [...page.images];
+    const text = [...page.querySelectorAll('p, td, th, li, figcaption, pre')];
+    seen.push({width: frame.clientWidth, contents: page.documentElement.scrollWidth,
+      pictures: images.length,
+      drawn: images.filter(i => i.complete && i.naturalWidth > 0 && i.clientWidth > 200).length,
+      formulas: page.querySelectorAll('math').length,
+      smallest: Math.min(...text.map(e => parseFloat(frame.contentWindow.getComputedStyle(e).fontSize)))});
+  }
+  document.getElementById('seen').textContent = JSON.stringify(seen);
+});</script>)";
+}
+
+TEST(Report, ShowsInABrowserWideAndNarrow) {
+  const Scratch scratch;
+  runtime::ProcessRequest request{.command = {"chromium", "--version"}};
+  try {
+    if (!runtime::run_process(request).succeeded()) GTEST_SKIP() << "chromium does not start";
+  } catch (const runtime::ToolError&) {
+    GTEST_SKIP() << "chromium is not installed: the page was not opened in a browser";
+  }
+  // Two degrees of freedom with the longest formulas, verdicts and tables.
+  const std::string directory = scratch.path("out");
+  ASSERT_EQ(report(HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham", directory).status, 0);
+  const std::string probe =
+      scratch.write("probe.html", probe_page(read(directory + "/report.html")));
+  request.command = {"chromium",
+                     "--headless",
+                     "--no-sandbox",
+                     "--disable-gpu",
+                     "--user-data-dir=" + scratch.path("profile"),
+                     "--enable-logging=stderr",
+                     "--virtual-time-budget=20000",
+                     "--dump-dom",
+                     "file://" + probe};
+  request.output_limit = 64u << 20;
+  const runtime::ProcessResult result = runtime::run_process(request);
+  ASSERT_TRUE(result.succeeded()) << runtime::end_text(result, request);
+  EXPECT_FALSE(contains(result.output, "CONSOLE")) << "the browser's console has messages";
+  const std::size_t begin = result.output.rfind("<pre id=\"seen\">");
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t first = begin + std::string("<pre id=\"seen\">").size();
+  const json seen =
+      json::parse(result.output.substr(first, result.output.find("</pre>", first) - first));
+  ASSERT_EQ(seen.size(), 2u);
+  for (const json& frame : seen) {
+    EXPECT_LE(frame["contents"].get<int>(), frame["width"].get<int>()) << frame;
+    EXPECT_GE(frame["pictures"].get<int>(), 6) << frame;
+    EXPECT_EQ(frame["drawn"], frame["pictures"]) << frame;
+    EXPECT_GE(frame["formulas"].get<int>(), 5) << frame;
+    EXPECT_GE(frame["smallest"].get<double>(), 12.0) << frame;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
