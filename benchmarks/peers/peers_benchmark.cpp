@@ -143,7 +143,7 @@ void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& sta
     });
     result.state_error = distance(z, problem.reference.state);
     if (!done || !std::isfinite(result.state_error)) continue;
-    const auto once = [&peer, &flow, &start, time, setting] {
+    const auto once = [peer, &flow, &start, time, setting] {
       std::vector<double> state = start;
       const double begin = processor_seconds();
       peer.integrate(flow, state, time, setting, {});
