@@ -1,6 +1,7 @@
 #include "generator/algebra/expression.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 
 #include "generator/base/diagnostic.hpp"
@@ -23,10 +24,56 @@ std::size_t mix(std::size_t seed, std::size_t value) {
 }
 
 std::size_t hash_number(const Rational& value) {
-  return std::hash<std::string>{}(value.get_str(62));
+  const std::size_t over = mpz_get_ui(value.get_num_mpz_t());
+  return mix(mix(over, mpz_get_ui(value.get_den_mpz_t())), static_cast<std::size_t>(sgn(value) + 1));
 }
 
 }  // namespace
+
+// Note [one node an expression]: equal expressions with equal ranks share one node, so that graphs
+// are compared by address and no algorithm meets a subexpression under two addresses; a comparison
+// operand by operand would take time exponential in the depth of a graph with shared nodes.  The
+// pool is invisible: it holds what is alive anyhow, and no result depends on it.
+class Expression::Pool {
+ public:
+  static Pool& instance() {
+    static Pool* const pool = new Pool;  // outlives every static expression
+    return *pool;
+  }
+
+  std::shared_ptr<const Node> intern(std::shared_ptr<const Node> node) {
+    const std::scoped_lock lock(mutex_);
+    if (size_ > 2 * alive_ + 4096) sweep();
+    auto& bucket = buckets_[node->hash];
+    for (const std::weak_ptr<const Node>& candidate : bucket) {
+      if (auto known = candidate.lock(); known && same(*known, *node)) return known;
+    }
+    bucket.push_back(node);
+    ++size_;
+    return node;
+  }
+
+ private:
+  static bool same(const Node& a, const Node& b) {
+    return a.kind == b.kind && a.rank == b.rank && a.number == b.number && a.name == b.name &&
+           std::ranges::equal(a.operands, b.operands, {}, &Expression::identity,
+                              &Expression::identity);
+  }
+  void sweep() {
+    size_ = 0;
+    for (auto it = buckets_.begin(); it != buckets_.end();) {
+      std::erase_if(it->second, [](const auto& candidate) { return candidate.expired(); });
+      size_ += it->second.size();
+      it = it->second.empty() ? buckets_.erase(it) : std::next(it);
+    }
+    alive_ = size_;
+  }
+
+  std::mutex mutex_;
+  std::unordered_map<std::size_t, std::vector<std::weak_ptr<const Node>>> buckets_;
+  std::size_t size_ = 0;
+  std::size_t alive_ = 0;
+};
 
 Expression Expression::make(Kind kind, Rational number, std::string name, int rank,
                             std::vector<Expression> operands) {
@@ -41,7 +88,7 @@ Expression Expression::make(Kind kind, Rational number, std::string name, int ra
   node->rank = rank;
   node->operands = std::move(operands);
   node->hash = hash;
-  return Expression(std::move(node));
+  return Expression(Pool::instance().intern(std::move(node)));
 }
 
 Expression::Expression() : Expression(Rational(0)) {}
@@ -81,6 +128,7 @@ std::size_t Expression::hash() const { return node_->hash; }
 
 bool operator==(const Expression& a, const Expression& b) {
   if (a.node_ == b.node_) return true;
+  // What differs in the ranks of its symbols only has two nodes, and is equal.
   if (a.node_->hash != b.node_->hash || a.node_->kind != b.node_->kind) return false;
   return a.node_->number == b.node_->number && a.node_->name == b.node_->name &&
          a.node_->operands == b.node_->operands;
@@ -272,7 +320,12 @@ bool depends_on(const Expression& e, const std::string& symbol) {
 }
 
 Expression substitute(const Expression& e, const Substitution& replacements) {
-  std::map<const void*, Expression> done;
+  return substitute(std::span(&e, 1), replacements)[0];
+}
+
+std::vector<Expression> substitute(std::span<const Expression> values,
+                                   const Substitution& replacements) {
+  std::unordered_map<const void*, Expression> done;
   auto visit = [&](auto&& self, const Expression& node) -> Expression {
     if (node.is_number()) return node;
     if (node.kind() == Kind::symbol) {
@@ -300,7 +353,9 @@ Expression substitute(const Expression& e, const Substitution& replacements) {
     done.emplace(node.identity(), result);
     return result;
   };
-  return visit(visit, e);
+  std::vector<Expression> results;
+  for (const Expression& e : values) results.push_back(visit(visit, e));
+  return results;
 }
 
 namespace {

@@ -46,7 +46,7 @@ class Expression {
   // Terms, factors, {base, exponent} or arguments.
   [[nodiscard]] std::span<const Expression> operands() const;
   [[nodiscard]] std::size_t hash() const;
-  // The node's address: equal addresses mean equal expressions, not the other way round.
+  // The node's address: equal expressions have one node.
   [[nodiscard]] const void* identity() const { return node_.get(); }
 
   // The numeric factor, and what is left without it: 3*x*y = {3, x*y}.
@@ -65,6 +65,7 @@ class Expression {
 
  private:
   struct Node;
+  class Pool;
   explicit Expression(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
   [[nodiscard]] static Expression make(Kind kind, Rational number, std::string name, int rank,
                                        std::vector<Expression> operands);
@@ -85,6 +86,8 @@ void collect_symbols(const Expression& e, std::set<std::string>& names);
 // The expression with symbols replaced by expressions, all at once.
 using Substitution = std::map<std::string, Expression>;
 [[nodiscard]] Expression substitute(const Expression& e, const Substitution& replacements);
+[[nodiscard]] std::vector<Expression> substitute(std::span<const Expression> values,
+                                                 const Substitution& replacements);
 
 [[nodiscard]] Expression square_root(const Expression& e);
 
