@@ -1,0 +1,153 @@
+// K in place of H: any member at any order.
+#include "generator/mechanics/generating_function.hpp"
+
+#include <gtest/gtest.h>
+
+#include "generator/algebra/derivative.hpp"
+#include "generator/algebra/polynomial.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "tests/mechanics/formal_step.hpp"
+
+namespace hamgen::mechanics_test {
+namespace {
+
+const std::string pendulum = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+
+// Equal after expansion?
+bool same(const Expression& a, const Expression& b) {
+  PolynomialRing ring(10000);
+  return ring.expand(a - b).empty();
+}
+
+std::vector<Expression> series(const Mechanics& m, const SparseMatrix& c, int count, SeriesForm form) {
+  const auto gauge = gauge_series(c, count);
+  return generating_series(m.energy, coordinate_chart(m, gauge), gauge, count, form);
+}
+
+TEST(GeneratingSeries, OfThePendulumAtTheMidpointHasTheKnownSecondTerm) {
+  const Mechanics m = shipped("pendulum");
+  const Expression p = m.variable(1);
+  const Expression eps = Expression::symbol("eps", kRankOfParameter);
+  const Expression sine = Expression::apply("sin", {m.variable(0)});
+  const Expression cosine = Expression::apply("cos", {m.variable(0)});
+  // K = H + h^2/24 (eps cos q p^2 + eps^2 sin^2 q) + O(h^4).
+  const Expression known = (eps * cosine * p * p + eps * eps * sine * sine) / Expression(24);
+  for (const SeriesForm form : {SeriesForm::nested, SeriesForm::expanded}) {
+    const auto terms = series(m, {}, 3, form);
+    EXPECT_EQ(terms[0], m.energy);
+    EXPECT_TRUE(terms[1].is_zero());
+    EXPECT_TRUE(same(terms[2], known)) << to_text(terms[2]);
+  }
+}
+
+TEST(GeneratingSeries, IsTheSameInBothForms) {
+  for (const std::string& text :
+       {pendulum, std::string("coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n"),
+        std::string("coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + x^2*y - y^3/3\n")}) {
+    const Mechanics m = mechanics_of(text);
+    for (const Gauge& gauge : {Gauge{}, Gauge{"3/10", "1/5", "-1/10"}, Gauge{"1/2", "h/5", "2*h"}}) {
+      const SparseMatrix c = scheme_of(m, gauge).member().c;
+      const auto nested = series(m, c, 5, SeriesForm::nested);
+      const auto expanded = series(m, c, 5, SeriesForm::expanded);
+      for (std::size_t k = 0; k < nested.size(); ++k) EXPECT_TRUE(same(nested[k], expanded[k])) << k;
+    }
+  }
+}
+
+// For H = (p^2 + q^2)/2 and C = 0 the flow is the midpoint step of (2/h) tan(h/2) H.
+TEST(GeneratingSeries, OfTheOscillatorIsThatOfTheTangent) {
+  const Mechanics m = mechanics_of("coordinate q\nmomentum p\nH = (p^2 + q^2)/2\n");
+  const auto terms = series(m, {}, 9, SeriesForm::expanded);
+  const std::vector<Rational> tangent = {1, Rational(1, 12), Rational(1, 120), Rational(17, 20160),
+                                         Rational(31, 362880)};
+  for (std::size_t k = 0; k < tangent.size(); ++k) {
+    EXPECT_TRUE(same(terms[2 * k], Expression(tangent[k]) * m.energy)) << k;
+  }
+}
+
+TEST(GeneratingFunction, RefusesAGaugeWithoutASeriesInTheStep) {
+  const Mechanics m = mechanics_of(pendulum);
+  const SparseMatrix c = scheme_of(m, {"1/2", "1/h", "0"}).member().c;
+  EXPECT_THROW((void)generating_function(m, c, 4), UsageError);
+}
+
+TEST(GeneratingFunction, TooLongANamesWhatIsPossible) {
+  try {
+    (void)generating_function(shipped("double_pendulum"), {}, 8);
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("--order 6 takes"), std::string::npos) << error.what();
+  }
+}
+
+struct Problem {
+  const char* name;
+  std::string text;
+  Vector start;
+  long double t;
+  int steps;
+};
+
+// A2, A8, B1 and B2 of the literature's test problems, at large steps.
+const Problem a2{"pendulum", pendulum, {2, 0}, 4, 8};
+const Problem a8{"product", "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n", {0, -3}, 0.5L, 8};
+const Problem b1{"henon_heiles",
+                 "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3\n",
+                 {0.1L, 0.2L, 0.3L, -0.1L}, 4, 8};
+const Problem b2{"kepler",
+                 "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)\n",
+                 {0.8L, 0, 0, 1.2247448713915890491L}, 1, 10};
+
+void expect_order(const Problem& problem, const Gauge& gauge, int order, double tolerance) {
+  const Mechanics m = mechanics_of(problem.text);
+  const Scheme scheme = scheme_of(m, gauge);
+  const auto k = generating_function(m, scheme.member().c, order);
+  const FormalStep step(m, scheme.member(), k.gradient);
+  // Its error is 1e-3^5: far below those of the steps.
+  const Vector exact = flow(m, problem.start, problem.t, 4000);
+  const auto orders = observed_orders(step, problem.start, problem.t, problem.steps, exact);
+  EXPECT_NEAR(orders.back(), order, tolerance) << problem.name << ", order " << order;
+}
+
+class SymmetricOrder : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(All, SymmetricOrder, ::testing::Values(4, 6, 8, 10));
+
+TEST_P(SymmetricOrder, OfTheMidpointIsObserved) {
+  for (const Problem& problem : {a2, a8, b1, b2}) expect_order(problem, {}, GetParam(), 0.2);
+}
+
+TEST_P(SymmetricOrder, WithAGaugeProportionalToTheStepIsObserved) {
+  expect_order(a2, {"1/2", "h/5", "-h/7"}, GetParam(), 0.2);
+}
+
+class AnyOrder : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(All, AnyOrder, ::testing::Values(2, 3, 4, 5, 6));
+
+TEST_P(AnyOrder, OfAMemberThatIsNotSymmetricIsObserved) {
+  Problem finer = a2;
+  finer.steps = 32;
+  expect_order(finer, {"3/10", "1/5", "-1/10"}, GetParam(), 0.2);
+  expect_order(finer, {"3/10", "1/5 + h/3", "-h/10"}, GetParam(), 0.2);
+  finer = a8;
+  finer.steps = 32;
+  expect_order(finer, {"0", "0", "0"}, GetParam(), 0.3);
+}
+
+// Negative control: one coefficient off by a thousandth.
+TEST(Order, IsLostWithAWrongCoefficient) {
+  const Mechanics m = mechanics_of(pendulum);
+  const Expression h = Expression::symbol("h", kRankOfStep);
+  auto terms = series(m, {}, 5, SeriesForm::expanded);
+  terms[4] = terms[4] * Expression(Rational(1001, 1000));
+  Expression k;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    k += Expression::power(h, Expression(static_cast<long>(i))) * terms[i];
+  }
+  const std::vector<Expression> z = {m.variable(0), m.variable(1)};
+  const FormalStep step(m, scheme_of(m, {}).member(), gradient(k, z));
+  const auto orders = observed_orders(step, a2.start, 4, 64, flow(m, a2.start, 4, 4000));
+  EXPECT_LT(orders.back(), 5);
+}
+
+}  // namespace
+}  // namespace hamgen::mechanics_test
