@@ -68,6 +68,8 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("X");
   command.add_option("--gamma", options.gamma, "likewise; default alpha = 1/2, beta = gamma = 0")
       ->type_name("X");
+  command.add_option("--order", options.order, "order of a member by generating function, to 10")
+      ->type_name("R");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
       ->type_name("NAME");
@@ -150,6 +152,10 @@ Request request_of(const MethodOptions& options) {
   request.alpha = options.alpha;
   request.beta = options.beta;
   request.gamma = options.gamma;
+  if (!options.order.empty()) {
+    request.order =
+        static_cast<int>(std::min(integer_value("--order " + options.order, options.order, 1), 99L));
+  }
   request.solver = options.solver;
   request.scalar = options.scalar;
   request.fold = options.fold;
@@ -186,6 +192,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--alpha", request.alpha);
   add("--beta", request.beta);
   add("--gamma", request.gamma);
+  if (request.order > 0) add("--order", std::to_string(request.order));
   add("--solver", request.solver);
   add("--scalar", request.scalar);
   for (const std::string& name : request.fold) add("--fold", name);

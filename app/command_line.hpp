@@ -41,7 +41,7 @@ struct Command {
 // Which integrator is meant; the texts are kept as typed.
 struct MethodOptions {
   std::string model;  // path of the .ham file
-  std::string scheme, alpha, beta, gamma, solver, scalar;
+  std::string scheme, alpha, beta, gamma, order, solver, scalar;
   std::vector<std::string> fold;
   std::vector<std::string> set;  // NAME=VALUE
 };

@@ -71,7 +71,7 @@ void fold_parameters(Model& model, const Request& request) {
   }
 }
 
-Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
+Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {
   std::string alpha = "1/2";
   std::string beta = "0";
   std::string gamma = "0";
@@ -101,6 +101,20 @@ Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Reque
                                 read_gauge_block(model, "gamma", gamma));
   // In the user's own words: 0.03, not 3/100.
   scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
+  return scheme;
+}
+
+Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
+  Scheme scheme = scheme_of_own_order(model, mechanics, request);
+  if (request.order == 0) return scheme;
+  scheme = raise_order(std::move(scheme), request.order);
+  if (mechanics.keeps_sums() && scheme.member().generating_order > 0) {
+    throw UsageError(fmt::format(
+        "--order {}: {} has {} degrees of freedom, more than the {} that are written out, and the "
+        "generating function couples them all\nhelp: a composition of the same order keeps the sums as "
+        "loops, see `hamgen list schemes`",
+        request.order, mechanics.name, mechanics.degrees_of_freedom, kMostWrittenOut));
+  }
   return scheme;
 }
 
@@ -219,7 +233,10 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   plugin.text = cpp_plugin(stages.program, options);
   plugin.header_text = cpp_header(stages.program, options);
   plugin.scheme_name = stages.equations.scheme.name;
-  if (plugin.scheme_name == "member") plugin.scheme_name = stages.equations.scheme.description;
+  if (plugin.scheme_name.starts_with("member")) {
+    plugin.scheme_name = stages.equations.scheme.description;
+    if (request.order > 0) plugin.scheme_name += fmt::format(", order {}", request.order);
+  }
   plugin.solver = stages.plan.solver;
   plugin.left_out = stages.plan.left_out;
   for (const Quantity& parameter : stages.mechanics.parameters) {

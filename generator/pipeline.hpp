@@ -20,6 +20,7 @@ struct Request {
   std::string scheme;                     // a name of `hamgen list schemes`; empty: the member below
   std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list;
                                           // by their own names: run-time parameters
+  int order = 0;                          // of a member by its generating function; 0: its own
   std::string solver;                     // newton, fixed-point, sweeps:K
   std::string scalar;                     // float, double, long-double, quad
   std::string format;                     // cpp-header, cpp-plugin, cmake-package

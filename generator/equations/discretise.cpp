@@ -66,11 +66,22 @@ std::vector<int> StepEquations::row_gradients(int i) const {
   return result;
 }
 
-bool StepEquations::depends(int i, int j) const {
+bool StepEquations::hessian_couples(int i, int j) const {
   for (const int k : row_gradients(i)) {
     if (mechanics.hessian.contains(std::minmax(k, j))) return true;
   }
   return false;
+}
+
+bool StepEquations::depends(int i, int j) const {
+  if (has_exact_hessian()) return hessian_couples(i, j);
+  return std::ranges::any_of(row_gradients(i), [&](int k) {
+    return depends_on(mechanics.gradient[static_cast<std::size_t>(k)], name_of(*this, j));
+  });
+}
+
+bool StepEquations::has_exact_hessian() const {
+  return !function || function->hessian_order == function->order;
 }
 
 Expression StepEquations::increment(int i) const {
@@ -88,6 +99,13 @@ StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
                           .scheme = scheme,
                           .stage_matrix = {}};
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
+  if (scheme.is_member() && scheme.member().generating_order > 0) {
+    equations.function =
+        generating_function(mechanics, scheme.member().c, scheme.member().generating_order);
+    equations.energy_gradient = mechanics.gradient;
+    equations.mechanics.gradient = equations.function->gradient;
+    equations.mechanics.hessian = equations.function->hessian;
+  }
   std::erase_if(equations.stage_matrix, [](const auto& entry) { return entry.second.is_zero(); });
   return equations;
 }
@@ -107,7 +125,11 @@ std::string to_text(const StepEquations& equations) {
   for (int i = 0; i < 2 * n; ++i) {
     text += fmt::format("{} = {}\n", to_text(equations.stage(i)), to_text(equations.row(i)));
   }
-  for (int i = 0; i < 2 * n; ++i) {
+  if (equations.function) text += to_text(*equations.function);
+  // Written out, a graph with shared subexpressions may be far longer than its operations.
+  constexpr long kReadable = 500;
+  const bool readable = !equations.function || equations.function->operations < kReadable;
+  for (int i = 0; readable && i < 2 * n; ++i) {
     const Expression symbol = equations.gradient_symbol(i);
     if (symbol.is_zero()) continue;
     text += fmt::format("{} = {}\n", to_text(symbol), to_text(equations.stage_gradient(i)));

@@ -2,11 +2,15 @@
 //
 //   zbar = z + h B grad H(zbar),   B = (I/2 + C) J,      Z = z + h J grad H(zbar)
 //
-// The unknown is zbar: zero rows of I/2 + C drop unknowns by themselves.
+// The unknown is zbar: zero rows of I/2 + C drop unknowns by themselves.  At a higher order K(z, h)
+// stands in for H.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "generator/mechanics/generating_function.hpp"
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
@@ -14,9 +18,14 @@
 namespace hamgen {
 
 struct StepEquations {
-  Mechanics mechanics;
+  Mechanics mechanics;  // gradient and Hessian are those of K where there is one, the energy is H
   Scheme scheme;
   SparseMatrix stage_matrix;  // B
+  std::optional<GeneratingFunction> function = {};  // K and how it is written
+  std::vector<Expression> energy_gradient = {};     // grad H where K stands in for H
+
+  // Is the Hessian that of K itself, or of one cut off earlier?
+  [[nodiscard]] bool has_exact_hessian() const;
 
   // Names of the symbols of the step for component i of the state.
   [[nodiscard]] Expression stage(int i) const;              // zbar_i: "bar(q)"
@@ -31,6 +40,8 @@ struct StepEquations {
   [[nodiscard]] std::vector<int> row_gradients(int i) const;
   // Does row i depend on zbar_j?
   [[nodiscard]] bool depends(int i, int j) const;
+  // The same as far as the Hessian knows.
+  [[nodiscard]] bool hessian_couples(int i, int j) const;
   // Z_i - z_i in gradient symbols.
   [[nodiscard]] Expression increment(int i) const;
 };

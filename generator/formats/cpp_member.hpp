@@ -8,6 +8,7 @@ namespace hamgen {
 // What the solves of a program need besides their own text.
 struct MemberParts {
   bool newton = false;
+  bool simplified = false;    // its matrix is approximate
   bool fixed_point = false;
   bool elimination = false;   // a linear system is solved by emitted elimination
   bool eigen = false;         // or by Eigen

@@ -54,7 +54,9 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
   std::ranges::replace(formula, '\n', ' ');
   out.comment("//   H(q, p) = ", formula);
   const bool symplectic = scheme.symplectic && !plan.sweeps;
-  out.line(fmt::format("//   scheme    {}: order {}{}{}", scheme.description, scheme.order,
+  const bool raised = scheme.is_member() && scheme.member().generating_order > 0;
+  out.line(fmt::format("//   scheme    {}: order {}{}{}{}", scheme.description, scheme.order,
+                       raised ? " by generating function" : "",
                        scheme.symmetric ? ", symmetric" : "",
                        symplectic ? ", symplectic" : ", not symplectic"));
   out.comment("//   solve     ", plan.solver);

@@ -25,11 +25,11 @@ inline void add(Real& value, Real& carry, Real increment) {
 )";
 }
 
-std::string cpp_newton_rule(const ScalarType& scalar) {
+std::string cpp_newton_rule(const ScalarType& scalar, bool simplified) {
   return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as
-//   next <= contraction * size^2,
+//   next <= contraction * {power_text},
 // where the contraction is measured, kept from step to step and checked at least every 32nd step.
 // The last increment still enters the solution, so an iteration may stop when the next one would
 // be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
@@ -48,7 +48,7 @@ struct NewtonRule {{
     if (!(size <= {largest})) return Verdict::failed;
     const Real round_off = {epsilon} * scale;
     if (previous > 0) {{
-      const Real seen = (size < round_off ? round_off : size) / (previous * previous);
+      const Real seen = (size < round_off ? round_off : size) / {previous};
       // It may rise at once but falls slowly: one small increment may be luck.
       const bool first = contraction >= {largest};
       if (first || (size > 64 * round_off && seen > contraction)) {{
@@ -64,13 +64,16 @@ struct NewtonRule {{
       ++unchecked;
     }}
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 32 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
+    if (unchecked < 32 && contraction * {power} * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }}
 }};
 )",
-                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
+                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon),
+                     fmt::arg("power_text", simplified ? "size" : "size^2"),
+                     fmt::arg("previous", simplified ? "previous" : "(previous * previous)"),
+                     fmt::arg("power", simplified ? "size" : "size * size"));
 }
 
 std::string cpp_fixed_point_rule(const ScalarType& scalar) {

@@ -12,8 +12,8 @@ namespace hamgen {
 [[nodiscard]] std::string cpp_magnitude(const ScalarType& scalar, bool builtins);
 // Adding with a carry (compensated summation).
 [[nodiscard]] std::string cpp_compensated_sum();
-// When to stop Newton's iteration.
-[[nodiscard]] std::string cpp_newton_rule(const ScalarType& scalar);
+// When to stop Newton's iteration; simplified, with an approximate matrix, it converges linearly.
+[[nodiscard]] std::string cpp_newton_rule(const ScalarType& scalar, bool simplified = false);
 // When to stop a fixed-point iteration of `size` unknowns.
 [[nodiscard]] std::string cpp_fixed_point_rule(const ScalarType& scalar);
 // Start values from earlier steps, for `unknowns` of them.

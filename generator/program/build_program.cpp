@@ -130,7 +130,13 @@ class Builder {
       case BlockKind::assign: add_assignment(block.unknowns[0]); return;
       case BlockKind::quadratic: add_quadratic(block.unknowns[0]); return;
       case BlockKind::linear:
-      case BlockKind::newton: add_newton(block); return;
+      case BlockKind::newton:
+        if (block.simplified) {
+          add_simplified_newton(block);
+        } else {
+          add_newton(block);
+        }
+        return;
       case BlockKind::fixed_point: add_fixed_point(block); return;
     }
   }
@@ -168,6 +174,22 @@ class Builder {
     const Expression root = square_root(linear * linear - Expression(4) * constant * square);
     const Expression d = Expression(-2) * constant / (linear + root);
     define(stage_value_[index(i)], z + d, straight());
+  }
+
+  // Second derivatives of one block only: those of an earlier block are from before its last
+  // increment, good enough to correct a gradient with, not to solve other equations with.
+  using BlockHessian = std::map<std::string, Expression>;
+
+  Expression second_derivative(BlockHessian& known, int k, int j, int section) {
+    const Expression plain = equations_.hessian_symbol(k, j);
+    if (plain.is_zero()) return plain;
+    if (const auto it = known.find(plain.name()); it != known.end()) return it->second;
+    std::string name = plain.name();
+    while (!hessian_names_.insert(name).second) name += "*";
+    const Expression symbol = Expression::symbol(name, plain.rank());
+    define(symbol, at_stage(equations_.stage_hessian(k, j)), section);
+    known.emplace(plain.name(), symbol);
+    return symbol;
   }
 
   // Newton's iteration on the unknowns, with the torn variables eliminated by the chain rule.  The
@@ -212,22 +234,8 @@ class Builder {
       evaluated.push_back(k);
       define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), where);
     };
-    // Second derivatives of this block only: those of an earlier block are from before its last
-    // increment, good enough to correct a gradient with, not to solve other equations with.
-    std::map<std::string, Expression> known_hessian;
-    auto hessian = [&](int k, int j) -> Expression {
-      const Expression plain = equations_.hessian_symbol(k, j);
-      if (plain.is_zero()) return plain;
-      if (const auto it = known_hessian.find(plain.name()); it != known_hessian.end()) {
-        return it->second;
-      }
-      std::string name = plain.name();
-      while (!hessian_names_.insert(name).second) name += "*";
-      const Expression symbol = Expression::symbol(name, plain.rank());
-      define(symbol, at_stage(equations_.stage_hessian(k, j)), where);
-      known_hessian.emplace(plain.name(), symbol);
-      return symbol;
-    };
+    BlockHessian known_hessian;
+    auto hessian = [&](int k, int j) { return second_derivative(known_hessian, k, j, where); };
     // sum_k h B_ik sum_v H_kv dv/dx_j over the members v known so far, without `except`.
     auto chain = [&](int i, std::size_t j, int except) {
       std::vector<Expression> terms;
@@ -320,6 +328,120 @@ class Builder {
     }
     for (const int v : members) {
       renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + moved[v],
+            outside);
+    }
+  }
+
+  // Newton's iteration with the Hessian of a shorter K.  The torn unknowns are eliminated from the
+  // linear system only: delta_t = r_t + sum_j slope_tj delta_j, where r_t is what their rows lack
+  // now.  The last increment corrects the gradient with the same Hessian, whose error times that
+  // increment is as small as the next increment, which the stopping rule bounds.
+  void add_simplified_newton(const Block& block) {
+    open_solve();
+    PendingSolve pending{.solve = {}, .stage = stage_};
+    Solve& solve = pending.solve;
+    solve.kind = BlockKind::newton;
+    solve.simplified = true;
+    solve.linear_solver = linear_solver(block);
+    const int where = body(stage_);
+    const std::size_t m = block.unknowns.size();
+    std::vector<int> members = block.unknowns;
+    members.insert(members.end(), block.torn.begin(), block.torn.end());
+    for (const int v : members) lowering_.declare(stage_value_[index(v)].name(), where);
+    std::vector<int> evaluated;
+    for (const int v : members) {
+      for (const int k : equations_.row_gradients(v)) {
+        if (known_gradient_[index(k)]) continue;
+        known_gradient_[index(k)] = true;
+        evaluated.push_back(k);
+        define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), where);
+      }
+    }
+    BlockHessian known_hessian;
+    auto hessian = [&](int k, int v) { return second_derivative(known_hessian, k, v, where); };
+    // delta_v = lacking.at(v) + sum_j slopes.at(v)[j] delta_j of the members known so far.
+    std::map<int, Expression> lacking;
+    std::map<int, std::vector<Expression>> slopes;
+    for (std::size_t j = 0; j < m; ++j) {
+      slopes[block.unknowns[j]].resize(m);
+      slopes[block.unknowns[j]][j] = Expression(1);
+    }
+    // sum_k h B_ik sum_v H_kv what(v)
+    auto chain = [&](int i, auto&& what) {
+      std::vector<Expression> terms;
+      for (const int k : equations_.row_gradients(i)) {
+        for (const auto& [v, slope] : slopes) {
+          const Expression value = what(v);
+          if (!value.is_zero()) terms.push_back(weight(i, k) * hessian(k, v) * value);
+        }
+      }
+      return Expression::sum(std::move(terms));
+    };
+    auto residual = [&](int i) {
+      return stage_value_[index(i)] - row(i) - chain(i, [&](int v) { return lacking[v]; });
+    };
+    for (const int t : block.torn) {
+      const Expression symbol = Expression::symbol(
+          "R(" + equations_.mechanics.variables[index(t)].name + ")", kRankOfTemporary + t);
+      define(symbol, residual(t), where);
+      std::vector<Expression> slope;
+      for (std::size_t j = 0; j < m; ++j) {
+        slope.push_back(name_slope(t, block.unknowns[j],
+                                   chain(t, [&](int v) { return slopes.at(v)[j]; }), where));
+      }
+      lacking[t] = -symbol;
+      slopes[t] = std::move(slope);
+    }
+    std::vector<Expression> lacks;
+    std::vector<std::vector<Expression>> matrix(m, std::vector<Expression>(m));
+    for (std::size_t i = 0; i < m; ++i) {
+      lacks.push_back(residual(block.unknowns[i]));
+      for (std::size_t j = 0; j < m; ++j) {
+        matrix[i][j] = Expression(i == j ? 1 : 0) -
+                       chain(block.unknowns[i], [&](int v) { return slopes.at(v)[j]; });
+      }
+    }
+    std::map<int, Expression> corrections;
+    std::vector<Expression> unknown_corrections;
+    for (const int x : block.unknowns) {
+      corrections[x] = correction_symbol(x);
+      unknown_corrections.push_back(corrections[x]);
+    }
+    if (solve.linear_solver == LinearSolver::written_out) {
+      write_out(block, lacks, matrix, unknown_corrections, where);
+    } else {
+      for (const Expression& e : lacks) pending.residual.push_back(lowering_.want(e, where));
+      for (const auto& line : matrix) {
+        auto& handles = pending.matrix.emplace_back();
+        for (const Expression& e : line) handles.push_back(lowering_.want(e, where));
+      }
+      for (const Expression& symbol : unknown_corrections) {
+        solve.corrections.push_back(symbol.name());
+        lowering_.declare(symbol.name(), where);
+      }
+    }
+    for (const int t : block.torn) {
+      std::vector<Expression> terms{lacking[t]};
+      for (std::size_t j = 0; j < m; ++j) terms.push_back(slopes.at(t)[j] * unknown_corrections[j]);
+      corrections[t] = correction_symbol(t);
+      define(corrections[t], Expression::sum(std::move(terms)), where);
+    }
+    for (const int v : members) {
+      solve.variables.push_back({stage_value_[index(v)].name(), {}, {}, {}});
+      pending.cold.push_back(lowering_.want(equations_.mechanics.variable(v), before(stage_)));
+      if (solve.corrections.empty()) pending.correction.push_back(lowering_.want(corrections[v], where));
+    }
+    solves_.push_back(std::move(pending));
+
+    const int outside = after(stage_);
+    for (const int k : evaluated) {
+      std::vector<Expression> terms{gradient_[index(k)]};
+      for (const int v : members) terms.push_back(hessian(k, v) * corrections[v]);
+      renew(gradient_[index(k)], gradient_[index(k)].name(), Expression::sum(std::move(terms)),
+            outside);
+    }
+    for (const int v : members) {
+      renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + corrections[v],
             outside);
     }
   }
@@ -505,7 +627,8 @@ Program build_program(const SolvePlan& plan) {
   if (!plan.arrays) {
     program = Builder(plan).build();
     program.energy = evaluate_together({mechanics.energy});
-    program.gradient = evaluate_together(mechanics.gradient);
+    program.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
+                                                                 : mechanics.gradient);
   }
   std::vector<Expression> invariants;
   for (const NamedExpression& invariant : mechanics.invariants) invariants.push_back(invariant.value);

@@ -29,6 +29,7 @@ struct Solve {
   LinearSolver linear_solver = LinearSolver::written_out;
   std::optional<int> sweeps;             // a fixed number of sweeps instead of a stopping rule
   bool constant_matrix = false;
+  bool simplified = false;               // Newton with an approximate matrix: linear convergence
   std::vector<LoopVariable> variables;
   std::vector<Statement> body;           // evaluated once per iteration
   std::vector<Expression> residual;      // for a linear solve that is not written out: size m

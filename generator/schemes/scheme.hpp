@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
+#include "generator/algebra/sparse_matrix.hpp"
 
 namespace hamgen {
-
-// Nonzero entries of a matrix by row and column.
-using SparseMatrix = std::map<std::pair<int, int>, Expression>;
 
 // A member of the family of Jimenez-Perez, Vilotte and Romanowicz:
 //
@@ -27,6 +25,8 @@ struct Member {
   SparseMatrix c = {};
   // Steps at which C has a pole, with all their multiples; empty for most members.
   std::vector<double> singular_steps = {};
+  // Above 0: the step takes K of that order in place of H (mechanics/generating_function.hpp).
+  int generating_order = 0;
 };
 
 // Steps of sizes substeps[0] h, substeps[1] h, ... of a symmetric member, one after the other.
@@ -92,5 +92,10 @@ struct FamilyParameters {
 
 // The matrix (1/2 + C) J of zbar = z + h (I/2 + C) J grad H(zbar).
 [[nodiscard]] SparseMatrix stage_matrix(const Member& member);
+
+// The member with the generating function of that order in place of H.  Throws UsageError where there
+// is none: for a scheme that is no member, an odd order of a symmetric member, an order out of range.
+inline constexpr int kHighestOrder = 10;
+[[nodiscard]] Scheme raise_order(Scheme scheme, int order);
 
 }  // namespace hamgen

@@ -114,11 +114,34 @@ bool is_quadratic(const StepEquations& equations, int i) {
   return true;
 }
 
+// The Hessian is that of a shorter K: rows that it takes for explicit are eliminated from the linear
+// system while that is written out.
+Block plan_simplified_newton(const StepEquations& equations, const std::vector<int>& component) {
+  const Dependency couples = [&](int i, int j) { return equations.hessian_couples(i, j); };
+  const int n = equations.mechanics.degrees_of_freedom;
+  std::vector<int> momenta_first = component;
+  std::ranges::stable_sort(momenta_first, {}, [&](int i) { return i < n; });
+  std::vector<int> torn = tear(momenta_first, couples, [](int) { return false; });
+  if (torn.size() == component.size()) torn.pop_back();
+  Block block{.kind = BlockKind::newton, .torn = torn, .simplified = true};
+  for (const int i : component) {
+    if (std::ranges::find(torn, i) == torn.end()) block.unknowns.push_back(i);
+  }
+  if (linear_solver(block) != LinearSolver::written_out) {
+    block.unknowns = component;
+    block.torn.clear();
+  }
+  return block;
+}
+
 Block plan_block(const StepEquations& equations, const std::vector<int>& component,
                  bool fixed_point) {
   const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
   if (component.size() == 1 && !depends(component[0], component[0])) {
     return {.kind = BlockKind::assign, .unknowns = component};
+  }
+  if (!fixed_point && !equations.has_exact_hessian()) {
+    return plan_simplified_newton(equations, component);
   }
   // Tearing saves a fixed-point iteration little, and takes long to plan for a large block.
   constexpr std::size_t kLargeBlock = 64;
@@ -173,7 +196,10 @@ std::string describe(const StepEquations& equations, const Block& block) {
                          block.constant_matrix ? ", constant matrix hoisted" : "");
       break;
     case BlockKind::quadratic: return "quadratic equation for " + which + ", root in closed form";
-    case BlockKind::newton: text = fmt::format("Newton of size {} on {}", size, which); break;
+    case BlockKind::newton:
+      text = fmt::format("{} of size {} on {}", block.simplified ? "simplified Newton" : "Newton", size,
+                         which);
+      break;
     case BlockKind::fixed_point:
       text = fmt::format("fixed point of size {} on {}", size, which);
       break;
@@ -281,6 +307,7 @@ std::string to_text(const SolvePlan& plan) {
   } else {
     for (const Block& block : plan.blocks) text += describe(plan.equations, block) + "\n";
   }
+  if (plan.equations.function) text += to_text(*plan.equations.function);
   text += "left out:\n";
   for (const std::string& item : plan.left_out) text += "  " + item + "\n";
   return text;

@@ -24,6 +24,8 @@ struct Block {
   std::vector<int> unknowns = {};
   std::vector<int> torn = {};
   bool constant_matrix = false;  // the matrix depends on h and parameters only
+  // Newton's matrix is approximate: the rows of the torn unknowns, too, are satisfied in the limit only.
+  bool simplified = false;
 };
 
 // How the linear systems are solved.
