@@ -8,6 +8,7 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
+#include "generator/schemes/all_schemes.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -38,6 +39,8 @@ std::vector<std::string_view> outermost_pieces(std::string_view text) {
 
 void require_no_member_besides_scheme(const MethodOptions& options) {
   if (options.scheme.empty()) return;
+  const Scheme* scheme = find_scheme(options.scheme);
+  if (scheme != nullptr && std::holds_alternative<Composition>(scheme->method)) return;
   for (const auto& [name, value] :
        {std::pair{"--alpha", &options.alpha}, std::pair{"--beta", &options.beta},
         std::pair{"--gamma", &options.gamma}}) {

@@ -32,7 +32,7 @@ Json functions() {
 
 Json schemes() {
   Json rows = Json::array();
-  for (const NamedScheme& scheme : all_schemes())
+  for (const Scheme& scheme : all_schemes())
     rows.push_back({{"name", scheme.name},
                     {"order", scheme.order},
                     {"symmetric", scheme.symmetric},

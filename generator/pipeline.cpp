@@ -71,37 +71,39 @@ void fold_parameters(Model& model, const Request& request) {
   }
 }
 
-Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {
-  std::string alpha = "1/2";
-  std::string beta = "0";
-  std::string gamma = "0";
-  const NamedScheme* named = nullptr;
-  if (!request.scheme.empty()) {
-    named = find_scheme(request.scheme);
-    if (named == nullptr) {
-      std::vector<std::string> names;
-      for (const NamedScheme& scheme : all_schemes()) names.emplace_back(scheme.name);
-      const std::string near = nearest(request.scheme, names);
-      throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", request.scheme,
-                                   near.empty() ? "" : ", did you mean '" + near + "'?"));
-    }
-    if (!request.alpha.empty() || !request.beta.empty() || !request.gamma.empty()) {
-      throw UsageError("give either --scheme or --alpha, --beta, --gamma");
-    }
-    alpha = named->alpha;
-    beta = named->beta;
-    gamma = named->gamma;
-  }
-  if (!request.alpha.empty()) alpha = request.alpha;
-  if (!request.beta.empty()) beta = request.beta;
-  if (!request.gamma.empty()) gamma = request.gamma;
+// THE LIST's scheme of that name.
+const Scheme& named_scheme(const std::string& name) {
+  if (const Scheme* scheme = find_scheme(name)) return *scheme;
+  std::vector<std::string> names;
+  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
+  const std::string near = nearest(name, names);
+  throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", name,
+                               near.empty() ? "" : ", did you mean '" + near + "'?"));
+}
+
+// The member of the request; in its description the user's own words: 0.03, not 3/100.
+Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
+  const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
+  const std::string beta = request.beta.empty() ? "0" : request.beta;
+  const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
   Scheme scheme = family_member(mechanics.degrees_of_freedom,
                                 read_gauge_block(model, "alpha", alpha),
                                 read_gauge_block(model, "beta", beta),
                                 read_gauge_block(model, "gamma", gamma));
-  // In the user's own words: 0.03, not 3/100.
   scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
   return scheme;
+}
+
+Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {
+  if (request.scheme.empty()) return requested_member(model, mechanics, request);
+  const Scheme& named = named_scheme(request.scheme);
+  const bool has_parameters =
+      !request.alpha.empty() || !request.beta.empty() || !request.gamma.empty();
+  if (std::holds_alternative<Composition>(named.method)) {
+    return compose(named, requested_member(model, mechanics, request));
+  }
+  if (has_parameters) throw UsageError("give either --scheme or --alpha, --beta, --gamma");
+  return for_system(named, mechanics);
 }
 
 Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
@@ -149,7 +151,9 @@ struct Stages {
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   // Loops know one way to solve and one set of parameters for all degrees of freedom.
-  const bool keep_sums = (request.solver.empty() || request.solver == "newton") &&
+  const Scheme* named = request.scheme.empty() ? nullptr : find_scheme(request.scheme);
+  const bool any_solver = named != nullptr && !named->has_member();
+  const bool keep_sums = (any_solver || request.solver.empty() || request.solver == "newton") &&
                          (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
   Mechanics mechanics = derive(model, keep_sums);
   StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, request));

@@ -91,6 +91,9 @@ using Substitution = std::map<std::string, Expression>;
 
 [[nodiscard]] Expression square_root(const Expression& e);
 
+// An expression of numbers and roots as a number, to 90 digits; an internal error for any other.
+[[nodiscard]] Rational numeric_value(const Expression& e);
+
 // The language's own notation with the fewest parentheses: "p^2/2 - eps*cos(q)".
 [[nodiscard]] std::string to_text(const Expression& e);
 

@@ -20,6 +20,41 @@ Substitution state_to_stage(const StepEquations& equations) {
   return replacements;
 }
 
+// Exact where that is short, else to 20 digits.
+std::string coefficient_text(const Expression& e) {
+  const std::string exact = to_text(e);
+  if (exact.size() <= 24) return exact;
+  const Rational value = numeric_value(e);
+  Integer digits;
+  Integer scale;
+  mpz_ui_pow_ui(scale.get_mpz_t(), 10, 20);
+  const Rational scaled = abs(value) * scale;
+  mpz_fdiv_q(digits.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  const Integer whole = digits / scale;
+  const Integer fraction = digits % scale;
+  return fmt::format("{}{}.{:0>20}...", value < 0 ? "-" : "", whole.get_str(), fraction.get_str());
+}
+
+std::string list_text(const std::vector<Expression>& values) {
+  std::string text;
+  for (const Expression& e : values) text += (text.empty() ? "" : ", ") + coefficient_text(e);
+  return text;
+}
+
+std::string splitting_text(const Splitting& splitting) {
+  const std::string kicks = "kicks p -= b h dV/dq with b = " + list_text(splitting.kicks) + "\n";
+  const std::string drifts = "drifts q += a h dT/dp with a = " + list_text(splitting.drifts) + "\n";
+  return "in turn:\n" + (splitting.kick_first ? kicks + drifts : drifts + kicks);
+}
+
+std::string tableau_text(const RungeKutta& tableau) {
+  std::string text = "Z = z + h sum b_i f(Z_i), Z_i = z + h sum a_ij f(Z_j), f = J grad H\n";
+  for (std::size_t i = 0; i < tableau.b.size(); ++i) {
+    text += fmt::format("a_{}: {}\n", i + 1, list_text(tableau.a[i]));
+  }
+  return text + "b: " + list_text(tableau.b) + "\nc: " + list_text(tableau.c) + "\n";
+}
+
 }  // namespace
 
 Expression step_size() { return Expression::symbol("h", kRankOfStep); }
@@ -115,6 +150,15 @@ std::string to_text(const StepEquations& equations) {
                                  equations.scheme.description, equations.scheme.order,
                                  equations.scheme.symmetric ? ", symmetric" : "");
   const int n = equations.mechanics.degrees_of_freedom;
+  if (const auto* splitting = std::get_if<Splitting>(&equations.scheme.method)) {
+    return text + splitting_text(*splitting);
+  }
+  if (const auto* tableau = std::get_if<RungeKutta>(&equations.scheme.method)) {
+    return text + tableau_text(*tableau);
+  }
+  if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {
+    text += "for h = " + list_text(composition->substeps) + " times the step size, in turn:\n";
+  }
   if (equations.mechanics.keeps_sums()) {
     return text + fmt::format("for every degree of freedom i = 1..{}:\n"
                               "  bar(q_i) = q_i + h*alpha*H(p_i) + h*gamma*H(q_i)\n"

@@ -9,21 +9,21 @@ namespace {
 constexpr const char* kArguments =
     "[[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z";
 
-// values[i] = result i.
+}  // namespace
+
 void write_results(CodeWriter& out, const CppExpression& cpp, const Evaluation& evaluation) {
   for (std::size_t i = 0; i < evaluation.results.size(); ++i) {
     out.line(fmt::format("values[{}] = {};", i, cpp(evaluation.results[i])));
   }
 }
 
-}  // namespace
-
 void write_evaluation(CodeWriter& out, CppContext& context, const std::string& signature,
                       const Evaluation& evaluation,
                       const std::function<void(CodeWriter&, const CppExpression&)>& finish,
-                      CppContext::StateForm form) {
+                      CppContext::StateForm form, const CoefficientText& coefficients) {
   Names names;
   names.reserve("values");
+  for (const auto& [symbol, text] : coefficients) names.set(symbol, text);
   const CppExpression cpp = context.expression(names);
   std::set<std::string> used = used_symbols(evaluation.statements);
   for (const Expression& e : evaluation.results) collect_symbols(e, used);

@@ -11,16 +11,12 @@
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_preamble.hpp"
+#include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_support.hpp"
 
 namespace hamgen {
 
 namespace {
-
-bool array_newton(const Program& program) {
-  return program.plan.arrays && program.plan.arrays->method != ArrayMethod::explicit_a &&
-         program.plan.arrays->method != ArrayMethod::explicit_b;
-}
 
 void write_includes(CodeWriter& out, const CppContext& context) {
   if (context.quad()) {
@@ -70,22 +66,8 @@ void open_namespace(CodeWriter& out, const CppContext& context) {
   out.line();
 }
 
-// A system whose sums stay loops.
-void write_arrays(CodeWriter& out, CppContext& context) {
-  const Program& program = context.program;
-  write_types(out, context, array_newton(program));
-  out.lines(cpp_compensated_sum() + "\n");
-  if (array_newton(program)) {
-    const bool reduced = program.plan.arrays->method == ArrayMethod::reduced_newton;
-    out.lines(cpp_newton_rule(context.scalar) + "\n");
-    out.lines(cpp_history(reduced ? context.n() : 2 * context.n()) + "\n");
-  }
-  write_array_program(out, program, context.scalar, context.options.builtins,
-                      context.parameter_text, context.functions);
-  write_invariants(out, context);
-}
-
-void write_member(CodeWriter& out, CppContext& context) {
+// The member of the plan, or the one that is composed.
+void write_member(CodeWriter& out, CppContext& context, StepRole role) {
   const MemberParts parts = member_parts(context.program, context.scalar);
   write_types(out, context, parts.newton || parts.fixed_point || parts.elimination);
   write_functions(out, context);
@@ -93,18 +75,47 @@ void write_member(CodeWriter& out, CppContext& context) {
   if (parts.coefficients) coefficients = write_prepare(out, context, parts);
   write_support(out, context, parts);
   write_solve(out, context, parts, coefficients);
-  write_member_step(out, context, parts);
-  write_member_propagator(out, context, parts);
+  if (role == StepRole::propagator) write_member_step(out, context, parts);
+  write_member_propagator(out, context, parts, role);
+}
+
+// The same for a system whose sums stay loops.
+void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
+  const ArrayPlan& plan = *context.program.plan.arrays;
+  write_types(out, context, uses_newton(plan));
+  out.lines(cpp_compensated_sum() + "\n");
+  if (uses_newton(plan)) {
+    const bool reduced = plan.method == ArrayMethod::reduced_newton;
+    out.lines(cpp_newton_rule(context.scalar) + "\n");
+    out.lines(cpp_history(reduced ? context.n() : 2 * context.n()) + "\n");
+  }
+  write_array_functions(out, context);
+  write_array_propagator(out, context, role);
+}
+
+void write_scheme(CodeWriter& out, CppContext& context) {
+  const Method& method = context.equations.scheme.method;
+  if (const auto* splitting = std::get_if<Splitting>(&method)) {
+    write_splitting(out, context, *splitting);
+  } else if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
+    write_runge_kutta(out, context, *tableau);
+  } else {
+    const auto* composition = std::get_if<Composition>(&method);
+    const StepRole role = composition ? StepRole::substep : StepRole::propagator;
+    if (context.arrays()) {
+      write_array_member(out, context, role);
+    } else {
+      write_member(out, context, role);
+    }
+    if (composition) write_composition(out, context, *composition);
+  }
 }
 
 // Everything inside the namespace and the namespace itself.
 std::string namespace_text(CppContext& context) {
   CodeWriter inner;
-  if (context.arrays()) {
-    write_arrays(inner, context);
-  } else {
-    write_member(inner, context);
-  }
+  write_scheme(inner, context);
+  if (context.arrays()) write_invariants(inner, context);
   CodeWriter out;
   open_namespace(out, context);  // what it defines depends on what was used
   out.lines(inner.text());

@@ -39,7 +39,8 @@ MemberParts member_parts(const Program& program, const ScalarType& scalar) {
 
 std::string inverse_name(std::size_t stage) { return fmt::format("inverse_{}", stage); }
 
-CoefficientText write_prepare(CodeWriter& out, CppContext& context, const MemberParts& parts) {
+CoefficientText write_prepare(CodeWriter& out, CppContext& context, const MemberParts& parts,
+                              const std::vector<ScaledNumbers>& scaled) {
   CoefficientText coefficient_text;
   Names names;
   const CppExpression cpp = context.expression(names);
@@ -68,6 +69,12 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
     code.line(fmt::format("k.regular = invert(matrix_{}, k.{}) && k.regular;", s, inverse_name(s)));
   }
   if (parts.inverse) members.emplace_back("bool regular = true;", "");
+  for (const auto& [name, values] : scaled) {
+    members.emplace_back(fmt::format("Real {}[{}] = {{}};", name, values.size()), "");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      code.line(fmt::format("k.{}[{}] = {} * h;", name, i, literal(values[i], context.scalar)));
+    }
+  }
   if (parts.inverse) out.lines(elimination_text(context, parts) + "\n" + cpp_inverse() + "\n");
   out.line("// What depends on h and the parameters alone.");
   out.open("struct Coefficients");

@@ -22,9 +22,16 @@ struct MemberParts {
 // Where the symbols of the coefficients are found: "#3" is k.c1.
 using CoefficientText = std::map<std::string, std::string>;
 
+// An array of numbers times h among the coefficients.
+struct ScaledNumbers {
+  std::string name;
+  std::vector<Rational> values;
+};
+
 // struct Coefficients and prepare(par, h).
 [[nodiscard]] CoefficientText write_prepare(CodeWriter& out, CppContext& context,
-                                            const MemberParts& parts);
+                                            const MemberParts& parts,
+                                            const std::vector<ScaledNumbers>& scaled = {});
 // add, elimination, rules for stopping, struct Start.
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts);
 // solve(par, k, h, z, start, dz).
@@ -37,8 +44,16 @@ void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& 
 
 // step(par, h, z).
 void write_member_step(CodeWriter& out, const CppContext& context, const MemberParts& parts);
-// class Propagator.
-void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts);
+
+// Who takes the steps: the class Propagator, or in a composition the class Substep, which can go on
+// from a state and a carry of another.
+enum class StepRole { propagator, substep };
+[[nodiscard]] std::string class_name(StepRole role);
+// begin_at(z, carry), carry() and, if there is anything to `reset`, forget().
+void write_substep_access(CodeWriter& out, const std::string& reset);
+
+void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts,
+                             StepRole role);
 // The functions advance() and state() of a class with step() and z_.
 void write_advance(CodeWriter& out);
 

@@ -38,6 +38,12 @@ void write_cost(CodeWriter& out, const Program& program) {
   }
 }
 
+void write_gradient_cost(CodeWriter& out, const Program& program) {
+  std::vector<Statement> all = program.gradient.statements;
+  for (const Expression& result : program.gradient.results) all.push_back({"", result});
+  out.line("//   cost      per gradient: " + to_text(cost(all)));
+}
+
 }  // namespace
 
 void write_preamble(CodeWriter& out, const CppContext& context) {
@@ -65,7 +71,12 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
     out.comment(first ? "//   left out  " : "//             ", item);
     first = false;
   }
-  if (!context.arrays()) write_cost(out, context.program);
+  if (context.arrays()) return;
+  if (scheme.has_member()) {
+    write_cost(out, context.program);
+  } else {
+    write_gradient_cost(out, context.program);
+  }
 }
 
 }  // namespace hamgen

@@ -38,7 +38,6 @@ void write_advance(CodeWriter& out) {
   out.close();
   out.line();
   out.line("[[nodiscard]] const State& state() const { return z_; }");
-  out.line();
 }
 
 void write_member_step(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
@@ -58,18 +57,38 @@ void write_member_step(CodeWriter& out, const CppContext& context, const MemberP
   out.line();
 }
 
-void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
+std::string class_name(StepRole role) {
+  return role == StepRole::propagator ? "Propagator" : "Substep";
+}
+
+void write_substep_access(CodeWriter& out, const std::string& reset) {
+  out.line("[[nodiscard]] const State& carry() const { return carry_; }");
+  out.line("// Goes on from a state of another substep.");
+  out.open("void begin_at(const State& z, const State& carry)");
+  out.line("z_ = z;");
+  out.line("carry_ = carry;");
+  out.close();
+  if (reset.empty()) return;
+  out.line("// Drops the start values.");
+  out.open("void forget()");
+  out.lines(reset);
+  out.close();
+}
+
+void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts,
+                             StepRole role) {
   if (parts.has_start()) out.lines(cpp_history(static_cast<int>(parts.unknowns.size())) + "\n");
   out.line(parts.has_start()
                ? "// Many steps: start values are extrapolated, rounding errors of the updates carried along."
                : "// Many steps: rounding errors of the updates are carried along.");
-  out.open("class Propagator");
+  const std::string name = class_name(role);
+  out.open("class " + name);
   out.dedent();
   out.line(" public:");
   out.indent();
   std::string initialisers = "par_(par), h_(h), z_(z)";
   if (parts.coefficients) initialisers += ", k_(prepare(par, h))";
-  const std::string constructor = "Propagator(const Parameters& par, Real h, const State& z)";
+  const std::string constructor = name + "(const Parameters& par, Real h, const State& z)";
   if (constructor.size() + initialisers.size() > 90) {
     out.line(constructor);
     out.line("    : " + initialisers + " {}");
@@ -106,6 +125,10 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   out.close();
   out.line();
   write_advance(out);
+  if (role == StepRole::substep) {
+    write_substep_access(out, parts.has_start() ? "start_ = Start();\nhistory_ = History();\n" : "");
+  }
+  out.line();
   out.dedent();
   out.line(" private:");
   out.indent();

@@ -621,11 +621,50 @@ Evaluation evaluate_together(const std::vector<Expression>& values) {
   return evaluation;
 }
 
+namespace {
+
+// dV/dq and dT/dp share no variable, so one pass lowers both; what depends on parameters alone is
+// computed once per run.
+void build_splitting(Program& program, const Mechanics& mechanics) {
+  Lowering lowering({Section{}, Section{}, Section{}});
+  const int n = mechanics.degrees_of_freedom;
+  for (const Quantity& parameter : mechanics.parameters) lowering.declare(parameter.name, 0);
+  std::vector<std::size_t> handles;
+  for (int i = 0; i < 2 * n; ++i) {
+    lowering.declare(mechanics.variable(i).name(), i < n ? 1 : 2);
+    handles.push_back(
+        lowering.want(mechanics.gradient[static_cast<std::size_t>(i)], i < n ? 1 : 2));
+  }
+  lowering.run();
+  program.coefficients = lowering.statements(0);
+  program.potential_gradient.statements = lowering.statements(1);
+  program.kinetic_gradient.statements = lowering.statements(2);
+  for (int i = 0; i < 2 * n; ++i) {
+    (i < n ? program.potential_gradient : program.kinetic_gradient)
+        .results.push_back(lowering.wanted(handles[static_cast<std::size_t>(i)]));
+  }
+}
+
+void build_hessian(Program& program, const Mechanics& mechanics) {
+  std::vector<Expression> values;
+  for (const auto& [place, value] : mechanics.hessian) {
+    program.hessian_places.push_back(place);
+    values.push_back(value);
+  }
+  program.hessian = evaluate_together(values);
+}
+
+}  // namespace
+
 Program build_program(const SolvePlan& plan) {
   const Mechanics& mechanics = plan.equations.mechanics;
   Program program{.plan = plan};
   if (!plan.arrays) {
-    program = Builder(plan).build();
+    if (plan.equations.scheme.has_member()) program = Builder(plan).build();
+    if (std::holds_alternative<Splitting>(plan.equations.scheme.method)) {
+      build_splitting(program, mechanics);
+    }
+    if (plan.stage_solver) build_hessian(program, mechanics);
     program.energy = evaluate_together({mechanics.energy});
     program.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
                                                                  : mechanics.gradient);

@@ -65,6 +65,12 @@ struct Program {
   Evaluation energy;                    // one result
   Evaluation gradient;                  // 2n results
   Evaluation invariants;
+  // Of a splitting: n results each, dV/dq and dT/dp.
+  Evaluation potential_gradient = {};
+  Evaluation kinetic_gradient = {};
+  // Of an implicit Runge-Kutta method: the entries of the Hessian at `hessian_places`, i <= j.
+  Evaluation hessian = {};
+  std::vector<std::pair<int, int>> hessian_places = {};
 };
 
 // Values of free symbols, computed together: what they share is computed once.

@@ -1,28 +1,33 @@
 #include "generator/schemes/all_schemes.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace hamgen {
 
 namespace {
 
-constexpr std::array kSchemes = {
-    NamedScheme{"implicit-midpoint", 2, true, "any H", "zbar = (z + Z)/2",
-                "Hairer, Lubich, Wanner, Geometric Numerical Integration, II.1.5", "1/2", "0", "0"},
-    NamedScheme{"symplectic-euler-a", 1, false, "any H", "H at (q, P); explicit for separable H",
-                "Jimenez-Perez, Vilotte, Romanowicz 2015; HLW I.1.2", "0", "0", "0"},
-    NamedScheme{"symplectic-euler-b", 1, false, "any H", "H at (Q, p); explicit for separable H",
-                "Jimenez-Perez, Vilotte, Romanowicz 2015; HLW I.1.2", "1", "0", "0"},
-};
+std::vector<Scheme> the_list() {
+  std::vector<Scheme> list = named_members();
+  auto add = [&list](std::vector<Scheme> schemes) {
+    list.insert(list.end(), schemes.begin(), schemes.end());
+  };
+  add(splittings());
+  for (const Scheme& scheme : compositions()) add({scheme, with_verlet(scheme)});
+  add(gauss_methods());
+  add(runge_kutta_methods());
+  return list;
+}
 
 }  // namespace
 
-std::span<const NamedScheme> all_schemes() { return kSchemes; }
+std::span<const Scheme> all_schemes() {
+  static const std::vector<Scheme> list = the_list();
+  return list;
+}
 
-const NamedScheme* find_scheme(std::string_view name) {
-  const auto it = std::ranges::find(kSchemes, name, &NamedScheme::name);
-  return it == kSchemes.end() ? nullptr : &*it;
+const Scheme* find_scheme(std::string_view name) {
+  const auto it = std::ranges::find(all_schemes(), name, &Scheme::name);
+  return it == all_schemes().end() ? nullptr : &*it;
 }
 
 }  // namespace hamgen

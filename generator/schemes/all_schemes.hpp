@@ -1,27 +1,36 @@
-// THE LIST of schemes that have a name.  To add one, add one line in all_schemes.cpp.
+// THE LIST of schemes that have a name.  To add one, add it to the table of its kind; to add a kind,
+// add a file and its line in all_schemes.cpp.
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
+#include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
 
 namespace hamgen {
 
-struct NamedScheme {
-  std::string_view name;
-  int order = 1;
-  bool symmetric = false;
-  std::string_view needs;        // "any H", "separable H"
-  std::string_view description;  // one line
-  std::string_view source;
-  std::string_view alpha;        // of the member, as on the command line
-  std::string_view beta;
-  std::string_view gamma;
-};
+[[nodiscard]] std::span<const Scheme> all_schemes();
+[[nodiscard]] const Scheme* find_scheme(std::string_view name);
 
-[[nodiscard]] std::span<const NamedScheme> all_schemes();
-[[nodiscard]] const NamedScheme* find_scheme(std::string_view name);
+// The tables.
+[[nodiscard]] std::vector<Scheme> named_members();        // family.cpp
+[[nodiscard]] std::vector<Scheme> splittings();
+[[nodiscard]] std::vector<Scheme> compositions();         // of the implicit midpoint, to be replaced
+[[nodiscard]] std::vector<Scheme> gauss_methods();
+[[nodiscard]] std::vector<Scheme> runge_kutta_methods();
+
+// A composition's coefficients used with the Stormer-Verlet step instead of a member's.
+[[nodiscard]] Scheme with_verlet(const Scheme& composition);
+
+// The scheme for one system: a member gets its degrees of freedom.  Throws UsageError, with an
+// alternative, if the scheme needs what the system does not have.
+[[nodiscard]] Scheme for_system(const Scheme& scheme, const Mechanics& mechanics);
+// The composition with this member for its base, which must be symmetric: else a UsageError.
+[[nodiscard]] Scheme compose(const Scheme& composition, const Scheme& base);
+
+// The collocation method with these distinct nodes in [0, 1], to 70 digits.
+[[nodiscard]] RungeKutta collocation(const std::vector<Rational>& nodes);
+[[nodiscard]] std::vector<Rational> gauss_nodes(int stages);
 
 }  // namespace hamgen

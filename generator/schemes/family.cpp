@@ -6,7 +6,7 @@
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/mechanics.hpp"
-#include "generator/schemes/scheme.hpp"
+#include "generator/schemes/all_schemes.hpp"
 
 namespace hamgen {
 
@@ -141,6 +141,28 @@ Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
   }
   scheme.method = std::move(member);
   return scheme;
+}
+
+std::vector<Scheme> named_members() {
+  const std::string family = "Jimenez-Perez, Vilotte, Romanowicz 2015";
+  auto member = [](Scheme scheme, const Expression& alpha) {
+    scheme.method = family_member(1, {{alpha}}, {{0}}, {{0}}).method;
+    return scheme;
+  };
+  return {member({.name = "implicit-midpoint",
+                  .description = "zbar = (z + Z)/2",
+                  .order = 2,
+                  .symmetric = true,
+                  .source = "Hairer, Lubich, Wanner, Geometric Numerical Integration (HLW), II.1.5"},
+                 Expression(Rational(1, 2))),
+          member({.name = "symplectic-euler-a",
+                  .description = "H at (q, P); explicit for separable H",
+                  .source = family + "; HLW I.1.2"},
+                 Expression(0)),
+          member({.name = "symplectic-euler-b",
+                  .description = "H at (Q, p); explicit for separable H",
+                  .source = family + "; HLW I.1.2"},
+                 Expression(1))};
 }
 
 std::optional<FamilyParameters> uniform_parameters(const Member& member) {

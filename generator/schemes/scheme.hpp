@@ -21,7 +21,7 @@ namespace hamgen {
 //
 //   C = [[alpha - 1/2, -gamma], [-beta, 1/2 - alpha^T]],   beta and gamma symmetric.
 struct Member {
-  int degrees_of_freedom = 0;  // 0 in THE LIST: made for a system by for_system
+  int degrees_of_freedom = 0;  // 1 in THE LIST, where it stands for any number
   SparseMatrix c = {};
   // Steps at which C has a pole, with all their multiples; empty for most members.
   std::vector<double> singular_steps = {};

@@ -47,6 +47,10 @@ std::optional<int> bandwidth(const std::vector<Kernel>& kernels) {
 
 }  // namespace
 
+bool uses_newton(const ArrayPlan& plan) {
+  return plan.method == ArrayMethod::full_newton || plan.method == ArrayMethod::reduced_newton;
+}
+
 bool uses_sparse_matrix(const ArrayPlan& plan) {
   return plan.method == ArrayMethod::full_newton ||
          (plan.method == ArrayMethod::reduced_newton && !plan.bandwidth);
@@ -92,7 +96,7 @@ SolvePlan plan_arrays(const StepEquations& equations) {
   if (arrays.method == ArrayMethod::reduced_newton) {
     plan.left_out.push_back(fmt::format("{} of the unknowns: torn out", n));
   }
-  if (arrays.method == ArrayMethod::explicit_a || arrays.method == ArrayMethod::explicit_b) {
+  if (!uses_newton(arrays)) {
     plan.left_out.emplace_back("equation solver: the step is explicit");
   }
   return plan;

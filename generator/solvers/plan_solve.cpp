@@ -276,7 +276,9 @@ LinearSolver linear_solver(const Block& block) {
   return block.unknowns.size() <= 24 ? LinearSolver::elimination : LinearSolver::eigen_dense;
 }
 
-SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {
+namespace {
+
+SolvePlan plan_member(const StepEquations& equations, const std::string& solver) {
   if (equations.mechanics.keeps_sums()) return plan_arrays(equations);
   SolvePlan plan{.equations = equations};
   const std::vector<int> needed = needed_stages(equations);
@@ -298,10 +300,23 @@ SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) 
   return plan;
 }
 
+}  // namespace
+
+SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {
+  if (!equations.scheme.has_member()) return plan_without_member(equations, solver);
+  SolvePlan plan = plan_member(equations, solver);
+  if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {
+    plan.solver = fmt::format("{} substeps, each: {}", composition->substeps.size(), plan.solver);
+  }
+  return plan;
+}
+
 std::string to_text(const SolvePlan& plan) {
   std::string text = "solver: " + plan.solver + "\n";
   if (plan.arrays) {
     text += "sums stay loops\n";
+  } else if (!plan.equations.scheme.has_member()) {
+    text += "no blocks: " + plan.equations.scheme.description + "\n";
   } else if (plan.sweeps) {
     text += "predict Z by explicit Euler; sweep all stage values together\n";
   } else {

@@ -36,6 +36,7 @@ enum class LinearSolver { written_out, elimination, eigen_dense };
 enum class ArrayMethod {
   explicit_a,      // alpha = 0: q, then P, then Q
   explicit_b,      // alpha = 1
+  gradient_only,   // a splitting or a Runge-Kutta method: no system to solve, or one without blocks
   reduced_newton,  // kinetic energy sum m_i p_i^2/2 + linear: momenta torn out, sparse system of size n
   full_newton      // sparse system of size 2n
 };
@@ -46,11 +47,19 @@ struct ArrayPlan {
   std::optional<int> bandwidth = {};
 };
 
+// How the stages of an implicit Runge-Kutta method are found.
+enum class StageSolver {
+  fixed_point,
+  newton,  // simplified: one elimination of size 2 n s serves many iterations
+  both     // fixed point, and Newton where it contracts slowly
+};
+
 struct SolvePlan {
   StepEquations equations;
   std::vector<Block> blocks = {};
   std::optional<int> sweeps = {};  // the paper's Algorithm 1 with this many corrector sweeps
   std::optional<ArrayPlan> arrays = {};  // set if the sums stay loops; then there are no blocks
+  std::optional<StageSolver> stage_solver = {};  // of an implicit Runge-Kutta method
   std::string solver = {};         // one line for people: "Newton of size 1; p torn out"
   std::vector<std::string> left_out = {};
   [[nodiscard]] bool is_explicit() const;
@@ -59,6 +68,10 @@ struct SolvePlan {
 // solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
 [[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
 [[nodiscard]] bool uses_sparse_matrix(const ArrayPlan& plan);
+[[nodiscard]] bool uses_newton(const ArrayPlan& plan);
+// Of a splitting or a Runge-Kutta method.
+[[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
+                                            const std::string& solver);
 [[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);

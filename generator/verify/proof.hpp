@@ -33,6 +33,8 @@ using Proof = std::vector<Finding>;
 // min(n, 3) degrees of freedom; beyond, by the factorisation of the difference.
 [[nodiscard]] Finding prove_step_symplectic(const Member& member);
 [[nodiscard]] Finding prove_symmetric(const Member& member);
+[[nodiscard]] Finding prove_splitting_symplectic();
+[[nodiscard]] Finding prove_tableau_symplectic(const RungeKutta& tableau);
 [[nodiscard]] Finding prove_order(const Member& member);
 // {I, H} = 0, and whether the scheme conserves I exactly.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Member& member);

@@ -8,6 +8,10 @@ namespace hamgen {
 
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
              const Expression& hamiltonian) {
+  if (std::holds_alternative<Splitting>(scheme.method)) return {prove_splitting_symplectic()};
+  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
+    return {prove_tableau_symplectic(*tableau)};
+  }
   const std::optional<int> sweeps = program.plan.sweeps;
   const Member& member = scheme.member();
   Proof proof{prove_gauge(member)};
@@ -22,6 +26,12 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
     return proof;
   }
   proof.push_back(prove_step_symplectic(member));
+  if (std::holds_alternative<Composition>(scheme.method)) {
+    proof.back().detail += "; so is each substep, and their composition";
+    proof.push_back(prove_symmetric(member));
+    proof.back().detail += "; the substeps are the same from both ends";
+    return proof;
+  }
   proof.push_back(prove_symmetric(member));
   proof.push_back(prove_order(member));
   for (Finding& finding : prove_invariants(mechanics, member)) {

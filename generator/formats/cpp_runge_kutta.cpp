@@ -1,0 +1,173 @@
+// Runge-Kutta methods: the state as one array, f = J grad H of it.
+#include <fmt/format.h>
+
+#include "generator/formats/cpp_arrays.hpp"
+#include "generator/formats/cpp_functions.hpp"
+#include "generator/formats/cpp_member.hpp"
+#include "generator/formats/cpp_schemes.hpp"
+#include "generator/formats/cpp_stages.hpp"
+#include "generator/formats/cpp_support.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// f = (H_p, -H_q) from grad H = (H_q, H_p).
+void write_vector_field(CodeWriter& out, CppContext& context) {
+  const int n = context.n();
+  out.line("// J grad H at a state (q, p).");
+  const std::string head = "inline void vector_field([[maybe_unused]] const Parameters& par, ";
+  if (context.arrays()) {
+    out.lines(head + R"(const Real (&x)[dimension],
+                         Real (&f)[dimension]) {
+  Real slope[dimension];
+  gradient(par, x, slope);
+  for (int i = 0; i < n; ++i) {
+    f[i] = slope[n + i];
+    f[n + i] = -slope[i];
+  }
+}
+
+)");
+    return;
+  }
+  const Evaluation& gradient = context.program.gradient;
+  write_evaluation(out, context,
+                   head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])",
+                   gradient,
+                   [&](CodeWriter& w, const CppExpression& cpp) {
+                     for (int i = 0; i < 2 * n; ++i) {
+                       const auto k = static_cast<std::size_t>(i < n ? i + n : i - n);
+                       const Expression& slope = gradient.results[k];
+                       w.line(fmt::format("values[{}] = {};", i, cpp(i < n ? slope : -slope)));
+                     }
+                   },
+                   CppContext::StateForm::array);
+}
+
+// y = x + h sum a_j f_j, and dz = h sum b_j f_j: only what is not zero.
+std::string combination(const std::vector<Rational>& row, const ScalarType& scalar) {
+  std::string text;
+  for (std::size_t j = 0; j < row.size(); ++j) {
+    if (row[j] == 0) continue;
+    text += (text.empty() ? "" : " + ") + fmt::format("{} * f_{}[k]", literal(row[j], scalar), j + 1);
+  }
+  return text;
+}
+
+std::vector<Rational> numbers(const std::vector<Expression>& values) {
+  std::vector<Rational> result;
+  for (const Expression& e : values) result.push_back(numeric_value(e));
+  return result;
+}
+
+void write_explicit(CodeWriter& out, const CppContext& context, const RungeKutta& tableau) {
+  out.line("// dz = Z - z for one step from z.");
+  out.open("[[nodiscard]] inline StepReport solve(const Parameters& par, Real h, "
+           "const Real (&z)[dimension], Real (&dz)[dimension])");
+  out.line("StepReport report;");
+  out.line("Real y[dimension];");
+  for (std::size_t i = 0; i < tableau.b.size(); ++i) {
+    const std::string sum = combination(numbers(tableau.a[i]), context.scalar);
+    out.line(fmt::format("Real f_{}[dimension];", i + 1));
+    if (!sum.empty()) {
+      out.line(fmt::format("for (int k = 0; k < dimension; ++k) y[k] = z[k] + h * ({});", sum));
+    }
+    out.line(fmt::format("vector_field(par, {}, f_{});", sum.empty() ? "z" : "y", i + 1));
+  }
+  out.line("Real length = 0;");
+  out.open("for (int k = 0; k < dimension; ++k)");
+  out.line("dz[k] = h * (" + combination(numbers(tableau.b), context.scalar) + ");");
+  out.line("length += dz[k] * dz[k];");
+  out.close();
+  out.line("// False for infinities and NaN alike.");
+  out.line(fmt::format("report.converged = length <= {};", context.scalar.largest));
+  out.line("if (!report.converged) report.increment = length;");
+  out.line("return report;");
+  out.close();
+  out.line();
+  out.lines(R"(// Many steps: rounding errors of the updates are carried along.
+class Propagator {
+ public:
+  Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z) {}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {
+    Real z[dimension];
+    Real dz[dimension];
+    read(z_, z);
+    const StepReport report = solve(par_, h_, z, dz);
+    if (report.converged) add(z_, carry_, dz);
+    return report;
+  }
+
+)");
+  out.indent();
+  write_advance(out);
+  out.dedent();
+  out.lines(R"(
+ private:
+  Parameters par_;
+  Real h_;
+  State z_;
+  State carry_;
+};
+
+)");
+}
+
+}  // namespace
+
+void write_flat_state(CodeWriter& out, const CppContext& context) {
+  out.line("// The state as one array.");
+  out.open("inline void read(const State& z, Real (&x)[dimension])");
+  if (context.arrays()) {
+    out.open("for (int i = 0; i < n; ++i)");
+    out.line("x[i] = z.q[i];");
+    out.line("x[n + i] = z.p[i];");
+    out.close();
+  } else {
+    for (int i = 0; i < 2 * context.n(); ++i) {
+      out.line(fmt::format("x[{}] = z.{};", i, context.state_field(i)));
+    }
+  }
+  out.close();
+  out.line();
+  out.line("// z += dz, with what rounding loses kept in carry.");
+  out.open("inline void add(State& z, State& carry, const Real (&dz)[dimension])");
+  if (context.arrays()) {
+    out.open("for (int i = 0; i < n; ++i)");
+    out.line("add(z.q[i], carry.q[i], dz[i]);");
+    out.line("add(z.p[i], carry.p[i], dz[n + i]);");
+    out.close();
+  } else {
+    for (int i = 0; i < 2 * context.n(); ++i) {
+      out.line(fmt::format("add(z.{0}, carry.{0}, dz[{1}]);", context.state_field(i), i));
+    }
+  }
+  out.close();
+  out.line();
+}
+
+void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& tableau) {
+  const bool implicit = context.program.plan.stage_solver.has_value();
+  write_types(out, context, implicit);
+  if (context.arrays()) {
+    write_array_functions(out, context);
+  } else {
+    write_functions(out, context);
+  }
+  out.line(fmt::format("inline constexpr int dimension = {};", 2 * context.n()));
+  out.line();
+  write_vector_field(out, context);
+  out.lines(cpp_compensated_sum() + "\n");
+  write_flat_state(out, context);
+  if (implicit) {
+    write_stages(out, context, tableau);
+  } else {
+    write_explicit(out, context, tableau);
+  }
+  write_single_step(out);
+}
+
+}  // namespace hamgen

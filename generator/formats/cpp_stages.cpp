@@ -1,0 +1,387 @@
+#include "generator/formats/cpp_stages.hpp"
+
+#include <fmt/format.h>
+
+#include "generator/formats/cpp_functions.hpp"
+#include "generator/formats/cpp_member.hpp"
+#include "generator/formats/cpp_tableau.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::string stage_rule(const ScalarType& scalar) {
+  return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
+
+// When to stop iterating the stages: at stagnation with one second chance, that is when twice in a row
+// no component has moved less than ever before.  `length` is the size of the increments of the stages,
+// `scale` that of the stages themselves.
+struct StageRule {{
+  Real least[dimension] = {{}};
+  Real size = 0;  // of the last increment
+  int stuck = 0;
+
+  Progress operator()(const Real (&moved)[dimension], Real length, Real scale, int iterations) {{
+    bool decreased = false;
+    size = 0;
+    for (int k = 0; k < dimension; ++k) {{
+      if (iterations == 1 || moved[k] < least[k]) {{
+        decreased = true;
+        least[k] = moved[k];
+      }}
+      size += moved[k];
+    }}
+    if (!(size <= {largest})) return Progress::failed;
+    if (size <= 0) return Progress::done;
+    // Among many components one always flickers: far below their rounding together they are done too.
+    const bool invisible = size * 8 <= {epsilon} * length;
+    stuck = decreased && !invisible ? 0 : stuck + 1;
+    const bool small = size <= 4096 * {epsilon} * scale;
+    if (stuck >= 2 && small) return Progress::done;
+    if (iterations < 200) return Progress::go_on;
+    return small ? Progress::done : Progress::failed;
+  }}
+}};
+
+)",
+                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
+}
+
+// slopes[i][j] = d2H/dx_i dx_j.
+void write_stage_hessian(CodeWriter& out, CppContext& context) {
+  if (context.arrays()) return;  // hessian(par, x, put) is there
+  const Program& program = context.program;
+  out.line("// The second derivatives of H at z.");
+  write_evaluation(out, context,
+                   "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
+                   "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
+                   program.hessian,
+                   [&](CodeWriter& w, const CppExpression& cpp) {
+                     for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
+                       const auto [i, j] = program.hessian_places[k];
+                       const std::string value = cpp(program.hessian.results[k]);
+                       w.line(fmt::format("values[{}][{}] = {};", i, j, value));
+                       if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
+                     }
+                   },
+                   CppContext::StateForm::array);
+}
+
+constexpr const char* kElimination = R"(// P A = L U by elimination with partial pivoting, for many right sides.
+class Elimination {
+ public:
+  static constexpr int size = stages * dimension;
+  Real& at(int row, int column) { return matrix_[row][column]; }
+  // False if the matrix is singular or not finite.
+  bool factorise() {
+    for (int c = 0; c < size; ++c) {
+      int pivot = c;
+      for (int r = c + 1; r < size; ++r) {
+        if (magnitude(matrix_[r][c]) > magnitude(matrix_[pivot][c])) pivot = r;
+      }
+      if (!(magnitude(matrix_[pivot][c]) > 0)) return false;
+      pivot_[c] = pivot;
+      for (int j = 0; pivot != c && j < size; ++j) {
+        const Real kept = matrix_[c][j];
+        matrix_[c][j] = matrix_[pivot][j];
+        matrix_[pivot][j] = kept;
+      }
+      const Real reciprocal = 1 / matrix_[c][c];
+      for (int r = c + 1; r < size; ++r) {
+        const Real factor = matrix_[r][c] * reciprocal;
+        matrix_[r][c] = factor;
+        for (int j = c + 1; j < size; ++j) matrix_[r][j] -= factor * matrix_[c][j];
+      }
+    }
+    return true;
+  }
+  void solve(Real (&vector)[size]) const {
+    for (int c = 0; c < size; ++c) {
+      const Real kept = vector[c];
+      vector[c] = vector[pivot_[c]];
+      if (pivot_[c] != c) vector[pivot_[c]] = kept;
+    }
+    for (int r = 0; r < size; ++r) {
+      for (int j = 0; j < r; ++j) vector[r] -= matrix_[r][j] * vector[j];
+    }
+    for (int r = size - 1; r >= 0; --r) {
+      for (int j = r + 1; j < size; ++j) vector[r] -= matrix_[r][j] * vector[j];
+      vector[r] /= matrix_[r][r];
+    }
+  }
+
+ private:
+  Real matrix_[size][size] = {};
+  int pivot_[size] = {};
+};
+
+)";
+
+std::string step_text(const ScalarType& scalar) {
+  return fmt::format(R"(// Many steps: the stages start from the polynomial of the step before, rounding errors of the
+// updates are carried along.
+class Propagator {{
+ public:
+  Propagator(const Parameters& par, Real h, const State& z) : par_(par), z_(z) {{
+    // h b_i, the same from both ends, with the sum h: the middle takes what rounding lost.
+    Real half = h / 2;
+    for (int i = 0; i < stages / 2; ++i) {{
+      const bool last = stages % 2 == 0 && i == stages / 2 - 1;
+      scaled_[i] = last ? half : h * weight[i];
+      scaled_[stages - 1 - i] = scaled_[i];
+      half -= scaled_[i];
+    }}
+    if (stages % 2 == 1) scaled_[stages / 2] = 2 * half;
+  }}
+
+  // One step; on failure the state stays as it was.
+  StepReport step() {{
+    StepReport report;
+    read(z_, y_);
+    predict(known_);
+    bool solved = iterate(report);
+    if (!solved && known_) {{
+      // Extrapolation may lead astray, the state itself seldom does.
+      predict(false);
+      solved = iterate(report);
+    }}
+    known_ = false;
+    if (!solved) return report;
+    Real dz[dimension];
+    Real length = 0;
+    for (int k = 0; k < dimension; ++k) {{
+      dz[k] = 0;
+      for (int i = 0; i < stages; ++i) dz[k] += slope_[i][k];
+      length += dz[k] * dz[k];
+    }}
+    // False for infinities and NaN alike.
+    report.converged = length <= {largest};
+    if (!report.converged) {{
+      report.increment = length;
+      return report;
+    }}
+    add(z_, carry_, dz);
+    known_ = true;
+    return report;
+  }}
+
+)",
+                     fmt::arg("largest", scalar.largest));
+}
+
+std::string private_text() {
+  return R"(
+ private:
+  // Increments Y_i - z to begin with: of the polynomial of the last step, or none.
+  void predict(bool known) {
+    for (int i = 0; i < stages; ++i) {
+      for (int k = 0; k < dimension; ++k) {
+        first_[i][k] = 0;
+        if (!known) continue;
+        for (int j = 0; j < stages; ++j) first_[i][k] += ahead[i][j] * slope_[j][k];
+      }
+    }
+    restart();
+  }
+  void restart() {
+    for (int i = 0; i < stages; ++i) {
+      for (int k = 0; k < dimension; ++k) increment_[i][k] = first_[i][k];
+    }
+  }
+  // L_i = h b_i f(Y_i).
+  void evaluate() {
+    for (int i = 0; i < stages; ++i) {
+      Real x[dimension];
+      for (int k = 0; k < dimension; ++k) x[k] = y_[k] + increment_[i][k];
+      vector_field(par_, x, slope_[i]);
+      for (int k = 0; k < dimension; ++k) slope_[i][k] *= scaled_[i];
+    }
+  }
+  // sum_j coupling[i][j] L_j.
+  Real collected(int i, int k) const {
+    Real sum = 0;
+    for (int j = 0; j < stages; ++j) sum += coupling[i][j] * slope_[j][k];
+    return sum;
+  }
+)";
+}
+
+std::string fixed_point_text(bool switches, const ScalarType& scalar) {
+  std::string text =
+      switches ? "  // Y_i = z + sum coupling L, over and over.  False if that contracts slowly or not at all.\n"
+               : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
+  text += R"(  bool fixed_point(StepReport& report) {
+    StageRule rule;
+)";
+  if (switches) text += "    Real before = 0;\n    int slow = 0;\n";
+  text += R"(    for (int iteration = 1;; ++iteration) {
+      ++report.iterations;
+      evaluate();
+      Real moved[dimension] = {};
+      Real length = 0;
+      Real scale = 0;
+      for (int k = 0; k < dimension; ++k) {
+        for (int i = 0; i < stages; ++i) {
+          const Real next = collected(i, k);
+          moved[k] += magnitude(next - increment_[i][k]);
+          increment_[i][k] = next;
+          length += magnitude(next);
+        }
+        scale += magnitude(y_[k]);
+      }
+      scale += length;
+      const Progress progress = rule(moved, length, scale, iteration);
+      report.increment = rule.size;
+      if (progress == Progress::done) return true;
+      if (progress == Progress::failed) return false;
+)";
+  if (switches) {
+    text += fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
+      slow = iteration > 1 && visible && 2 * rule.size > before ? slow + 1 : 0;
+      if (slow >= 3) return false;
+      before = rule.size;
+)",
+                        scalar.epsilon);
+  }
+  return text + "    }\n  }\n";
+}
+
+std::string newton_text(bool arrays, const ScalarType& scalar) {
+  const std::string fill =
+      arrays ? R"(    hessian(par_, x, [&values](int row, int column, Real value) { values[row][column] += value; });
+)"
+             : "    hessian(par_, x, values);\n";
+  return R"(  // I - coupling h b J H'' with the Hessian at the mean of the stages.
+  bool factorise() {
+    Real x[dimension];
+    for (int k = 0; k < dimension; ++k) {
+      x[k] = 0;
+      for (int i = 0; i < stages; ++i) x[k] += increment_[i][k];
+      x[k] = y_[k] + x[k] / stages;
+    }
+    Real values[dimension][dimension] = {};
+)" + fill + R"(    constexpr int half = dimension / 2;
+    for (int row = 0; row < Elimination::size; ++row) {
+      const int i = row / dimension;
+      const int k = row % dimension;
+      for (int column = 0; column < Elimination::size; ++column) {
+        const int j = column / dimension;
+        const int l = column % dimension;
+        const Real slope = k < half ? values[half + k][l] : -values[k - half][l];
+        matrix_.at(row, column) = (row == column ? 1 : 0) - coupling[i][j] * scaled_[j] * slope;
+      }
+    }
+    return matrix_.factorise();
+  }
+  // Simplified Newton: one elimination serves until it contracts slowly, over many steps.
+  bool newton(StepReport& report) {
+    StageRule rule;
+    Real before = 0;
+    int age = factorised_ ? 1 : 0;  // of the matrix, in iterations of this step
+    for (int iteration = 1;; ++iteration) {
+      ++report.iterations;
+      evaluate();
+      if (!factorised_) {
+        if (!factorise()) return false;
+        factorised_ = true;
+        age = 0;
+      }
+      Real vector[Elimination::size];
+      for (int row = 0; row < Elimination::size; ++row) {
+        const int i = row / dimension;
+        const int k = row % dimension;
+        vector[row] = increment_[i][k] - collected(i, k);
+      }
+      matrix_.solve(vector);
+      Real moved[dimension] = {};
+      Real length = 0;
+      Real scale = 0;
+      for (int row = 0; row < Elimination::size; ++row) {
+        const int i = row / dimension;
+        const int k = row % dimension;
+        moved[k] += magnitude(vector[row]);
+        increment_[i][k] -= vector[row];
+        length += magnitude(increment_[i][k]);
+        if (i == 0) scale += magnitude(y_[k]);
+      }
+      scale += length;
+      const Progress progress = rule(moved, length, scale, iteration);
+      report.increment = rule.size;
+      if (progress == Progress::done) return true;
+      if (progress == Progress::failed) {
+        factorised_ = false;
+        if (age == 0 || iteration > 100) return false;
+        restart();  // once more with a matrix of this step
+        rule = StageRule();
+        before = 0;
+        age = 0;
+        continue;
+      }
+)" + fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
+      if (before > 0 && visible && 4 * rule.size > before && age > 1) factorised_ = false;
+      before = rule.size;
+      ++age;
+    }}
+  }}
+)",
+                 scalar.epsilon);
+}
+
+std::string iterate_text(StageSolver solver) {
+  switch (solver) {
+    case StageSolver::fixed_point:
+      return "  bool iterate(StepReport& report) { return fixed_point(report); }\n";
+    case StageSolver::newton:
+      return "  bool iterate(StepReport& report) { return newton(report); }\n";
+    case StageSolver::both:
+      return R"(  // Newton where the fixed point contracts slowly, and then for 32 steps.
+  bool iterate(StepReport& report) {
+    if (patience_ == 0) {
+      if (fixed_point(report)) return true;
+      restart();
+      patience_ = 32;
+    }
+    --patience_;
+    return newton(report);
+  }
+)";
+  }
+  return "";
+}
+
+}  // namespace
+
+void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tableau) {
+  const StageSolver solver = *context.program.plan.stage_solver;
+  const bool newton = solver != StageSolver::fixed_point;
+  write_tableau(out, context.scalar, tableau);
+  if (newton) write_stage_hessian(out, context);
+  out.lines(stage_rule(context.scalar));
+  if (newton) out.lines(kElimination);
+  out.lines(step_text(context.scalar));
+  out.indent();
+  write_advance(out);
+  out.dedent();
+  out.lines(private_text());
+  if (solver != StageSolver::newton) {
+    out.lines(fixed_point_text(solver == StageSolver::both, context.scalar));
+  }
+  if (newton) out.lines(newton_text(context.arrays(), context.scalar));
+  out.lines(iterate_text(solver));
+  out.lines(R"(
+  Parameters par_;
+  State z_;
+  State carry_;
+  Real scaled_[stages] = {};                // h b_i
+  Real y_[dimension] = {};                  // z as an array
+  Real first_[stages][dimension] = {};      // Y_i - z to begin with
+  Real increment_[stages][dimension] = {};  // Y_i - z
+  Real slope_[stages][dimension] = {};      // L_i
+  bool known_ = false;                      // L_i are of the step before
+)");
+  if (newton) out.lines("  Elimination matrix_;\n  bool factorised_ = false;\n");
+  if (solver == StageSolver::both) out.lines("  int patience_ = 0;  // steps left to Newton\n");
+  out.lines("};\n\n");
+}
+
+}  // namespace hamgen

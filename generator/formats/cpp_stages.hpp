@@ -1,0 +1,11 @@
+// The stages of an implicit Runge-Kutta method: tableau, iteration, many steps.
+#pragma once
+
+#include "generator/formats/cpp_context.hpp"
+
+namespace hamgen {
+
+// Uses vector_field, read and add of the emitted file.
+void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tableau);
+
+}  // namespace hamgen

@@ -1,0 +1,78 @@
+// What a scheme of THE LIST asks of a system.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/schemes/all_schemes.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// d2T/dp2 free of the momenta.  A kernel of momenta alone has no other part of the state.
+bool is_quadratic_in_momenta(const Mechanics& mechanics) {
+  const int n = mechanics.degrees_of_freedom;
+  for (const auto& [place, value] : mechanics.hessian) {
+    if (place.first < n) continue;
+    for (int i = n; i < 2 * n; ++i) {
+      if (depends_on(value, mechanics.variable(i).name())) return false;
+    }
+  }
+  for (const Kernel& kernel : mechanics.kernels) {
+    if (!uses_momenta(kernel)) continue;
+    for (const auto& [place, value] : kernel.hessian) {
+      for (const Slot& slot : kernel.slots) {
+        if (depends_on(value, slot.symbol)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// A scheme of the same order that takes the system.
+std::string alternative(const Scheme& scheme) {
+  const std::string suffix = "-verlet";
+  const std::string gauss = fmt::format("gauss-{}", scheme.order + scheme.order % 2);
+  if (!scheme.name.ends_with(suffix)) return gauss;
+  return scheme.name.substr(0, scheme.name.size() - suffix.size()) + " or " + gauss;
+}
+
+}  // namespace
+
+Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
+  if (const auto* member = std::get_if<Member>(&scheme.method)) {
+    const auto [alpha, beta, gamma] = uniform_parameters(*member).value();
+    return family_member(mechanics.degrees_of_freedom, {{alpha}}, {{beta}}, {{gamma}});
+  }
+  if (std::holds_alternative<Splitting>(scheme.method)) {
+    if (!mechanics.is_separable()) {
+      throw UsageError(fmt::format("--scheme {} needs a separable H = T(p) + V(q), and the H of {} "
+                                   "mixes coordinates and momenta\nhelp: --scheme {} takes any H",
+                                   scheme.name, mechanics.name, alternative(scheme)));
+    }
+    if (scheme.needs.find("quadratic") != std::string::npos &&
+        !is_quadratic_in_momenta(mechanics)) {
+      throw UsageError(fmt::format("--scheme {} needs a T(p) that is quadratic in p, and that of {} "
+                                   "is not\nhelp: --scheme blanes-moan-{} takes any separable H",
+                                   scheme.name, mechanics.name, scheme.order));
+    }
+  }
+  return scheme;
+}
+
+Scheme compose(const Scheme& composition, const Scheme& base) {
+  if (!base.symmetric) {
+    throw UsageError(fmt::format("--scheme {} composes a symmetric member, and that of {} is not\n"
+                                 "help: alpha = 1/2 with beta and gamma zero or odd in h, such as "
+                                 "--beta h/7",
+                                 composition.name, base.description));
+  }
+  Scheme scheme = composition;
+  auto& method = std::get<Composition>(scheme.method);
+  method.base = base.member();
+  scheme.description = fmt::format("{} substeps of {}", method.substeps.size(), base.description);
+  return scheme;
+}
+
+}  // namespace hamgen
