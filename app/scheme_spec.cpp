@@ -30,7 +30,7 @@ std::vector<std::string> split_outside_parentheses(std::string_view text, char s
 void require_scheme(const std::string& name) {
   if (find_scheme(name) != nullptr) return;
   std::vector<std::string> names;
-  for (const NamedScheme& scheme : all_schemes()) names.emplace_back(scheme.name);
+  for (const Scheme& scheme : all_schemes()) names.emplace_back(scheme.name);
   const std::string near = nearest(name, names);
   throw UsageError(fmt::format("--schemes: unknown scheme '{}'{}\nhelp: see hamgen list schemes",
                                name, near.empty() ? "" : ", did you mean '" + near + "'?"));
@@ -83,8 +83,8 @@ std::vector<std::string> default_specs(bool separable) {
   std::vector<std::string> specs;
   for (const auto& row : preferred) {
     for (const std::string_view name : row) {
-      const NamedScheme* scheme = name.empty() ? nullptr : find_scheme(name);
-      if (scheme == nullptr || (!separable && scheme->needs.find("any") == std::string_view::npos))
+      const Scheme* scheme = name.empty() ? nullptr : find_scheme(name);
+      if (scheme == nullptr || (!separable && scheme->needs.find("any") == std::string::npos))
         continue;
       specs.emplace_back(name);
       break;

@@ -35,7 +35,8 @@ std::string alternative(const Scheme& scheme) {
   const std::string suffix = "-verlet";
   const std::string gauss = fmt::format("gauss-{}", scheme.order + scheme.order % 2);
   if (!scheme.name.ends_with(suffix)) return gauss;
-  return scheme.name.substr(0, scheme.name.size() - suffix.size()) + " or " + gauss;
+  const std::string composition = scheme.name.substr(0, scheme.name.size() - suffix.size());
+  return find_scheme(composition) == nullptr ? gauss : composition + " or " + gauss;
 }
 
 }  // namespace
