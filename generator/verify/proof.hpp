@@ -36,6 +36,12 @@ using Proof = std::vector<Finding>;
 [[nodiscard]] Finding prove_splitting_symplectic();
 [[nodiscard]] Finding prove_tableau_symplectic(const RungeKutta& tableau);
 [[nodiscard]] Finding prove_order(const Member& member);
+// Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal series,
+// which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
+[[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);
+[[nodiscard]] Finding prove_shears(const Splitting& splitting);
+[[nodiscard]] Proof prove_composition(const Composition& composition, int order);
+[[nodiscard]] Proof prove_tableau(const RungeKutta& tableau, int order);
 // {I, H} = 0, and whether the scheme conserves I exactly.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Member& member);
 // The instructions of the program, substituted back into expressions, are the step's equations, their
