@@ -202,6 +202,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
   if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
+  add("--require", request.require);
   return on_one_line(runtime::command_text(words));
 }
 

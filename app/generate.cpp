@@ -21,6 +21,7 @@ struct GenerateOptions {
   std::string output;  // a directory
   std::string format;
   std::string name_space;
+  std::string require;
   bool check = false;
 };
 
@@ -91,6 +92,7 @@ int generate_files(const GenerateOptions& options) {
   Request request = request_with_sizes(options.method, source);
   request.format = options.format;
   request.name_space = options.name_space;
+  request.require = options.require;
   request.command = generate_command(options.method.model, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, request.command);
@@ -107,6 +109,9 @@ Command add_generate(CLI::App& app) {
   parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
       ->type_name("NAME");
   parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
+  parser->add_option("--require", options->require,
+                     "fail unless proved: symplectic,symmetric,order:P,conserves:NAME,emitted-code")
+      ->type_name("LIST");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");
   add_method_options(*parser, options->method);

@@ -102,6 +102,9 @@ int guarded(const std::vector<std::string>& words) {
   } catch (const UsageError& error) {
     print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return usage_error;
+  } catch (const ProofError& error) {
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
+    return proof_failed;
   } catch (const runtime::ToolError& error) {
     if (interrupt_flag()) return interrupted;  // a compilation that was given up
     print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));

@@ -9,19 +9,22 @@
 namespace hamgen::app {
 namespace {
 
-int verify(const MethodOptions& options, bool json) {
+int verify(const MethodOptions& options, const std::string& required, bool json) {
   const SourceText source = read_model_source(options);
   const Proof proof = verify_step(source, request_with_sizes(options, source));
   bool holds = true;
+  const bool by_default = required.empty();
   auto rows = nlohmann::ordered_json::array();
   for (const Finding& finding : proof) {
     rows.push_back({{"property", finding.property},
                     {"verdict", to_text(finding.verdict)},
                     {"detail", finding.detail}});
-    const bool required = finding.property == "symplectic" || finding.property == "emitted code";
-    if (required && finding.verdict == Verdict::refuted) holds = false;
+    const bool needed = finding.property == "emitted code" ||
+                        (by_default && finding.property == "symplectic");
+    if (needed && finding.verdict == Verdict::refuted) holds = false;
   }
   print(json ? rows.dump(2) + "\n" : to_text(proof));
+  require(proof, required);
   return holds ? done : proof_failed;
 }
 
@@ -29,14 +32,18 @@ int verify(const MethodOptions& options, bool json) {
 
 Command add_verify(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
+  const auto required = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   CLI::App* parser = app.add_subcommand(
       "verify", "proves what it can of the step by algebra: symplectic, symmetric, invariants");
   add_method_options(*parser, *options);
   add_repeated(*parser, "--set", options->set, "another value for a size of the model")
       ->type_name("SIZE=N");
+  parser->add_option("--require", *required,
+                     "symplectic (default),symmetric,order:P,conserves:NAME,emitted-code: else 5")
+      ->type_name("LIST");
   parser->add_flag("--json", *json, "the findings as JSON");
-  return {parser, [options, json] { return verify(*options, *json); }};
+  return {parser, [options, required, json] { return verify(*options, *required, *json); }};
 }
 
 }  // namespace hamgen::app

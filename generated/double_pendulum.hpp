@@ -6,6 +6,8 @@
 //   H(q, p) = (p1^2 + 2*p2^2 - 2*p1*p2*cos(q1 - q2))/(2*(1 + sin(q1 - q2)^2)) - 2*cos(q1) -
 //             cos(q2)
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
+//   proved    symplectic, order 1, emitted code
+//   refuted   symmetric
 //   solve     Newton of size 2 on p1, p2
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

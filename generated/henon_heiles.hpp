@@ -5,6 +5,8 @@
 //   model     hamiltonians/henon_heiles.ham
 //   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
+//   proved    symplectic, order 1, emitted code
+//   refuted   symmetric
 //   solve     explicit
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

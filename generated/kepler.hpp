@@ -5,6 +5,7 @@
 //   model     hamiltonians/kepler.ham
 //   H(q, p) = (p1^2 + p2^2)/2 - 1/r
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   proved    symplectic, symmetric, order 2, conserves L, emitted code
 //   solve     Newton of size 2 on q1, q2; p1, p2 torn out
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

@@ -5,6 +5,7 @@
 //   model     hamiltonians/pendulum.ham
 //   H(q, p) = p^2/2 - eps*cos(q)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     Newton of size 1 on q; p torn out
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

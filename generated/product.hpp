@@ -5,6 +5,8 @@
 //   model     hamiltonians/product.ham
 //   H(q, p) = (q^2 + 1)*(p^2 + 1)/2
 //   scheme    alpha = 1, beta = 0, gamma = 0: order 1, symplectic
+//   proved    symplectic, order 1, emitted code
+//   refuted   symmetric
 //   solve     quadratic equation for q, root in closed form
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

@@ -206,7 +206,13 @@ Model read_request(const SourceText& source, const Request& request) {
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  const CppOptions options = cpp_options(source, stages.program, request);
+  CppOptions options = cpp_options(source, stages.program, request);
+  const Proof proof = prove(stages);
+  require(proof, request.require);
+  require_emitted(proof);
+  options.proved = properties_with(proof, Verdict::proved);
+  options.tested = properties_with(proof, Verdict::tested);
+  options.refuted = properties_with(proof, Verdict::refuted);
   const std::string format = request.format.empty() ? "cpp-header" : request.format;
   const std::string name = stem(source.path);
   if (format == "cpp-header") return {{name + ".hpp", cpp_header(stages.program, options)}};

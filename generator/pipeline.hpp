@@ -9,7 +9,7 @@
 #include "generator/base/source_text.hpp"
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
-#include "generator/verify/proof.hpp"
+#include "generator/verify/required.hpp"
 
 namespace hamgen {
 
@@ -26,6 +26,7 @@ struct Request {
   std::string format;                     // cpp-header, cpp-plugin, cmake-package
   std::string name_space;                 // of the emitted code; default MODEL::SCHEME
   std::vector<std::string> fold;          // parameters to burn in
+  std::string require;                    // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;      // other integer constants than the file's
   std::string command;                    // as the user typed it, for the header; may be empty
 };
@@ -34,6 +35,7 @@ struct Request {
 // run-time parameters where the request uses them by name.
 [[nodiscard]] Model read_request(const SourceText& source, const Request& request);
 
+// Throws ProofError if something required does not hold.
 [[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
 
 // The value of one stage as text: "model", "mechanics", "equations", "plan", "program".

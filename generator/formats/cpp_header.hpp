@@ -13,6 +13,8 @@ struct CppOptions {
   std::string model_path;
   std::string scalar;      // name of a scalar, "" is double
   std::string name_space;  // "pendulum::implicit_midpoint"
+  // What is proved, tested and refuted of the step, for the first lines; empty: not looked at.
+  std::string proved, tested, refuted;
   bool gradient = false;   // emit gradient() too
   bool builtins = false;   // functions of the compiler instead of <cmath>
 };

@@ -63,8 +63,11 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
   const bool raised = scheme.is_member() && scheme.member().generating_order > 0;
   out.line(fmt::format("//   scheme    {}: order {}{}{}{}", scheme.description, scheme.order,
                        raised ? " by generating function" : "",
-                       scheme.symmetric ? ", symmetric" : "",
+                       scheme.symmetric && !plan.sweeps ? ", symmetric" : "",
                        symplectic ? ", symplectic" : ", not symplectic"));
+  if (!options.proved.empty()) out.comment("//   proved    ", options.proved);
+  if (!options.tested.empty()) out.comment("//   tested    ", options.tested);
+  if (!options.refuted.empty()) out.comment("//   refuted   ", options.refuted);
   out.comment("//   solve     ", plan.solver);
   bool first = true;
   for (const std::string& item : plan.left_out) {

@@ -236,9 +236,11 @@ class Decider {
     static const Precise tolerance = precise(*parse_decimal("1e-30"));
     PreciseValues values(free, definitions);
     for (const Claim& claim : identities_.claims) {
+      if (!values(claim.expected)) return std::nullopt;
+    }
+    for (const Claim& claim : identities_.claims) {
       const auto emitted = values(claim.emitted);
       const auto expected = values(claim.expected);
-      if (!expected) return std::nullopt;
       if (!emitted) {
         decision.verdict = Verdict::refuted;
         decision.witness = claim.what + " is not defined at a random point where it should be";

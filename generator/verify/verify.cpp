@@ -13,6 +13,15 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
     return {prove_tableau_symplectic(*tableau)};
   }
   const std::optional<int> sweeps = program.plan.sweeps;
+  if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
+    return prove_splitting(*splitting, scheme.order, scheme.needs.find("quadratic") != std::string::npos);
+  }
+  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
+    return prove_tableau(*tableau, scheme.order);
+  }
+  if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    return prove_composition(*composition, scheme.order);
+  }
   const Member& member = scheme.member();
   Proof proof{prove_gauge(member)};
   if (sweeps) {

@@ -73,6 +73,7 @@ std::vector<Case> cases() {
       {"linear", kSpring, "", half(), zero, zero},
       {"quadratic", kProduct, "", zero, zero, zero},
       {"Newton, then linear", kSuccessive, "", zero, zero, zero},
+      {"quadratic in q", kProduct, "", Expression(1), zero, zero},
       {"fixed point", kHenonHeiles, "fixed-point", half(), zero, zero},
       {"sweeps", kKepler, "sweeps:3", half(), number(1, 9), zero},
   };
