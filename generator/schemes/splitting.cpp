@@ -121,7 +121,7 @@ std::vector<Scheme> splittings() {
                   palindrome({ratio(-3, 73), ratio(17, 59)}),
                   std::string("McLachlan 1995") + kMoreDigits),
       drift_first("blanes-moan-4", 4,
-                  palindrome(decimals({"0.0792036964311956694336634954988882688733",
+                  palindrome(decimals({"0.0792036964311956694336634958882688733080",
                                        "0.3531729060497739884810613115731210565304",
                                        "-0.0420650803577195353681102983025170387204"})),
                   even_palindrome(decimals({"0.2095151066133620212740726400295010169021",
