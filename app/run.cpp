@@ -11,6 +11,7 @@
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
 #include "app/load_integrator.hpp"
+#include "app/modified_energy.hpp"
 #include "app/run_report.hpp"
 #include "app/terminal.hpp"
 #include "app/trajectory_table.hpp"
@@ -33,6 +34,7 @@ struct RunOptions {
   std::vector<std::string> initial;
   std::optional<std::string> h, steps;
   std::string every;
+  std::string watch_modified;
   std::string output;
   std::string keep;
   bool json = false;
@@ -155,6 +157,11 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
   const long every = record_distance(options, scene);
 
+  if (!options.watch_modified.empty()) {
+    request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
+    request.step = *scene.h;
+  }
+
   RunReport report;
   report.path = options.method.model;
   report.scene = &scene;
@@ -220,6 +227,10 @@ Command add_run(CLI::App& app) {
       ->type_name("K");
   parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
       ->type_name("FILE");
+  parser
+      ->add_option("--watch-modified", options->watch_modified,
+                   "K terms of the modified Hamiltonian too")
+      ->type_name("K");
   parser->add_flag("--json", options->json, "the result as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
   parser->add_option("--keep", options->keep, "write the emitted header there")

@@ -3,15 +3,18 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
+#include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
 namespace {
 
-int verify(const MethodOptions& options, const std::string& required, bool json) {
+int verify(const MethodOptions& options, const ModifiedOptions& modified,
+           const std::string& required, bool json) {
   const SourceText source = read_model_source(options);
-  const Proof proof = verify_step(source, request_with_sizes(options, source));
+  const Request request = request_with_sizes(options, source);
+  const Proof proof = verify_step(source, request);
   bool holds = true;
   const bool by_default = required.empty();
   auto rows = nlohmann::ordered_json::array();
@@ -23,7 +26,13 @@ int verify(const MethodOptions& options, const std::string& required, bool json)
                         (by_default && finding.property == "symplectic");
     if (needed && finding.verdict == Verdict::refuted) holds = false;
   }
-  print(json ? rows.dump(2) + "\n" : to_text(proof));
+  std::string text = to_text(proof);
+  if (!modified.terms.empty()) {
+    const ModifiedReport report = modified_report(source, request, modified);
+    rows.push_back(report.json);
+    text += report.text;
+  }
+  print(json ? rows.dump(2) + "\n" : text);
   require(proof, required);
   return holds ? done : proof_failed;
 }
@@ -32,6 +41,7 @@ int verify(const MethodOptions& options, const std::string& required, bool json)
 
 Command add_verify(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
+  const auto modified = std::make_shared<ModifiedOptions>();
   const auto required = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   CLI::App* parser = app.add_subcommand(
@@ -39,11 +49,19 @@ Command add_verify(CLI::App& app) {
   add_method_options(*parser, *options);
   add_repeated(*parser, "--set", options->set, "another value for a size of the model")
       ->type_name("SIZE=N");
+  parser->add_option("--terms", modified->terms, "print K terms of the modified Hamiltonian")
+      ->type_name("K");
+  parser->add_option("--scene", modified->scene, "measure it along this scene's orbit")
+      ->type_name("NAME");
+  parser->add_option("--h", modified->h, "with this step; default: the scene's")->type_name("H");
+  parser->add_flag("--latex", modified->latex, "print it as LaTeX");
   parser->add_option("--require", *required,
                      "symplectic (default),symmetric,order:P,conserves:NAME,emitted-code: else 5")
       ->type_name("LIST");
   parser->add_flag("--json", *json, "the findings as JSON");
-  return {parser, [options, required, json] { return verify(*options, *required, *json); }};
+  return {parser, [options, modified, required, json] {
+            return verify(*options, *modified, *required, *json);
+          }};
 }
 
 }  // namespace hamgen::app

@@ -13,6 +13,7 @@
 #include "generator/formats/cpp_header.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
 #include "generator/schemes/all_schemes.hpp"
@@ -148,6 +149,32 @@ struct Stages {
   Program program;
 };
 
+std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme& scheme, int count) {
+  if (!scheme.is_member() || mechanics.keeps_sums()) {
+    throw UsageError(fmt::format("the modified Hamiltonian is derived for members of the family and sums "
+                                 "that are written out, not for {} of {}",
+                                 scheme.name, mechanics.name));
+  }
+  const Member& member = scheme.member();
+  // H_0, then from the order of the scheme on; of a symmetric one every other.
+  const int stride = scheme.symmetric ? 2 : 1;
+  const int last = count == 1 ? 0 : scheme.order + stride * (count - 2);
+  return modified_hamiltonian(mechanics, member.c, member.generating_order, last + 1);
+}
+
+// Adds Ht, cut off after each of its terms, to the invariants: "modified_energy_4" goes to h^4.
+void watch_modified(Mechanics& mechanics, const Scheme& scheme, const Request& request) {
+  const std::vector<Expression> terms = modified_terms(mechanics, scheme, request.watch_modified);
+  Expression sum;
+  Rational power = 1;
+  for (std::size_t j = 0; j < terms.size(); ++j) {
+    sum += Expression(power) * terms[j];
+    power *= request.step;
+    if (j == 0 || terms[j].is_zero()) continue;
+    mechanics.invariants.push_back({fmt::format("modified_energy_{}", j), sum});
+  }
+}
+
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   // Loops know one way to solve and one set of parameters for all degrees of freedom.
@@ -156,7 +183,9 @@ Stages run_stages(const SourceText& source, const Request& request) {
   const bool keep_sums = (any_solver || request.solver.empty() || request.solver == "newton") &&
                          (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
   Mechanics mechanics = derive(model, keep_sums);
-  StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, request));
+  const Scheme scheme = choose_scheme(model, mechanics, request);
+  if (request.watch_modified > 0) watch_modified(mechanics, scheme, request);
+  StepEquations equations = discretise(mechanics, scheme);
   SolvePlan plan = plan_solve(equations, request.solver);
   if (request.scalar == "quad" && plan.arrays && uses_sparse_matrix(*plan.arrays)) {
     // Eigen's sparse solver does not know quad numbers: everything is written out instead.
@@ -230,6 +259,13 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "program") return to_text(stages.program);
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
+}
+
+std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
+                                             int count) {
+  const Model model = read_request(source, request);
+  const Mechanics mechanics = derive(model, false);
+  return modified_terms(mechanics, choose_scheme(model, mechanics, request), count);
 }
 
 Proof verify_step(const SourceText& source, const Request& request) {

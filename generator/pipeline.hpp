@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/algebra/expression.hpp"
 #include "generator/base/source_text.hpp"
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
@@ -28,6 +29,8 @@ struct Request {
   std::vector<std::string> fold;          // parameters to burn in
   std::string require;                    // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;      // other integer constants than the file's
+  int watch_modified = 0;                 // terms of the modified Hamiltonian among the invariants,
+  Rational step;                          // at this h; as many for a symmetric step are even powers
   std::string command;                    // as the user typed it, for the header; may be empty
 };
 
@@ -44,6 +47,11 @@ struct Request {
 
 // What algebra can say of the step: one finding a property.
 [[nodiscard]] Proof verify_step(const SourceText& source, const Request& request);
+
+// H_0, H_1, ... of the Hamiltonian sum of h^j H_j whose flow the step follows: `count` of them that do
+// not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.
+[[nodiscard]] std::vector<Expression> modified_hamiltonian(const SourceText& source,
+                                                           const Request& request, int count);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {

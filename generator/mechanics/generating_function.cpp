@@ -9,6 +9,7 @@
 #include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/operation_count.hpp"
+#include "generator/mechanics/quadratic_chart.hpp"
 
 namespace hamgen {
 
@@ -180,12 +181,12 @@ Square curvatures(const Candidate& candidate, const Expression& k, const Row& fi
   return result;
 }
 
-std::vector<Candidate> candidates(const Mechanics& mechanics, const Chart& chart,
+std::vector<Candidate> candidates(const Expression& energy, const Chart& chart,
                                   const std::vector<SparseMatrix>& gauge, int order) {
   std::vector<Candidate> result;
   for (const SeriesForm form : {SeriesForm::nested, SeriesForm::expanded}) {
     try {
-      const Row terms = generating_series(mechanics.energy, chart, gauge, order, form);
+      const Row terms = generating_series(energy, chart, gauge, order, form);
       if (form == SeriesForm::nested) {
         result.push_back({&chart, Writing::nested, terms});
       } else {
@@ -220,8 +221,8 @@ long solve_cost(const SparseMatrix& hessian, int n) {
 // Sets the Hessian, and the operations, to the choice that costs least per step.
 void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
                     const Candidate& candidate, const Row& z, const std::set<std::string>& varying) {
-  std::vector<HessianChoice> choices{{2, 3.5}, {function.order, 2.0}};
-  if (function.order > 4) choices.push_back({4, 2.5});
+  std::vector<HessianChoice> choices{{2, 4.0}, {function.order, 2.0}};
+  if (function.order > 4) choices.push_back({4, 3.0});
   double least = 0;
   const Row slopes_only = function.gradient;
   for (const HessianChoice& choice : choices) {
@@ -258,7 +259,13 @@ std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, cons
     varying.insert(z.back().name());
   }
   const Chart coordinates = coordinate_chart(mechanics, gauge);
-  const std::vector<Candidate> offers = candidates(mechanics, coordinates, gauge, order);
+  std::vector<Candidate> offers = candidates(mechanics.energy, coordinates, gauge, order);
+  const auto forms = quadratic_chart(mechanics, gauge);
+  if (forms) {
+    for (Candidate& candidate : candidates(forms->energy, forms->chart, gauge, order)) {
+      offers.push_back(std::move(candidate));
+    }
+  }
   GeneratingFunction best{.order = order, .gradient = {}, .hessian = {}, .form = {}};
   const Candidate* chosen = nullptr;
   for (const Candidate& candidate : offers) {
@@ -272,6 +279,9 @@ std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, cons
   }
   if (chosen == nullptr || best.operations > kMostOperations) return std::nullopt;
   best.form = to_text(chosen->writing);
+  if (chosen->chart != &coordinates) {
+    best.form += fmt::format(" in {} quadratic forms", chosen->chart->symbols.size());
+  }
   choose_hessian(best, mechanics, *chosen, z, varying);
   return best;
 }

@@ -120,6 +120,27 @@ TEST_P(SymmetricOrder, WithAGaugeProportionalToTheStepIsObserved) {
   expect_order(a2, {"1/2", "h/5", "-h/7"}, GetParam(), 0.2);
 }
 
+TEST(Order, OfKeplerInQuadraticFormsHoldsForOtherGaugesToo) {
+  const auto k = generating_function(mechanics_of(b2.text), {}, 8);
+  EXPECT_NE(k.form.find("3 quadratic forms"), std::string::npos) << k.form;
+  EXPECT_LT(k.operations, 250);  // in coordinates it takes 1462
+  expect_order(b2, {"1/2", "h/5", "-h/7"}, 6, 0.2);
+  Problem finer = b2;
+  finer.steps = 40;
+  expect_order(finer, {"3/10", "1/5", "-1/10"}, 3, 0.2);
+}
+
+TEST(Order, OfTheDoublePendulumIsObserved) {
+  const Mechanics m = shipped("double_pendulum");
+  const Vector start = {1.5L, 1.5L, 0, 0};
+  const Vector exact = flow(m, start, 1, 2000);
+  for (const int order : {4, 6}) {
+    const auto k = generating_function(m, {}, order);
+    const FormalStep step(m, scheme_of(m, {}).member(), k.gradient);
+    EXPECT_NEAR(observed_orders(step, start, 1, 8, exact).back(), order, 0.2);
+  }
+}
+
 class AnyOrder : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(All, AnyOrder, ::testing::Values(2, 3, 4, 5, 6));
 

@@ -1,0 +1,30 @@
+// What a step conserves instead of H: its modified Hamiltonian, printed and watched.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/command_line.hpp"
+
+namespace hamgen::app {
+
+struct ModifiedOptions {
+  std::string terms;  // K; empty: nothing is asked for
+  std::string scene;  // along whose orbit it is measured; empty: it is not
+  std::string h;      // in place of the scene's
+  bool latex = false;
+};
+
+// 1 to 8; throws UsageError naming the option.
+[[nodiscard]] int modified_term_count(const std::string& option, const std::string& text);
+
+// The terms of Ht and, for a scene, how constant it is along the numerical orbit with 1, 2, ... of
+// them: as text and as one JSON object.
+struct ModifiedReport {
+  std::string text;
+  nlohmann::ordered_json json;
+};
+[[nodiscard]] ModifiedReport modified_report(const SourceText& source, const Request& request,
+                                             const ModifiedOptions& options);
+
+}  // namespace hamgen::app
