@@ -121,7 +121,12 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
 ReferenceSolution reference_solution(const SourceText& source, const SceneValues& scene,
                                      const Rational& time, const ReferenceRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  const Midpoint midpoint = load_midpoint(source, scene, request);
+  Midpoint midpoint;
+  try {
+    midpoint = load_midpoint(source, scene, request);
+  } catch (const runtime::ToolError& error) {  // quad numbers may be more than the compiler can do
+    return {.failure = error.failure().message};
+  }
   const runtime::Wide end = wide(time);
   const std::string key = reference_key(midpoint, "end", end);
   const runtime::Cache cache = runtime::open_cache();

@@ -45,13 +45,13 @@ std::string element_markup(const std::string& name) {
                      name.substr(bracket + 1, name.size() - bracket - 2));
 }
 
-// The derivative by time: a dot above the letter, before any subscript.
-std::string dotted(const std::string& name) {
-  std::string markup = element_markup(name);
-  const std::size_t begin = markup.find("<mi>");
-  const std::size_t end = markup.find("</mi>") + 5;
-  return markup.substr(0, begin) + "<mover accent='true'>" + markup.substr(begin, end - begin) +
-         "<mo>˙</mo></mover>" + markup.substr(end);
+// The derivative by time: a prime, above any subscript.
+std::string primed(const std::string& name) {
+  constexpr std::string_view subscripted = "<msub>";
+  const std::string markup = element_markup(name);
+  if (!markup.starts_with(subscripted)) return "<msup>" + markup + "<mo>′</mo></msup>";
+  const std::size_t length = markup.size() - 2 * subscripted.size() - 1;
+  return "<msubsup>" + markup.substr(subscripted.size(), length) + "<mo>′</mo></msubsup>";
 }
 
 // An expression of a later stage in the notation of formulas.
@@ -85,7 +85,7 @@ std::string equations_of_motion(const Mechanics& mechanics) {
   std::string text;
   for (std::size_t i = 0; i < std::min(2 * n, kMostEquations); ++i) {
     const Expression right = i < n ? mechanics.gradient[n + i] : -mechanics.gradient[i - n];
-    text += formula(fmt::format("{}<mo>=</mo>{}", dotted(mechanics.variables[i].name),
+    text += formula(fmt::format("{}<mo>=</mo>{}", primed(mechanics.variables[i].name),
                                 expression_markup(right, names)));
   }
   if (2 * n > kMostEquations)
