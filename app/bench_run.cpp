@@ -132,9 +132,8 @@ class Work {
 };
 
 std::vector<BenchMethod> methods_of(const BenchRequest& options, const Setting& setting) {
-  std::vector<std::string> specs = options.schemes.empty()
-                                       ? default_specs(derive(setting.model).is_separable())
-                                       : split_specs(options.schemes);
+  std::vector<std::string> specs =
+      options.schemes.empty() ? default_specs(derive(setting.model)) : split_specs(options.schemes);
   std::vector<Request> requests;  // all of them first: a misspelt name compiles nothing
   for (const std::string& spec : specs) requests.push_back(request_of_spec(spec, setting.base));
   std::vector<BenchMethod> methods;

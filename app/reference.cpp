@@ -11,6 +11,9 @@
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
 #include "app/load_integrator.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/schemes/all_schemes.hpp"
 #include "runtime/extrapolation.hpp"
 #include "runtime/sha256.hpp"
 #include "runtime/tool_error.hpp"
@@ -52,33 +55,40 @@ NumberAndValues read_numbers(const std::string& text) {
 }
 
 // The integrator that is extrapolated, and where it starts.
-struct Midpoint {
+struct BaseRule {
   PluginSource plugin;
   runtime::LoadedPlugin loaded;
   runtime::InitialValues start;
 };
 
-Midpoint load_midpoint(const SourceText& source, const SceneValues& scene,
-                       const ReferenceRequest& request) {
+// Both rules are symmetric and of order 2; the explicit one needs no iterations.
+std::string base_scheme(const SourceText& source, const ReferenceRequest& request) {
+  const bool separable = derive(read_model(source, request.sizes)).is_separable();
+  return separable && find_scheme("stormer-verlet") != nullptr ? "stormer-verlet"
+                                                               : "implicit-midpoint";
+}
+
+BaseRule load_base_rule(const SourceText& source, const SceneValues& scene,
+                        const ReferenceRequest& request) {
   Request quad;
-  quad.scheme = "implicit-midpoint";
+  quad.scheme = base_scheme(source, request);
   quad.scalar = "quad";
   quad.sizes = request.sizes;
   quad.fold = request.fold;
-  Midpoint midpoint{.plugin = generate_plugin(source, quad)};
-  midpoint.loaded = load_integrator(midpoint.plugin, request.compiler);
-  midpoint.start = initial_values(midpoint.plugin, scene, *midpoint.loaded.library);
-  return midpoint;
+  BaseRule base{.plugin = generate_plugin(source, quad)};
+  base.loaded = load_integrator(base.plugin, request.compiler);
+  base.start = initial_values(base.plugin, scene, *base.loaded.library);
+  return base;
 }
 
-std::string reference_key(const Midpoint& midpoint, const std::string& what,
+std::string reference_key(const BaseRule& base, const std::string& what,
                           const runtime::Wide& time) {
   runtime::Sha256 hash;
   hash.update_field("reference 1");
   hash.update_field(what);
-  hash.update_field(midpoint.plugin.text);
-  for (const auto& value : midpoint.start.parameters) hash.update_field(exact_text(value));
-  for (const auto& value : midpoint.start.state) hash.update_field(exact_text(value));
+  hash.update_field(base.plugin.text);
+  for (const auto& value : base.start.parameters) hash.update_field(exact_text(value));
+  for (const auto& value : base.start.state) hash.update_field(exact_text(value));
   hash.update_field(exact_text(time));
   return hash.hex();
 }
@@ -102,7 +112,7 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
       options.on_progress = [&request, from, to](double part) {
         request.on_progress(from + part * (to - from));
       };
-    return runtime::extrapolate_midpoint(loaded.library, start, time, options);
+    return runtime::extrapolate(loaded.library, start, time, options);
   };
   ReferenceSolution reference;
   const runtime::Extrapolation coarse = extrapolated(kCoarseTolerance, 0.0, 0.4);
@@ -121,21 +131,21 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
 ReferenceSolution reference_solution(const SourceText& source, const SceneValues& scene,
                                      const Rational& time, const ReferenceRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  Midpoint midpoint;
+  BaseRule base;
   try {
-    midpoint = load_midpoint(source, scene, request);
+    base = load_base_rule(source, scene, request);
   } catch (const runtime::ToolError& error) {  // quad numbers may be more than the compiler can do
     return {.failure = error.failure().message};
   }
   const runtime::Wide end = wide(time);
-  const std::string key = reference_key(midpoint, "end", end);
+  const std::string key = reference_key(base, "end", end);
   const runtime::Cache cache = runtime::open_cache();
   ReferenceSolution reference;
   if (const auto text = runtime::find_text(cache, key)) {
     NumberAndValues kept = read_numbers(*text);
     reference = {.state = std::move(kept.values), .error = kept.first, .from_cache = true};
   } else {
-    reference = compute(midpoint.loaded, midpoint.start, end, request);
+    reference = compute(base.loaded, base.start, end, request);
     if (reference.failure.empty() && cache.usable())
       runtime::publish_text(cache, key, text_of(reference.error, reference.state));
   }
@@ -148,9 +158,9 @@ std::vector<std::vector<runtime::Wide>> reference_track(const SourceText& source
                                                         const SceneValues& scene,
                                                         const Rational& interval, int count,
                                                         const ReferenceRequest& request) {
-  Midpoint midpoint = load_midpoint(source, scene, request);
-  const std::size_t size = midpoint.start.state.size();
-  const std::string key = reference_key(midpoint, fmt::format("track {}", count), wide(interval));
+  BaseRule base = load_base_rule(source, scene, request);
+  const std::size_t size = base.start.state.size();
+  const std::string key = reference_key(base, fmt::format("track {}", count), wide(interval));
   const runtime::Cache cache = runtime::open_cache();
   std::vector<runtime::Wide> all;
   if (const auto text = runtime::find_text(cache, key)) {
@@ -159,12 +169,12 @@ std::vector<std::vector<runtime::Wide>> reference_track(const SourceText& source
     runtime::ExtrapolationOptions options{.tolerance = kTolerance, .stop = &interrupt_flag()};
     std::string failure;
     for (int i = 0; i < count && failure.empty(); ++i) {
-      const runtime::Extrapolation next = runtime::extrapolate_midpoint(
-          midpoint.loaded.library, midpoint.start, wide(interval), options);
+      const runtime::Extrapolation next =
+          runtime::extrapolate(base.loaded.library, base.start, wide(interval), options);
       failure = next.failure;
       if (!failure.empty()) break;
       all.insert(all.end(), next.state.begin(), next.state.end());
-      midpoint.start.state = next.state;
+      base.start.state = next.state;
       if (request.on_progress) request.on_progress((i + 1.0) / count);
     }
     if (failure.empty() && cache.usable()) runtime::publish_text(cache, key, text_of(0.0, all));

@@ -27,7 +27,7 @@ struct ReferenceSolution {
   std::string failure;  // why there is none
 };
 
-// The state at `time`: the implicit midpoint rule of the same model in quad numbers, extrapolated
+// The state at `time`: a symmetric rule of order 2 for the same model in quad numbers, extrapolated
 // with two tolerances; the difference of the two is the error.  Kept in hamgen's cache under a hash
 // of the emitted text, the parameters, the initial state and the time.
 [[nodiscard]] ReferenceSolution reference_solution(const SourceText& source,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <map>
 
 #include "generator/base/diagnostic.hpp"
@@ -27,13 +27,27 @@ std::vector<std::string> split_outside_parentheses(std::string_view text, char s
   return pieces;
 }
 
+int order_value(std::string_view spec, const std::string& text) {
+  int order = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), order);
+  if (problem != std::errc() || end != text.data() + text.size() || order < 1)
+    throw UsageError(fmt::format("--schemes {}: order={} is not a positive integer", spec, text));
+  return order;
+}
+
 void require_scheme(const std::string& name) {
   if (find_scheme(name) != nullptr) return;
   std::vector<std::string> names;
-  for (const Scheme& scheme : all_schemes()) names.emplace_back(scheme.name);
+  for (const auto& scheme : all_schemes()) names.emplace_back(scheme.name);
   const std::string near = nearest(name, names);
   throw UsageError(fmt::format("--schemes: unknown scheme '{}'{}\nhelp: see hamgen list schemes",
                                name, near.empty() ? "" : ", did you mean '" + near + "'?"));
+}
+
+// The scheme exists, and for an H that is not separable it must be one for any H.
+bool suits(std::string_view name, const Mechanics& mechanics) {
+  const auto* scheme = find_scheme(name);
+  return scheme != nullptr && (scheme->needs.find("any H") == 0 || mechanics.is_separable());
 }
 
 }  // namespace
@@ -52,14 +66,19 @@ Request request_of_spec(std::string_view spec, const Request& base) {
       continue;
     }
     const std::string key = pieces[i].substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : pieces[i].substr(equals + 1);
+    if (key == "order") {
+      request.order = order_value(spec, value);
+      continue;
+    }
     const auto field = fields.find(key);
-    if (field == fields.end() || equals == std::string::npos || equals + 1 == pieces[i].size()) {
-      std::vector<std::string> keys;
+    if (field == fields.end() || value.empty()) {
+      std::vector<std::string> keys = {"order"};
       for (const auto& [name, member] : fields) keys.push_back(name);
       throw UsageError(fmt::format("--schemes {}: '{}' is none of {}, each with =VALUE", spec,
                                    pieces[i], fmt::join(keys, ", ")));
     }
-    request.*(field->second) = pieces[i].substr(equals + 1);
+    request.*(field->second) = value;
   }
   return request;
 }
@@ -68,27 +87,31 @@ std::vector<std::string> split_specs(std::string_view text) {
   return split_outside_parentheses(text, ',');
 }
 
-std::vector<std::string> default_specs(bool separable) {
-  // In each row the first that exists and fits; a row whose schemes do not exist is left out.
-  static constexpr std::array<std::array<std::string_view, 3>, 8> preferred = {{
-      {"symplectic-euler-a"},
-      {"implicit-midpoint"},
-      {"stormer-verlet"},
-      {"blanes-moan-4", "suzuki-4", "yoshida-4"},
-      {"gauss-4"},
-      {"kahan-li-6", "yoshida-6"},
-      {"kahan-li-8", "yoshida-8"},
-      {"gauss-8", "gauss-6"},
-  }};
+std::vector<std::string> default_specs(const Mechanics& mechanics) {
+  // In each row the first that exists and fits.  Generating functions are for few degrees of
+  // freedom: their terms multiply.
+  struct Row {
+    int most_degrees_of_freedom = 1'000'000;
+    std::vector<std::string_view> specs;
+  };
+  const std::vector<Row> preferred = {
+      {.specs = {"implicit-midpoint"}},
+      {.specs = {"stormer-verlet", "symplectic-euler-a"}},
+      {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=4"}},
+      {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=6"}},
+      {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=8"}},
+      {.specs = {"blanes-moan-6", "kahan-li-6"}},
+      {.specs = {"kahan-li-8-verlet", "kahan-li-8"}},
+      {.specs = {"gauss-8"}},
+  };
   std::vector<std::string> specs;
-  for (const auto& row : preferred) {
-    for (const std::string_view name : row) {
-      const Scheme* scheme = name.empty() ? nullptr : find_scheme(name);
-      if (scheme == nullptr || (!separable && scheme->needs.find("any") == std::string::npos))
-        continue;
-      specs.emplace_back(name);
-      break;
-    }
+  for (const Row& row : preferred) {
+    if (mechanics.degrees_of_freedom > row.most_degrees_of_freedom) continue;
+    const auto fits = [&mechanics](std::string_view spec) {
+      return suits(spec.substr(0, spec.find(':')), mechanics);
+    };
+    const auto first = std::ranges::find_if(row.specs, fits);
+    if (first != row.specs.end()) specs.emplace_back(*first);
   }
   return specs;
 }

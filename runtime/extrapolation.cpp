@@ -34,9 +34,9 @@ double size(Quad value) { return std::fabs(static_cast<double>(value)); }
 constexpr int kRows = 13;
 constexpr int kFewRows = 9;  // with fewer the step may grow
 
-class MidpointStep {
+class SmallSteps {
  public:
-  MidpointStep(std::shared_ptr<const Library> library, std::vector<Wide> parameters)
+  SmallSteps(std::shared_ptr<const Library> library, std::vector<Wide> parameters)
       : library_(std::move(library)), parameters_(std::move(parameters)) {}
 
   // The state after `count` steps of size H/count; empty if one of them failed.
@@ -83,12 +83,11 @@ struct Step {
 };
 
 // One step; `rows` is the number of rows after which two neighbours agreed.
-Step extrapolated_step(MidpointStep& midpoint, const QuadState& before, Quad step,
-                       double tolerance) {
+Step extrapolated_step(SmallSteps& small, const QuadState& before, Quad step, double tolerance) {
   std::vector<QuadState> last;  // the row above: T_(j-1,1), T_(j-1,2), ...
   for (int j = 1; j <= kRows; ++j) {
     std::vector<QuadState> row;
-    std::optional<QuadState> first = midpoint.many(before, step, j);
+    std::optional<QuadState> first = small.many(before, step, j);
     if (!first) return {};
     row.push_back(std::move(*first));
     for (int l = 1; l < j; ++l) {
@@ -112,12 +111,11 @@ Step extrapolated_step(MidpointStep& midpoint, const QuadState& before, Quad ste
 
 }  // namespace
 
-Extrapolation extrapolate_midpoint(const std::shared_ptr<const Library>& library,
-                                   const InitialValues& start, Wide time,
-                                   const ExtrapolationOptions& options) {
+Extrapolation extrapolate(const std::shared_ptr<const Library>& library, const InitialValues& start,
+                          Wide time, const ExtrapolationOptions& options) {
   if (library->plugin().scalar_digits != 113)
     throw std::invalid_argument("the extrapolation needs an integrator for quad numbers");
-  MidpointStep midpoint(library, start.parameters);
+  SmallSteps small(library, start.parameters);
   QuadState state;
   for (const Wide value : start.state) state.push_back(to_quad(value));
   const Quad end = to_quad(time);
@@ -127,7 +125,7 @@ Extrapolation extrapolate_midpoint(const std::shared_ptr<const Library>& library
   while (now != end && result.failure.empty()) {
     const bool is_last = size(end - now) <= size(step);
     if (is_last) step = end - now;
-    const Step next = extrapolated_step(midpoint, state, step, options.tolerance);
+    const Step next = extrapolated_step(small, state, step, options.tolerance);
     if (next.state.empty()) {
       step /= 2;
       // A smaller step moves t no further than the rounding of a double.
@@ -147,7 +145,7 @@ Extrapolation extrapolate_midpoint(const std::shared_ptr<const Library>& library
   }
   result.state = to_wide(state);
   result.reached = static_cast<double>(now);
-  result.solves = midpoint.solves();
+  result.solves = small.solves();
   return result;
 }
 

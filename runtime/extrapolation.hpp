@@ -1,5 +1,5 @@
-// The solution of a Hamiltonian system to many digits, by extrapolation of the implicit midpoint
-// rule: what the errors of all other integrations are measured against.
+// The solution of a Hamiltonian system to many digits, by extrapolation: what the errors
+// of all other integrations are measured against.
 #pragma once
 
 #include <atomic>
@@ -23,19 +23,19 @@ struct Extrapolation {
   std::string failure;      // why the end was not reached; empty if it was
   double reached = 0.0;     // the time of `state`
   long long steps = 0;      // extrapolated ones
-  long long solves = 0;     // midpoint steps in all
+  long long solves = 0;     // steps of the rule in all
 };
 
-// The state after `time` (negative: before).  `library` must be the implicit midpoint rule compiled
-// for quad numbers; start.h is not used.
+// The state after `time` (negative: before).  `library` must be a symmetric rule of order 2 (the
+// implicit midpoint, Stormer-Verlet) compiled for quad numbers; start.h is not used.
 //
 // Source: E. Hairer, S. P. Norsett, G. Wanner: Solving Ordinary Differential Equations I, 2nd ed.,
-// II.9.  A step of size H is taken with 1, 2, 3, ... midpoint steps; the results T_1, T_2, ... have
-// an expansion in (H/j)^2, because the rule is symmetric, and Aitken and Neville's scheme removes
-// its terms one by one until two columns agree to the tolerance.  H follows the number of rows that
-// took.
-[[nodiscard]] Extrapolation extrapolate_midpoint(const std::shared_ptr<const Library>& library,
-                                                 const InitialValues& start, Wide time,
-                                                 const ExtrapolationOptions& options = {});
+// II.9.  A step of size H is taken with 1, 2, 3, ... steps of the rule; the results T_1, T_2, ...
+// have an expansion in (H/j)^2, because the rule is symmetric, and Aitken and Neville's scheme
+// removes its terms one by one until two columns agree to the tolerance.  H follows the number of
+// rows that took.
+[[nodiscard]] Extrapolation extrapolate(const std::shared_ptr<const Library>& library,
+                                        const InitialValues& start, Wide time,
+                                        const ExtrapolationOptions& options = {});
 
 }  // namespace hamgen::runtime

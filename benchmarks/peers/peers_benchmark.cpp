@@ -79,7 +79,7 @@ struct Problem {
   SourceText source;
   SceneValues scene;
   Rational time;
-  bool separable = false;
+  Mechanics mechanics;
   app::ReferenceSolution reference;
 };
 
@@ -90,14 +90,14 @@ Problem read_problem(const Case& chosen) {
   problem.scene = app::complete_scene(model, {.scene = chosen.scene});
   problem.time = evaluate_constant(read_expression("time", chosen.time, {}),
                                    make_source("time", chosen.time), {});
-  problem.separable = derive(model).is_separable();
+  problem.mechanics = derive(model);
   problem.reference = app::reference_solution(problem.source, problem.scene, problem.time, {});
   return problem;
 }
 
 void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMethod>>& methods,
                 std::vector<Result>& results) {
-  for (const std::string& spec : app::default_specs(problem.separable)) {
+  for (const std::string& spec : app::default_specs(problem.mechanics)) {
     methods.push_back(std::make_unique<app::BenchMethod>(
         app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), "")));
     const app::BenchMethod& method = *methods.back();
