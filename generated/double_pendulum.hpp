@@ -11,7 +11,7 @@
 //   solve     Newton of size 2 on p1, p2
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per iteration: 51 + - *, 1 /; per step besides: 29 + - *, 1 /, 4 sqrt and functions
+//   cost      per iteration: 53 + - *, 1 /; per step besides: 33 + - *, 1 /, 4 sqrt and functions
 #pragma once
 #include <cmath>
 
@@ -50,12 +50,11 @@ inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] cons
            0.5 * (p1 * p1 + 2.0 * (p2 * p2) - 2.0 * p1 * p2 * std::cos(t1)) / (1.0 + t2 * t2));
 }
 
-// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
-inline void add(Real& value, Real& carry, Real increment) {
-  const Real wanted = increment + carry;
-  const Real sum = value + wanted;
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
   const Real part = sum - value;
-  carry = (value - (sum - part)) + (wanted - part);
+  carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
 
@@ -110,17 +109,20 @@ struct Start {
   NewtonRule rule_0;
 };
 
-// dz = Z - z for one step from z.
+// dz = Z - z for one step from z + carry.
 [[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par,
                                       [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      Start& start, State& dz) {
+                                      [[maybe_unused]] const State& carry, Start& start,
+                                      State& dz) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
   const Real p2 = z.p2;
-  const Real t1 = 2.0 * std::sin(q1);
-  const Real t2 = q1 - q2;
+  const Real q1_bar = q1 + carry.q1;
+  const Real q2_bar = q2 + carry.q2;
+  const Real t1 = 2.0 * std::sin(q1_bar);
+  const Real t2 = q1_bar - q2_bar;
   const Real t3 = std::sin(t2);
   const Real t4 = 1.0 + t3 * t3;
   const Real t5 = 1.0 / t4;
@@ -129,12 +131,12 @@ struct Start {
   const Real t8 = std::cos(t2);
   const Real t9 = t3 * t7 * t8;
   const Real t10 = -2.0 * t8;
-  const Real t11 = std::sin(q2);
+  const Real t11 = std::sin(q2_bar);
   const Real t12 = -2.0 * t3 * t7 * t8;
-  Real H_q1 = 0.0;
-  Real H_q2 = 0.0;
+  Real t13 = 0.0;
   Real H_q1_p1 = 0.0;
   Real H_q1_p2 = 0.0;
+  Real t14 = 0.0;
   Real delta_p1 = 0.0;
   Real delta_p2 = 0.0;
   Real p1_bar = start.known ? start.value[0] : p1;
@@ -142,15 +144,19 @@ struct Start {
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
   start.rule_0.begin();
   for (int iteration = 1;; ++iteration) {
-    const Real t13 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
-    H_q1 = t1 - t13 * t9 + p1_bar * p2_bar * t6;
-    H_q2 = t11 + t13 * t9 - p1_bar * p2_bar * t6;
+    const Real t15 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
+    const Real H_q1 = t1 - t15 * t9 + p1_bar * p2_bar * t6;
+    const Real H_q2 = t11 + t15 * t9 - p1_bar * p2_bar * t6;
+    t13 = -h * H_q1;
+    const Real rest_p1 = t13 + carry.p1;
     H_q1_p1 = p2_bar * t6 + t12 * (p1_bar - p2_bar * t8);
     H_q1_p2 = p1_bar * t6 + t12 * (2.0 * p2_bar - p1_bar * t8);
-    const Real R_p1 = p1_bar - p1 + h * H_q1;
+    t14 = -h * H_q2;
+    const Real rest_p2 = t14 + carry.p2;
+    const Real R_p1 = p1_bar - p1 - rest_p1;
     const Real R_p1_p1 = 1.0 + h * H_q1_p1;
     const Real R_p1_p2 = h * H_q1_p2;
-    const Real R_p2 = p2_bar - p2 + h * H_q2;
+    const Real R_p2 = p2_bar - p2 - rest_p2;
     const Real R_p2_p1 = -h * H_q1_p1;
     const Real R_p2_p2 = 1.0 - h * H_q1_p2;
     const Real inverse_det_p1 = 1.0 / (R_p1_p1 * R_p2_p2 - R_p1_p2 * R_p2_p1);
@@ -174,16 +180,18 @@ struct Start {
   start.value[0] = p1_bar + delta_p1;
   start.value[1] = p2_bar + delta_p2;
   // The last increments correct the gradient to first order: no evaluation at the solution.
-  const Real H_q1_new = H_q1 + delta_p1 * H_q1_p1 + delta_p2 * H_q1_p2;
-  const Real H_q2_new = H_q2 - H_q1_p1 * delta_p1 - H_q1_p2 * delta_p2;
+  const Real change_H_q1 = delta_p1 * H_q1_p1 + delta_p2 * H_q1_p2;
+  const Real change_H_q2 = -(H_q1_p1 * delta_p1 + H_q1_p2 * delta_p2);
   const Real p1_bar_new = p1_bar + delta_p1;
   const Real p2_bar_new = p2_bar + delta_p2;
   const Real H_p1 = t5 * (p1_bar_new - t8 * p2_bar_new);
   const Real H_p2 = t5 * (2.0 * p2_bar_new - t8 * p1_bar_new);
-  dz.q1 = h * H_p1;
-  dz.q2 = h * H_p2;
-  dz.p1 = -h * H_q1_new;
-  dz.p2 = -h * H_q2_new;
+  const Real rest_dp1 = carry.p1 - h * change_H_q1;
+  const Real rest_dp2 = carry.p2 - h * change_H_q2;
+  dz.q1 = carry.q1 + h * H_p1;
+  dz.q2 = carry.q2 + h * H_p2;
+  dz.p1 = t13 + rest_dp1;
+  dz.p2 = t14 + rest_dp2;
   // False for infinities and NaN alike.
   const Real length = dz.q1 * dz.q1 + dz.q2 * dz.q2 + dz.p1 * dz.p1 + dz.p2 * dz.p2;
   report.converged = length <= 1.0e308;
@@ -195,7 +203,7 @@ struct Start {
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   Start start;
   State dz;
-  const StepReport report = solve(par, h, z, start, dz);
+  const StepReport report = solve(par, h, z, State(), start, dz);
   if (!report.converged) return report;
   z.q1 += dz.q1;
   z.q2 += dz.q2;
@@ -257,20 +265,20 @@ class Propagator {
     State dz;
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, h_, z_, start_, dz);
+    StepReport report = solve(par_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const int wasted = report.iterations;
       start_ = Start();
-      report = solve(par_, h_, z_, start_, dz);
+      report = solve(par_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
     history_.record(start_.value);
-    add(z_.q1, carry_.q1, dz.q1);
-    add(z_.q2, carry_.q2, dz.q2);
-    add(z_.p1, carry_.p1, dz.p1);
-    add(z_.p2, carry_.p2, dz.p2);
+    two_sum(z_.q1, carry_.q1, dz.q1);
+    two_sum(z_.q2, carry_.q2, dz.q2);
+    two_sum(z_.p1, carry_.p1, dz.p1);
+    two_sum(z_.p2, carry_.p2, dz.p2);
     return report;
   }
 

@@ -11,7 +11,7 @@
 //             gamma terms: gamma = 0
 //             parameters e: the step does not use them
 //             2 of the unknowns: torn out
-//   cost      per iteration: 48 + - *, 2 /, 1 sqrt and functions; per step besides: 16 + - *
+//   cost      per iteration: 52 + - *, 2 /, 1 sqrt and functions; per step besides: 18 + - *
 #pragma once
 #include <cmath>
 
@@ -70,20 +70,21 @@ inline void invariants([[maybe_unused]] const Parameters& par, [[maybe_unused]] 
 // What depends on h and the parameters alone.
 struct Coefficients {
   Real c1 = 0.0;  // -h/2
+  Real c2 = 0.0;  // h/2
 };
 
 inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
   Coefficients k;
   k.c1 = -0.5 * h;
+  k.c2 = 0.5 * h;
   return k;
 }
 
-// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
-inline void add(Real& value, Real& carry, Real increment) {
-  const Real wanted = increment + carry;
-  const Real sum = value + wanted;
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
   const Real part = sum - value;
-  carry = (value - (sum - part)) + (wanted - part);
+  carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
 
@@ -138,25 +139,21 @@ struct Start {
   NewtonRule rule_0;
 };
 
-// dz = Z - z for one step from z.
+// dz = Z - z for one step from z + carry.
 [[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
                                       [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      Start& start, State& dz) {
+                                      [[maybe_unused]] const State& carry, Start& start,
+                                      State& dz) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
   const Real p2 = z.p2;
   Real H_q1 = 0.0;
-  Real p1_bar = 0.0;
   Real H_q1_q1 = 0.0;
-  Real d_p1_d_q1 = 0.0;
   Real H_q1_q2 = 0.0;
-  Real d_p1_d_q2 = 0.0;
   Real H_q2 = 0.0;
-  Real p2_bar = 0.0;
   Real H_q2_q2 = 0.0;
-  Real d_p2_d_q2 = 0.0;
   Real delta_q1 = 0.0;
   Real delta_q2 = 0.0;
   Real q1_bar = start.known ? start.value[0] : q1;
@@ -172,21 +169,25 @@ struct Start {
     const Real t6 = t4 * t5;
     const Real t7 = t4 * t6;
     H_q1 = q1_bar * t7;
-    p1_bar = p1 + k.c1 * H_q1;
+    const Real rest_p1 = carry.p1 + k.c1 * H_q1;
+    const Real p1_bar = p1 + rest_p1;
     const Real t8 = t4 * t4;
     const Real t9 = t6 * t8;
     H_q1_q1 = t7 - 3.0 * t1 * t9;
-    d_p1_d_q1 = k.c1 * H_q1_q1;
+    const Real d_p1_d_q1 = k.c1 * H_q1_q1;
     H_q1_q2 = -3.0 * q1_bar * q2_bar * t9;
-    d_p1_d_q2 = k.c1 * H_q1_q2;
+    const Real d_p1_d_q2 = k.c1 * H_q1_q2;
     H_q2 = q2_bar * t7;
-    p2_bar = p2 + k.c1 * H_q2;
+    const Real rest_p2 = carry.p2 + k.c1 * H_q2;
+    const Real p2_bar = p2 + rest_p2;
     H_q2_q2 = t7 - 3.0 * t2 * t9;
-    d_p2_d_q2 = k.c1 * H_q2_q2;
-    const Real R_q1 = q1_bar - q1 + p1_bar * k.c1;
+    const Real d_p2_d_q2 = k.c1 * H_q2_q2;
+    const Real rest_q1 = carry.q1 + p1_bar * k.c2;
+    const Real rest_q2 = carry.q2 + p2_bar * k.c2;
+    const Real R_q1 = q1_bar - q1 - rest_q1;
     const Real R_q1_q1 = 1.0 + k.c1 * d_p1_d_q1;
     const Real R_q1_q2 = k.c1 * d_p1_d_q2;
-    const Real R_q2 = q2_bar - q2 + p2_bar * k.c1;
+    const Real R_q2 = q2_bar - q2 - rest_q2;
     const Real R_q2_q1 = k.c1 * d_p1_d_q2;
     const Real R_q2_q2 = 1.0 + k.c1 * d_p2_d_q2;
     const Real inverse_det_q1 = 1.0 / (R_q1_q1 * R_q2_q2 - R_q1_q2 * R_q2_q1);
@@ -210,14 +211,20 @@ struct Start {
   start.value[0] = q1_bar + delta_q1;
   start.value[1] = q2_bar + delta_q2;
   // The last increments correct the gradient to first order: no evaluation at the solution.
-  const Real H_q1_new = H_q1 + delta_q1 * H_q1_q1 + delta_q2 * H_q1_q2;
-  const Real H_q2_new = H_q2 + delta_q1 * H_q1_q2 + delta_q2 * H_q2_q2;
-  const Real H_p1_new = p1_bar + d_p1_d_q1 * delta_q1 + d_p1_d_q2 * delta_q2;
-  const Real H_p2_new = p2_bar + d_p1_d_q2 * delta_q1 + d_p2_d_q2 * delta_q2;
-  dz.q1 = h * H_p1_new;
-  dz.q2 = h * H_p2_new;
-  dz.p1 = -h * H_q1_new;
-  dz.p2 = -h * H_q2_new;
+  const Real change_H_q1 = delta_q1 * H_q1_q1 + delta_q2 * H_q1_q2;
+  const Real H_q1_new = H_q1 + change_H_q1;
+  const Real change_H_q2 = delta_q1 * H_q1_q2 + delta_q2 * H_q2_q2;
+  const Real H_q2_new = change_H_q2 + H_q2;
+  const Real rest_p1_new = carry.p1 + k.c1 * H_q1_new;
+  const Real p1_bar_new = p1 + rest_p1_new;
+  const Real rest_p2_new = carry.p2 + k.c1 * H_q2_new;
+  const Real p2_bar_new = p2 + rest_p2_new;
+  const Real rest_dp1 = carry.p1 - h * change_H_q1;
+  const Real rest_dp2 = carry.p2 - h * change_H_q2;
+  dz.q1 = carry.q1 + h * p1_bar_new;
+  dz.q2 = carry.q2 + h * p2_bar_new;
+  dz.p1 = rest_dp1 - h * H_q1;
+  dz.p2 = rest_dp2 - h * H_q2;
   // False for infinities and NaN alike.
   const Real length = dz.q1 * dz.q1 + dz.q2 * dz.q2 + dz.p1 * dz.p1 + dz.p2 * dz.p2;
   report.converged = length <= 1.0e308;
@@ -230,7 +237,7 @@ struct Start {
   const Coefficients k = prepare(par, h);
   Start start;
   State dz;
-  const StepReport report = solve(par, k, h, z, start, dz);
+  const StepReport report = solve(par, k, h, z, State(), start, dz);
   if (!report.converged) return report;
   z.q1 += dz.q1;
   z.q2 += dz.q2;
@@ -293,20 +300,20 @@ class Propagator {
     State dz;
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, k_, h_, z_, start_, dz);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const int wasted = report.iterations;
       start_ = Start();
-      report = solve(par_, k_, h_, z_, start_, dz);
+      report = solve(par_, k_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
     history_.record(start_.value);
-    add(z_.q1, carry_.q1, dz.q1);
-    add(z_.q2, carry_.q2, dz.q2);
-    add(z_.p1, carry_.p1, dz.p1);
-    add(z_.p2, carry_.p2, dz.p2);
+    two_sum(z_.q1, carry_.q1, dz.q1);
+    two_sum(z_.q2, carry_.q2, dz.q2);
+    two_sum(z_.p1, carry_.p1, dz.p1);
+    two_sum(z_.p2, carry_.p2, dz.p2);
     return report;
   }
 

@@ -10,7 +10,7 @@
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
 //             1 of the unknowns: torn out
-//   cost      per iteration: 10 + - *, 1 /, 2 sqrt and functions; per step besides: 4 + - *
+//   cost      per iteration: 12 + - *, 1 /, 2 sqrt and functions; per step besides: 7 + - *
 #pragma once
 #include <cmath>
 
@@ -47,20 +47,21 @@ inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] cons
 // What depends on h and the parameters alone.
 struct Coefficients {
   Real c1 = 0.0;  // -h/2
+  Real c2 = 0.0;  // h/2
 };
 
 inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
   Coefficients k;
   k.c1 = -0.5 * h;
+  k.c2 = 0.5 * h;
   return k;
 }
 
-// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
-inline void add(Real& value, Real& carry, Real increment) {
-  const Real wanted = increment + carry;
-  const Real sum = value + wanted;
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
   const Real part = sum - value;
-  carry = (value - (sum - part)) + (wanted - part);
+  carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
 
@@ -115,27 +116,28 @@ struct Start {
   NewtonRule rule_0;
 };
 
-// dz = Z - z for one step from z.
+// dz = Z - z for one step from z + carry.
 [[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
                                       [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      Start& start, State& dz) {
+                                      [[maybe_unused]] const State& carry, Start& start,
+                                      State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
   Real H_q = 0.0;
-  Real p_bar = 0.0;
   Real H_q_q = 0.0;
-  Real d_p_d_q = 0.0;
   Real delta_q = 0.0;
   Real q_bar = start.known ? start.value[0] : q;
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
   start.rule_0.begin();
   for (int iteration = 1;; ++iteration) {
     H_q = par.eps * std::sin(q_bar);
-    p_bar = p + k.c1 * H_q;
+    const Real rest_p = carry.p + k.c1 * H_q;
+    const Real p_bar = p + rest_p;
     H_q_q = par.eps * std::cos(q_bar);
-    d_p_d_q = k.c1 * H_q_q;
-    const Real R_q = q_bar - q + p_bar * k.c1;
+    const Real d_p_d_q = k.c1 * H_q_q;
+    const Real rest_q = carry.q + p_bar * k.c2;
+    const Real R_q = q_bar - q - rest_q;
     const Real R_q_q = 1.0 + k.c1 * d_p_d_q;
     delta_q = -R_q / R_q_q;
     const Real size = magnitude(delta_q);
@@ -154,10 +156,13 @@ struct Start {
   }
   start.value[0] = q_bar + delta_q;
   // The last increments correct the gradient to first order: no evaluation at the solution.
-  const Real H_q_new = H_q + delta_q * H_q_q;
-  const Real H_p_new = p_bar + d_p_d_q * delta_q;
-  dz.q = h * H_p_new;
-  dz.p = -h * H_q_new;
+  const Real change_H_q = delta_q * H_q_q;
+  const Real H_q_new = H_q + change_H_q;
+  const Real rest_p_new = carry.p + k.c1 * H_q_new;
+  const Real p_bar_new = p + rest_p_new;
+  const Real rest_dp = carry.p - h * change_H_q;
+  dz.q = carry.q + h * p_bar_new;
+  dz.p = rest_dp - h * H_q;
   // False for infinities and NaN alike.
   const Real length = dz.q * dz.q + dz.p * dz.p;
   report.converged = length <= 1.0e308;
@@ -170,7 +175,7 @@ struct Start {
   const Coefficients k = prepare(par, h);
   Start start;
   State dz;
-  const StepReport report = solve(par, k, h, z, start, dz);
+  const StepReport report = solve(par, k, h, z, State(), start, dz);
   if (!report.converged) return report;
   z.q += dz.q;
   z.p += dz.p;
@@ -231,18 +236,18 @@ class Propagator {
     State dz;
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, k_, h_, z_, start_, dz);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const int wasted = report.iterations;
       start_ = Start();
-      report = solve(par_, k_, h_, z_, start_, dz);
+      report = solve(par_, k_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
     history_.record(start_.value);
-    add(z_.q, carry_.q, dz.q);
-    add(z_.p, carry_.p, dz.p);
+    two_sum(z_.q, carry_.q, dz.q);
+    two_sum(z_.p, carry_.p, dz.p);
     return report;
   }
 

@@ -10,7 +10,7 @@
 //   solve     quadratic equation for q, root in closed form
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per step: 21 + - *, 1 /, 1 sqrt and functions
+//   cost      per step: 22 + - *, 1 /, 1 sqrt and functions
 #pragma once
 #include <cmath>
 
@@ -51,30 +51,30 @@ inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unus
   return k;
 }
 
-// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
-inline void add(Real& value, Real& carry, Real increment) {
-  const Real wanted = increment + carry;
-  const Real sum = value + wanted;
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
   const Real part = sum - value;
-  carry = (value - (sum - part)) + (wanted - part);
+  carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
 
-// dz = Z - z for one step from z.
+// dz = Z - z for one step from z + carry.
 [[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
                                       [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      State& dz) {
+                                      [[maybe_unused]] const State& carry, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
-  const Real c0_q = -h * p * (1.0 + q * q);
-  const Real c1_q = 1.0 + q * p * k.c1;
-  const Real c2_q = -h * p;
+  const Real p_bar = p + carry.p;
+  const Real c0_q = -h * p_bar * (1.0 + q * q);
+  const Real c1_q = 1.0 + q * p_bar * k.c1;
+  const Real c2_q = -h * p_bar;
   const Real q_bar = q - 2.0 * c0_q / (c1_q + std::sqrt(c1_q * c1_q - 4.0 * c0_q * c2_q));
-  const Real H_p = p * (1.0 + q_bar * q_bar);
-  const Real H_q = q_bar * (1.0 + p * p);
-  dz.q = h * H_p;
-  dz.p = -h * H_q;
+  const Real H_p = p_bar * (1.0 + q_bar * q_bar);
+  const Real H_q = q_bar * (1.0 + p_bar * p_bar);
+  dz.q = carry.q + h * H_p;
+  dz.p = carry.p - h * H_q;
   // False for infinities and NaN alike.
   const Real length = dz.q * dz.q + dz.p * dz.p;
   report.converged = length <= 1.0e308;
@@ -86,7 +86,7 @@ inline void add(Real& value, Real& carry, Real increment) {
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   const Coefficients k = prepare(par, h);
   State dz;
-  const StepReport report = solve(par, k, h, z, dz);
+  const StepReport report = solve(par, k, h, z, State(), dz);
   if (!report.converged) return report;
   z.q += dz.q;
   z.p += dz.p;
@@ -102,10 +102,10 @@ class Propagator {
   // One step; on failure the state stays as it was.
   StepReport step() {
     State dz;
-    const StepReport report = solve(par_, k_, h_, z_, dz);
+    const StepReport report = solve(par_, k_, h_, z_, carry_, dz);
     if (!report.converged) return report;
-    add(z_.q, carry_.q, dz.q);
-    add(z_.p, carry_.p, dz.p);
+    two_sum(z_.q, carry_.q, dz.q);
+    two_sum(z_.p, carry_.p, dz.p);
     return report;
   }
 

@@ -103,7 +103,7 @@ void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& 
 }
 
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
-  out.lines(cpp_compensated_sum() + "\n");
+  out.lines(cpp_two_sum() + "\n");
   if ((parts.elimination || parts.eigen) && !parts.inverse) out.lines(elimination_text(context, parts) + "\n");
   if (parts.newton) out.lines(cpp_newton_rule(context.scalar, parts.simplified) + "\n");
   if (parts.fixed_point) out.lines(cpp_fixed_point_rule(context.scalar) + "\n");

@@ -10,10 +10,10 @@ namespace {
 
 std::string solve_call(const MemberParts& parts, const std::string& par,
                        const std::string& k, const std::string& h, const std::string& z,
-                       const std::string& start) {
+                       const std::string& carry, const std::string& start) {
   std::string text = "solve(" + par + ", ";
   if (parts.coefficients) text += k + ", ";
-  text += h + ", " + z + ", ";
+  text += h + ", " + z + ", " + carry + ", ";
   if (parts.has_start()) text += start + ", ";
   return text + "dz)";
 }
@@ -46,7 +46,7 @@ void write_member_step(CodeWriter& out, const CppContext& context, const MemberP
   if (parts.coefficients) out.line("const Coefficients k = prepare(par, h);");
   if (parts.has_start()) out.line("Start start;");
   out.line("State dz;");
-  out.line("const StepReport report = " + solve_call(parts, "par", "k", "h", "z", "start") + ";");
+  out.line("const StepReport report = " + solve_call(parts, "par", "k", "h", "z", "State()", "start") + ";");
   out.line("if (!report.converged) return report;");
   for (int i = 0; i < 2 * context.n(); ++i) {
     if (context.program.increments[static_cast<std::size_t>(i)].is_zero()) continue;
@@ -99,7 +99,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   out.line("// One step; on failure the state stays as it was.");
   out.open("StepReport step()");
   out.line("State dz;");
-  const std::string call = solve_call(parts, "par_", "k_", "h_", "z_", "start_");
+  const std::string call = solve_call(parts, "par_", "k_", "h_", "z_", "carry_", "start_");
   if (parts.has_start()) {
     out.line("start_.known = history_.known > 0;");
     out.line("if (start_.known) history_.extrapolate(start_.value);");
@@ -119,7 +119,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   }
   for (int i = 0; i < 2 * context.n(); ++i) {
     if (context.program.increments[static_cast<std::size_t>(i)].is_zero()) continue;
-    out.line(fmt::format("add(z_.{0}, carry_.{0}, dz.{0});", context.state_field(i)));
+    out.line(fmt::format("two_sum(z_.{0}, carry_.{0}, dz.{0});", context.state_field(i)));
   }
   out.line("return report;");
   out.close();

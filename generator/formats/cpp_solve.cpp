@@ -17,7 +17,7 @@ class SolveWriter {
   void write(CodeWriter& out) {
     Names names;
     for (const char* local : {"size", "scale", "iteration", "verdict", "progress", "length", "matrix",
-                              "increment", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
+                              "increment", "carry", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
       names.reserve(local);
     }
     for (const auto& [symbol, text] : coefficient_text_) names.set(symbol, text);
@@ -38,11 +38,14 @@ class SolveWriter {
       for (const Expression& e : solve.residual) collect_symbols(e, used);
     }
     for (const Expression& e : context_.program.increments) collect_symbols(e, used);
+    for (int i = 0; i < 2 * context_.n(); ++i) {
+      names.set("carry(" + context_.variable_name(i) + ")", "carry." + context_.state_field(i));
+    }
     // Loop variables that are started from the state need it for their scale too.
-    out.line("// dz = Z - z for one step from z.");
+    out.line("// dz = Z - z for one step from z + carry.");
     std::string signature = "[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, ";
     if (parts_.coefficients) signature += "const Coefficients& k, ";
-    signature += "[[maybe_unused]] Real h, [[maybe_unused]] const State& z, ";
+    signature += "[[maybe_unused]] Real h, [[maybe_unused]] const State& z, [[maybe_unused]] const State& carry, ";
     if (parts_.has_start()) signature += "Start& start, ";
     out.open(signature + "State& dz)");
     out.line("StepReport report;");

@@ -25,6 +25,17 @@ inline void add(Real& value, Real& carry, Real increment) {
 )";
 }
 
+std::string cpp_two_sum() {
+  return R"(// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (increment - part);
+  value = sum;
+}
+)";
+}
+
 std::string cpp_newton_rule(const ScalarType& scalar, bool simplified) {
   return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
 

@@ -12,6 +12,8 @@ namespace hamgen {
 [[nodiscard]] std::string cpp_magnitude(const ScalarType& scalar, bool builtins);
 // Adding with a carry (compensated summation).
 [[nodiscard]] std::string cpp_compensated_sum();
+// Adding an increment that holds the carry already.
+[[nodiscard]] std::string cpp_two_sum();
 // When to stop Newton's iteration; simplified, with an approximate matrix, it converges linearly.
 [[nodiscard]] std::string cpp_newton_rule(const ScalarType& scalar, bool simplified = false);
 // When to stop a fixed-point iteration of `size` unknowns.

@@ -35,10 +35,12 @@ class Builder {
     lowering_.declare("E0", kCoefficients);
     for (int i = 0; i < 2 * n_; ++i) {
       lowering_.declare(equations_.mechanics.variables[index(i)].name, before(0));
+      lowering_.declare("carry(" + name_of(i) + ")", before(0));
       stage_value_.push_back(equations_.stage(i));
       gradient_.push_back(equations_.gradient_symbol(i));
     }
     known_gradient_.resize(index(2 * n_), false);
+    correction_.resize(index(2 * n_));
   }
 
   Program build() {
@@ -51,8 +53,7 @@ class Builder {
     for (int i = 0; i < 2 * n_; ++i) {
       const int k = i < n_ ? i + n_ : i - n_;
       need_gradient(k);
-      const Expression value = step_size() * gradient_[index(k)];
-      increments.push_back(lowering_.want(i < n_ ? value : -value, straight()));
+      increments.push_back(lowering_.want(increment(i, k), straight()));
     }
     lowering_.run();
 
@@ -90,6 +91,39 @@ class Builder {
     solving_done_ = true;
   }
 
+  // Note [rounding without bias]
+  // What is small is summed first, and what rounding took from z comes with it: the step starts from
+  // z + carry, of which z is the rounded value.  If a correction below half a unit of the last place
+  // were added to a rounded gradient, or h dH/dp computed from a momentum p + h/2 dp on the same grid
+  // of floating-point numbers as p, the error would depend on the step and not on chance: a drift of
+  // the invariants that grows with the number of steps, not with its square root.
+  Expression carry_symbol(int i) const {
+    // What never changes is never rounded.
+    if (gradient_[index(i < n_ ? i + n_ : i - n_)].is_zero()) return Expression(0);
+    return Expression::symbol("carry(" + name_of(i) + ")", kRankOfTemporary);
+  }
+  [[nodiscard]] const std::string& name_of(int i) const {
+    return equations_.mechanics.variables[index(i)].name;
+  }
+
+  // Z_i - z_i - carry_i = +-h dH/dz_k, with the carry.
+  Expression increment(int i, int k) {
+    if (gradient_[index(k)].is_zero()) return gradient_[index(k)];
+    const Expression h = i < n_ ? step_size() : -step_size();
+    const auto& [main, correction] = correction_[index(k)];
+    if (correction.is_zero()) return h * gradient_[index(k)] + carry_symbol(i);
+    return h * main + named_rest("d" + name_of(i), carry_symbol(i) + h * correction, straight());
+  }
+
+  // A small part of a sum, named so that it is computed first.
+  Expression named_rest(const std::string& of, const Expression& value, int section) {
+    const int before = rests_[of]++;
+    const Expression symbol = Expression::symbol(
+        fmt::format("rest({}){}", of, std::string(index(before), '*')), kRankOfTemporary);
+    define(symbol, value, section);
+    return symbol;
+  }
+
   // dH/dz_k at the stage values known now.
   void need_gradient(int k) {
     if (known_gradient_[index(k)] || gradient_[index(k)].is_zero()) return;
@@ -109,12 +143,13 @@ class Builder {
   }
 
   // Row i with the gradient's present symbols.
-  [[nodiscard]] Expression row(int i) const {
-    std::vector<Expression> terms{equations_.mechanics.variable(i)};
+  [[nodiscard]] Expression row(int i, int section) {
+    std::vector<Expression> terms{carry_symbol(i)};
     for (const int k : equations_.row_gradients(i)) {
       terms.push_back(weight(i, k) * gradient_[index(k)]);
     }
-    return Expression::sum(std::move(terms));
+    return equations_.mechanics.variable(i) +
+           named_rest(name_of(i), Expression::sum(std::move(terms)), section);
   }
 
   [[nodiscard]] Expression weight(int i, int k) const {
@@ -143,7 +178,7 @@ class Builder {
 
   void add_assignment(int i) {
     for (const int k : equations_.row_gradients(i)) need_gradient(k);
-    define(stage_value_[index(i)], row(i), straight());
+    define(stage_value_[index(i)], row(i, straight()), straight());
   }
 
   // c0 + c1 d + c2 d^2 = 0 for d = zbar_i - z_i: the root that tends to 0 with h, in the form
@@ -253,15 +288,17 @@ class Builder {
       if (equations_.depends(t, t)) {
         // Affine in itself: solved for.
         const Substitution zero{{equations_.stage(t).name(), Expression(0)}};
-        std::vector<Expression> terms{equations_.mechanics.variable(t)};
+        std::vector<Expression> terms{carry_symbol(t)};
         for (const int k : equations_.row_gradients(t)) {
           terms.push_back(weight(t, k) * at_stage(substitute(equations_.stage_gradient(k), zero)));
           denominator += -(weight(t, k) * at_stage(equations_.stage_hessian(k, t)));
         }
-        define(stage_value_[index(t)], Expression::sum(std::move(terms)) / denominator, where);
+        const Expression known = equations_.mechanics.variable(t) +
+                                 named_rest(name_of(t), Expression::sum(std::move(terms)), where);
+        define(stage_value_[index(t)], known / denominator, where);
       } else {
         for (const int k : equations_.row_gradients(t)) evaluate(k);
-        define(stage_value_[index(t)], row(t), where);
+        define(stage_value_[index(t)], row(t, where), where);
       }
       std::vector<Expression> slope(m);
       for (std::size_t j = 0; j < m; ++j) {
@@ -279,7 +316,7 @@ class Builder {
     std::vector<std::vector<Expression>> matrix(m, std::vector<Expression>(m));
     for (std::size_t i = 0; i < m; ++i) {
       const int x = block.unknowns[i];
-      residual.push_back(stage_value_[index(x)] - row(x));
+      residual.push_back(stage_value_[index(x)] - row(x, where));
       for (std::size_t j = 0; j < m; ++j) {
         matrix[i][j] = Expression(i == j ? 1 : 0) - chain(x, j, -1);
       }
@@ -316,18 +353,36 @@ class Builder {
       for (std::size_t j = 0; j < m; ++j) terms.push_back(slopes.at(v)[j] * corrections[j]);
       moved[v] = Expression::sum(std::move(terms));
     }
+    // Torn variables whose rows need corrected gradients only are computed anew from these, and so
+    // is what depends on nothing else but linearly: the kinetic part of a separable H.
+    std::set<int> anew;
+    for (const int t : block.torn) {
+      const auto corrected = [&](int k) {
+        return std::ranges::find(evaluated, k) != evaluated.end() && !is_linear_in(k, block.torn);
+      };
+      if (loop && !equations_.depends(t, t) &&
+          std::ranges::all_of(equations_.row_gradients(t), corrected)) {
+        anew.insert(t);
+      }
+    }
+    const auto is_anew = [&](int k) { return loop && is_linear_in(k, anew); };
     for (const int k : evaluated) {
-      std::vector<Expression> terms{gradient_[index(k)]};
+      if (is_anew(k)) continue;
+      std::vector<Expression> terms;
       for (const int v : members) {
         if (equations_.mechanics.hessian.contains(std::minmax(k, v))) {
           terms.push_back(hessian(k, v) * moved[v]);
         }
       }
-      renew(gradient_[index(k)], gradient_[index(k)].name(), Expression::sum(std::move(terms)),
-            outside);
+      correct_gradient(k, Expression::sum(std::move(terms)), outside);
     }
     for (const int v : members) {
-      renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + moved[v],
+      const Expression value = anew.contains(v) ? row(v, outside) : stage_value_[index(v)] + moved[v];
+      renew(stage_value_[index(v)], equations_.stage(v).name(), value, outside);
+    }
+    for (const int k : evaluated) {
+      if (!is_anew(k)) continue;
+      renew(gradient_[index(k)], gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)),
             outside);
     }
   }
@@ -378,7 +433,7 @@ class Builder {
       return Expression::sum(std::move(terms));
     };
     auto residual = [&](int i) {
-      return stage_value_[index(i)] - row(i) - chain(i, [&](int v) { return lacking[v]; });
+      return stage_value_[index(i)] - row(i, where) - chain(i, [&](int v) { return lacking[v]; });
     };
     for (const int t : block.torn) {
       const Expression symbol = Expression::symbol(
@@ -435,15 +490,43 @@ class Builder {
 
     const int outside = after(stage_);
     for (const int k : evaluated) {
-      std::vector<Expression> terms{gradient_[index(k)]};
+      std::vector<Expression> terms;
       for (const int v : members) terms.push_back(hessian(k, v) * corrections[v]);
-      renew(gradient_[index(k)], gradient_[index(k)].name(), Expression::sum(std::move(terms)),
-            outside);
+      correct_gradient(k, Expression::sum(std::move(terms)), outside);
     }
     for (const int v : members) {
       renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + corrections[v],
             outside);
     }
+  }
+
+  // dH/dz_k as the last iteration evaluated it, and what the last increment adds.
+  void correct_gradient(int k, const Expression& change, int section) {
+    if (change.is_zero()) return;
+    const Expression main = gradient_[index(k)];
+    const Expression symbol =
+        Expression::symbol("change(" + main.name() + ")", kRankOfTemporary);
+    define(symbol, change, section);
+    correction_[index(k)] = {main, symbol};
+    renew(gradient_[index(k)], main.name(), main + symbol, section);
+  }
+
+  // Is dH/dz_k linear with constant coefficients in some of these variables and free of all others?
+  template <class Variables>
+  [[nodiscard]] bool is_linear_in(int k, const Variables& variables) const {
+    bool any = false;
+    for (int v = 0; v < 2 * n_; ++v) {
+      const auto entry = equations_.mechanics.hessian.find(std::minmax(k, v));
+      if (entry == equations_.mechanics.hessian.end()) continue;
+      if (std::ranges::find(variables, v) == std::ranges::end(variables)) return false;
+      std::set<std::string> used;
+      collect_symbols(entry->second, used);
+      for (const Quantity& variable : equations_.mechanics.variables) {
+        if (used.contains(variable.name)) return false;
+      }
+      any = true;
+    }
+    return any;
   }
 
   // d(t)/d(x): named, because it is used for every row.
@@ -531,13 +614,13 @@ class Builder {
     };
     for (const int t : block.torn) {
       for (const int k : equations_.row_gradients(t)) evaluate(k);
-      define(stage_value_[index(t)], row(t), where);
+      define(stage_value_[index(t)], row(t, where), where);
     }
     for (const int x : block.unknowns) {
       for (const int k : equations_.row_gradients(x)) evaluate(k);
       pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
       pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
-      pending.next.push_back(lowering_.want(row(x), where));
+      pending.next.push_back(lowering_.want(row(x, where), where));
     }
     solves_.push_back(std::move(pending));
   }
@@ -554,7 +637,7 @@ class Builder {
       if (!gradient_[index(k)].is_zero()) lowering_.declare(gradient_[index(k)].name(), where);
       known_gradient_[index(k)] = true;
     }
-    for (int i = 0; i < 2 * n_; ++i) define(equations_.stage(i), row(i), where);
+    for (int i = 0; i < 2 * n_; ++i) define(equations_.stage(i), row(i, where), where);
     for (int k = 0; k < 2 * n_; ++k) {
       if (gradient_[index(k)].is_zero()) continue;
       pending.solve.variables.push_back({gradient_[index(k)].name(), {}, {}, {}});
@@ -599,6 +682,9 @@ class Builder {
   Lowering lowering_;
   std::vector<Expression> stage_value_;
   std::vector<Expression> gradient_;
+  // A gradient component as the last iteration evaluated it, and what its increment adds.
+  std::vector<std::pair<Expression, Expression>> correction_;
+  std::map<std::string, int> rests_;  // how many have been named, by what they belong to
   std::vector<bool> known_gradient_;
   std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;

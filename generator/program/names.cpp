@@ -28,7 +28,7 @@ constexpr std::string_view kKeywords[] = {
 constexpr std::string_view kOurs[] = {
     "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
     "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
-    "prepare", "main", "gradient", "magnitude", "add", "invariants", "eliminate", "invert",
+    "prepare", "main", "gradient", "magnitude", "add", "two_sum", "carry", "invariants", "eliminate", "invert",
     "Verdict", "History", "NewtonRule", "FixedPointRule"};
 
 // rule_0, matrix_1: what the emitted functions number themselves.

@@ -71,8 +71,14 @@ class ExpectedStep {
     }
     for (int i = 0; i < 2 * n_; ++i) {
       const Expression slope = gradient(i < n_ ? i + n_ : i - n_);
-      claim("the increment of " + name(i), program_.increments[at(i)],
-            (i < n_ ? h_ : -h_) * slope);
+      const Expression h = i < n_ ? h_ : -h_;
+      const auto change = change_.find(i < n_ ? i + n_ : i - n_);
+      Expression expected = carry(i) + h * slope;
+      if (change != change_.end()) {
+        expected = h * change->second.first +
+                   define("rest(d" + name(i) + ")", carry(i) + h * change->second.second);
+      }
+      claim("the increment of " + name(i), program_.increments[at(i)], expected);
     }
     return std::move(identities_);
   }
@@ -129,9 +135,15 @@ class ExpectedStep {
     return *gradient_[at(k)];
   }
 
-  // z_i + h sum B_ik H_k.
+  // What rounding took from z_i: the step starts from the sum of both.
+  [[nodiscard]] Expression carry(int i) const {
+    const bool changes = !derivatives_.first(i < n_ ? i + n_ : i - n_).is_zero();
+    return changes ? free("carry", i) : Expression(0);
+  }
+
+  // z_i + carry_i + h sum B_ik H_k.
   Expression row(int i) {
-    Expression sum = mechanics_.variable(i);
+    Expression sum = mechanics_.variable(i) + carry(i);
     for (const auto& [k, weight] : weights_[i]) sum += weight * gradient(k);
     return sum;
   }
@@ -232,7 +244,7 @@ class ExpectedStep {
       for (const auto& [k, weight] : weights_[t]) b += weight * at_stage(derivatives_.second(k, t));
       if (!b.is_zero()) {
         bar_[at(t)] = Expression(0);
-        Expression a = mechanics_.variable(t);
+        Expression a = mechanics_.variable(t) + carry(t);
         for (const auto& [k, weight] : weights_[t]) a += weight * at_stage(derivatives_.first(k));
         bar_[at(t)] = define("bar(" + name(t) + ")", a / (Expression(1) - b));
         evaluate_row(t);
@@ -286,14 +298,50 @@ class ExpectedStep {
       for (std::size_t j = 0; j < m; ++j) sum += slopes.at(v)[j] * delta[j];
       moved[v] = sum;
     }
+    // Rows of torn variables that need corrected gradients alone are computed anew, and then what is
+    // linear in these variables: the same to first order.
+    std::set<int> anew;
+    for (const int t : block.torn) {
+      const bool direct = !linear && std::ranges::all_of(weights_[t], [&](const auto& term) {
+        const int k = term.first;
+        return derivatives_.second(k, t).is_zero() && !is_linear_in(k, block.torn) &&
+               std::ranges::find(evaluated, k) != evaluated.end();
+      });
+      if (direct) anew.insert(t);
+    }
+    const auto is_anew = [&](int k) { return is_linear_in(k, anew); };
     for (const int k : evaluated) {
-      Expression sum = *gradient_[at(k)];
+      if (is_anew(k)) continue;
+      Expression sum(0);
       for (const int v : members) sum += second(k, v) * moved[v];
-      gradient_[at(k)] = define("H(" + name(k) + ")*", sum);
+      if (sum.is_zero()) continue;
+      const Expression change = define("change(H(" + name(k) + "))", sum);
+      change_[k] = {*gradient_[at(k)], change};
+      gradient_[at(k)] = define("H(" + name(k) + ")*", *gradient_[at(k)] + change);
     }
     for (const int v : members) {
-      bar_[at(v)] = define("bar(" + name(v) + ")*", bar_[at(v)] + moved[v]);
+      bar_[at(v)] = define("bar(" + name(v) + ")*", anew.contains(v) ? row(v) : bar_[at(v)] + moved[v]);
     }
+    for (const int k : evaluated) {
+      if (is_anew(k)) gradient_[at(k)] = define("H(" + name(k) + ")*", at_stage(derivatives_.first(k)));
+    }
+  }
+
+  // Is H_k linear with constant coefficients in some of these variables and free of all others?
+  template <class Variables>
+  [[nodiscard]] bool is_linear_in(int k, const Variables& variables) const {
+    bool any = false;
+    for (int v = 0; v < 2 * n_; ++v) {
+      const Expression slope = derivatives_.second(k, v);
+      if (slope.is_zero()) continue;
+      if (std::ranges::find(variables, v) == std::ranges::end(variables)) return false;
+      const std::set<std::string> used = symbols(slope);
+      for (const Quantity& variable : mechanics_.variables) {
+        if (used.contains(variable.name)) return false;
+      }
+      any = true;
+    }
+    return any;
   }
 
   // -R'^-1 R by the adjugate.
@@ -369,6 +417,7 @@ class ExpectedStep {
   std::map<int, std::vector<std::pair<int, Expression>>> weights_;
   std::vector<Expression> bar_;
   std::vector<std::optional<Expression>> gradient_;
+  std::map<int, std::pair<Expression, Expression>> change_;  // before the last increment, and what it adds
   std::map<std::pair<int, int>, Expression> second_;
   std::vector<const Solve*> solves_;
   std::size_t next_solve_ = 0;
