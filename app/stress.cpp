@@ -1,0 +1,155 @@
+// hamgen stress: the step far outside comfort, cell by cell.
+#include "app/stress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "app/interrupt.hpp"
+#include "app/plot.hpp"
+#include "app/stress_grid.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "runtime/atomic_file.hpp"
+#include "runtime/progress.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr unsigned kThreads = 2;
+
+StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
+  StressMap map{.model = grid.plugin().model.name,
+                .scene = grid.scene_name(),
+                .method = grid.plugin().scheme_name,
+                .axes = grid.axes(),
+                .steps = limits.steps};
+  map.cells.resize(map.columns() * map.rows());
+  return map;
+}
+
+// All cells, on two threads; the calling one draws the bar.
+void run_all(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
+  std::vector<std::optional<runtime::InitialValues>> starts;
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    StressCell& cell = map.cells[i];
+    std::vector<double> at = {map.axes[0].values[i % map.columns()]};
+    if (map.axes.size() > 1) at.push_back(map.axes[1].values[i / map.columns()]);
+    std::ranges::copy(at, cell.at.begin());
+    starts.push_back(grid.start_at(at));
+    if (starts.back()) cell.h = starts.back()->h.hi;
+    if (const auto linear = grid.linear_at(at)) {
+      cell.h_omega = linear->h_omega;
+      cell.linear_bounded = linear->margin > 0.0;
+    }
+  }
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> finished = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < map.cells.size() && !interrupt_flag(); i = next++) {
+      if (starts[i]) {
+        run_stress_cell(grid.library(), *starts[i], limits, map.cells[i]);
+      } else {
+        map.cells[i].outcome = StressOutcome::left_domain;
+      }
+      ++finished;
+    }
+  };
+  static_cast<void>(interrupt_flag());  // its handler is installed before there are threads
+  std::vector<std::jthread> threads;
+  for (unsigned i = 0; i < kThreads; ++i) threads.emplace_back(work);
+  runtime::ProgressBar bar(map.model);
+  const auto begin = std::chrono::steady_clock::now();
+  while (finished < map.cells.size() && !interrupt_flag()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (quiet) continue;
+    bar.update({.steps_done = static_cast<long long>(finished.load()),
+                .steps = static_cast<long long>(map.cells.size()),
+                .seconds =
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+                .show_rate = false});
+  }
+  bar.remove();
+}
+
+void write_stress_files(const StressOptions& options, const StressMap& map) {
+  namespace fs = std::filesystem;
+  const auto write = [&options](const fs::path& path, const std::string& text) {
+    runtime::atomic_write(path, text);
+    if (!options.quiet) print_error(fmt::format("{}\n", path.string()));
+  };
+  const auto draw = [&](const fs::path& picture) {
+    const fs::path script = fs::path(picture).replace_extension(".gp");
+    write(script, stress_script(map, picture.string()));
+    const std::string problem = run_gnuplot(script);
+    if (!problem.empty())
+      print_error(fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
+                              "gnuplot {}\n",
+                              problem, script.string()));
+    else if (!options.quiet)
+      print_error(fmt::format("{}\n", picture.string()));
+  };
+  if (!options.csv.empty()) write(options.csv, stress_csv(map));
+  if (!options.plot.empty()) draw(options.plot);
+  if (options.output.empty()) return;
+  const fs::path directory = options.output;
+  write(directory / "stress.csv", stress_csv(map));
+  write(directory / "stress.json", stress_json(map));
+  if (options.plot.empty()) draw(directory / "stress.svg");
+}
+
+int run_stress(const StressOptions& options) {
+  if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
+    throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  StressLimits limits;
+  limits.steps = integer_value("--steps " + options.steps, options.steps, 1);
+  limits.time = std::chrono::duration<double>(
+      static_cast<double>(integer_value("--seconds " + options.seconds, options.seconds, 1)));
+  StressGrid grid(options);
+  StressMap map = empty_map(grid, limits);
+  run_all(grid, limits, map, options.quiet);
+  if (interrupt_flag()) {
+    print_error("hamgen: stopped; nothing was written\n");
+    return interrupted;
+  }
+  map.linear_bound = grid.linear_bound();
+  print(options.json ? stress_json(map) : stress_text(map));
+  write_stress_files(options, map);
+  return done;
+}
+
+}  // namespace
+
+Command add_stress(CLI::App& app) {
+  const auto options = std::make_shared<StressOptions>();
+  CLI::App* parser =
+      app.add_subcommand("stress", "maps where a step stays bounded, cell by cell of a grid");
+  parser->add_option("--scene", options->scene, "of the model; default: its first")
+      ->type_name("NAME");
+  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
+      ->type_name("NAME=VALUE");
+  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
+      ->type_name("NAME=VALUE,...");
+  parser->add_option("--h", options->h, "step size; default: the scene's")->type_name("H");
+  add_repeated(*parser, "--vary", options->vary,
+               "an axis: a parameter, h, scale, alpha, beta, gamma; twice at most")
+      ->type_name("NAME=LOW:HIGH[:COUNT]");
+  parser->add_option("--steps", options->steps, "of each cell; default 1000")->type_name("N");
+  parser->add_option("--seconds", options->seconds, "for each cell at most; default 1")
+      ->type_name("N");
+  parser->add_option("-o,--output", options->output, "write stress.csv, .json, .gp and .svg there")
+      ->type_name("DIRECTORY");
+  parser->add_option("--csv", options->csv, "the cells as CSV")->type_name("FILE");
+  parser->add_option("--plot", options->plot, "a picture, .svg or .png, and its script .gp")
+      ->type_name("FILE");
+  parser->add_flag("--json", options->json, "the cells as JSON on standard output");
+  parser->add_flag("--quiet", options->quiet, "no progress, no names of files");
+  add_method_options(*parser, options->method);
+  return {parser, [options] { return run_stress(*options); }};
+}
+
+}  // namespace hamgen::app

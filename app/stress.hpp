@@ -1,0 +1,96 @@
+// What `hamgen stress` measures: a step far outside comfort, cell by cell of a grid.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/integrator.hpp"
+#include "runtime/library.hpp"
+
+namespace hamgen::app {
+
+enum class StressOutcome {
+  done,
+  jumped,         // an energy error beyond the energy scale: a singularity was stepped across, or
+                  // the step is far too large for this solution
+  escaped,        // far away from where it began, with its energy kept
+  not_converged,  // the equations of a step were not solved
+  left_domain,    // H or its gradient is not defined where the step went
+  overflow,       // beyond the numbers there are
+  out_of_time,    // the cell's time was over before its steps
+};
+inline constexpr int kStressOutcomes = 7;
+[[nodiscard]] std::string_view to_text(StressOutcome outcome);
+
+struct StressCell {
+  std::array<double, 2> at = {};  // the axes' values
+  double h = 0.0;
+  long steps_done = 0;
+  StressOutcome outcome = StressOutcome::done;
+  bool bounded = true;             // no component grew beyond 1000 times the largest at the start, or 1
+  double energy_scale = 0.0;       // see energy_scale_of
+  double energy_error = 0.0;       // max |H - H(0)| over the states that were reached
+  int iterations_median = 0;       // a step
+  int iterations_max = 0;
+  std::optional<double> h_omega;   // of the fastest linear oscillation at the initial state
+  std::optional<bool> linear_bounded;
+};
+
+struct StressLimits {
+  long steps = 1000;
+  std::chrono::duration<double> time{1.0};
+};
+
+// The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what an
+// energy error is compared with, even if H happens to vanish there.
+[[nodiscard]] double energy_scale_of(const runtime::Library& library,
+                                     const std::vector<double>& parameters,
+                                     const std::vector<double>& state);
+
+// Runs one cell within the limits; every failure is an outcome.
+void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
+                     const runtime::InitialValues& start, const StressLimits& limits,
+                     StressCell& cell);
+
+// omega^2 of the fastest linear oscillation around a state, whose quadratic part of H is
+// differentiated numerically; empty if the fastest motion there is not an oscillation.
+[[nodiscard]] std::optional<double> fastest_oscillation(const runtime::Library& library,
+                                                        const std::vector<double>& parameters,
+                                                        const std::vector<double>& state);
+
+// A member (alpha, beta, gamma) of the family on H = p^2/2 + omega^2 q^2/2: the powers of its matrix
+// are bounded iff this is positive.  With X = (1 + h beta)(1 - h omega^2 gamma) and
+// D = X + h^2 omega^2 alpha (1 - alpha) it is the smaller of D and X - h^2 omega^2 (alpha - 1/2)^2.
+[[nodiscard]] double linear_margin(double h, double omega_squared, double alpha, double beta,
+                                   double gamma);
+
+struct StressAxis {
+  std::string label;  // "h", "k", "beta"
+  bool logarithmic = false;
+  std::vector<double> values;  // ascending
+};
+
+struct StressMap {
+  std::string model, scene, method;
+  std::vector<StressAxis> axes;   // one or two
+  std::vector<StressCell> cells;  // the first axis runs fastest
+  std::vector<std::array<double, 2>> linear_bound;  // points of its border in the plane of the axes
+  long steps = 0;
+
+  [[nodiscard]] std::size_t columns() const { return axes[0].values.size(); }
+  [[nodiscard]] std::size_t rows() const { return axes.size() > 1 ? axes[1].values.size() : 1; }
+};
+
+// A map in characters for the terminal, with its legend and the counts of outcomes.
+[[nodiscard]] std::string stress_text(const StressMap& map);
+[[nodiscard]] std::string stress_csv(const StressMap& map);
+[[nodiscard]] std::string stress_json(const StressMap& map);
+// A gnuplot script: the plane of the axes with a coloured box a cell, and the linear bound over it.
+[[nodiscard]] std::string stress_script(const StressMap& map, const std::string& output);
+
+}  // namespace hamgen::app

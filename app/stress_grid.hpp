@@ -1,0 +1,63 @@
+// The cells of a stress grid: axes as the user names them, and a run's initial values at any place.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command_line.hpp"
+#include "app/stress.hpp"
+#include "generator/language/scene.hpp"
+#include "runtime/load_plugin.hpp"
+
+namespace hamgen::app {
+
+struct StressOptions {
+  MethodOptions method;
+  std::string scene;
+  std::vector<std::string> initial, vary;
+  std::optional<std::string> h;
+  std::string steps = "1000";
+  std::string seconds = "1";
+  std::string output, csv, plot;
+  bool json = false;
+  bool quiet = false;
+};
+
+class StressGrid {
+ public:
+  // Reads --vary, compiles the integrator.  alpha, beta or gamma among the axes become run-time
+  // parameters, unless the method's expressions use them already.
+  explicit StressGrid(const StressOptions& options);
+
+  [[nodiscard]] const std::vector<StressAxis>& axes() const { return axes_; }
+  [[nodiscard]] const PluginSource& plugin() const { return plugin_; }
+  [[nodiscard]] const std::string& scene_name() const { return scene_.name; }
+  [[nodiscard]] std::shared_ptr<const runtime::Library> library() const { return loaded_.library; }
+
+  // Empty if H or its gradient is not defined at the initial state.
+  [[nodiscard]] std::optional<runtime::InitialValues> start_at(const std::vector<double>& at) const;
+
+  // h omega of the fastest linear oscillation and its margin, see linear_margin; empty where there
+  // is no oscillation, or the method is no member with the same numbers for all degrees of freedom.
+  struct Linear {
+    double h_omega = 0.0;
+    double margin = 0.0;
+  };
+  [[nodiscard]] std::optional<Linear> linear_at(const std::vector<double>& at);
+  // Where the margin changes its sign along the second axis.
+  [[nodiscard]] std::vector<std::array<double, 2>> linear_bound();
+
+ private:
+  [[nodiscard]] SceneValues scene_at(const std::vector<double>& at) const;
+  StressOptions options_;
+  SizesAndRest set_;
+  PluginSource plugin_;
+  runtime::LoadedPlugin loaded_;
+  SceneValues scene_;
+  std::vector<StressAxis> axes_;
+  std::map<std::vector<double>, std::optional<double>> omega_squared_;
+};
+
+}  // namespace hamgen::app

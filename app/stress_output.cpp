@@ -1,0 +1,131 @@
+// A stress map as text, CSV and JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/stress.hpp"
+#include "runtime/csv_writer.hpp"
+
+namespace hamgen::app {
+namespace {
+
+// A digit d says an energy error of about 10^-d of the energy scale, + more than a tenth of it.
+char mark_of(const StressCell& cell) {
+  switch (cell.outcome) {
+    case StressOutcome::done:
+      break;
+    case StressOutcome::jumped:
+      return 'j';
+    case StressOutcome::escaped:
+      return 'e';
+    case StressOutcome::not_converged:
+      return 'n';
+    case StressOutcome::left_domain:
+      return 'd';
+    case StressOutcome::overflow:
+      return 'o';
+    case StressOutcome::out_of_time:
+      return 't';
+  }
+  if (!(cell.energy_error > 0.0)) return '0';
+  const double digits = -std::log10(cell.energy_error / cell.energy_scale);
+  if (!(digits >= 1.0)) return '+';
+  return digits >= 10.0 ? '*' : static_cast<char>('0' + static_cast<int>(digits));
+}
+
+std::string axis_text(const StressAxis& axis) {
+  return fmt::format("{} from {:.4g} to {:.4g}{}", axis.label, axis.values.front(),
+                     axis.values.back(), axis.logarithmic ? ", logarithmic" : "");
+}
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+std::string stress_text(const StressMap& map) {
+  std::string text =
+      fmt::format("{}{}: {}, {} cells of at most {} steps\n", map.model,
+                  map.scene.empty() ? "" : ", scene " + map.scene, map.method, map.cells.size(),
+                  map.steps);
+  text += "  across      " + axis_text(map.axes[0]) + "\n";
+  if (map.axes.size() > 1) text += "  down        " + axis_text(map.axes[1]) + "\n";
+  text += "  energy      digits: error 10^-d of its scale; * below 1e-10, + above 0.1\n";
+  for (std::size_t row = 0; row < map.rows(); ++row) {
+    std::string line;
+    for (std::size_t column = 0; column < map.columns(); ++column)
+      line += mark_of(map.cells[row * map.columns() + column]);
+    const std::string label =
+        map.axes.size() > 1 ? fmt::format("{:.4g}", map.axes[1].values[row]) : "";
+    text += fmt::format("  {:>10}  {}\n", label, line);
+  }
+  constexpr std::array marks = {'.', 'j', 'e', 'n', 'd', 'o', 't'};
+  for (int i = 0; i < kStressOutcomes; ++i) {
+    const auto outcome = static_cast<StressOutcome>(i);
+    const auto count = std::ranges::count(map.cells, outcome, &StressCell::outcome);
+    if (count == 0) continue;
+    text += fmt::format("  {:<15} {} {:5}\n", to_text(outcome),
+                        outcome == StressOutcome::done ? ' ' : marks[static_cast<std::size_t>(i)],
+                        count);
+  }
+  int median = 0;
+  int most = 0;
+  for (const StressCell& cell : map.cells) {
+    median = std::max(median, cell.iterations_median);
+    most = std::max(most, cell.iterations_max);
+  }
+  return text + fmt::format("  iterations a step: at most {} in the median of a cell, {} in one "
+                            "step\n",
+                            median, most);
+}
+
+std::string stress_csv(const StressMap& map) {
+  std::string text = map.axes[0].label;
+  if (map.axes.size() > 1) text += "," + map.axes[1].label;
+  text += ",step_size,steps_done,outcome,bounded,energy_error,energy_scale,iterations_median,"
+          "iterations_max,h_omega,linear_bounded\n";
+  for (const StressCell& cell : map.cells) {
+    text += runtime::number_text(cell.at[0]);
+    if (map.axes.size() > 1) text += "," + runtime::number_text(cell.at[1]);
+    text += fmt::format(",{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h),
+                        cell.steps_done, to_text(cell.outcome), cell.bounded ? "yes" : "no",
+                        runtime::number_text(cell.energy_error),
+                        runtime::number_text(cell.energy_scale), cell.iterations_median,
+                        cell.iterations_max,
+                        cell.h_omega ? runtime::number_text(*cell.h_omega) : "",
+                        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "");
+  }
+  return text;
+}
+
+std::string stress_json(const StressMap& map) {
+  nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+  for (const StressCell& cell : map.cells) {
+    nlohmann::ordered_json at;
+    for (std::size_t axis = 0; axis < map.axes.size(); ++axis)
+      at[map.axes[axis].label] = cell.at[axis];
+    cells.push_back({{"at", at},
+                     {"h", cell.h},
+                     {"steps_done", cell.steps_done},
+                     {"outcome", to_text(cell.outcome)},
+                     {"bounded", cell.bounded},
+                     {"energy_error", number_or_null(cell.energy_error)},
+                     {"energy_scale", number_or_null(cell.energy_scale)},
+                     {"iterations_median", cell.iterations_median},
+                     {"iterations_max", cell.iterations_max},
+                     {"h_omega", cell.h_omega ? number_or_null(*cell.h_omega)
+                                              : nlohmann::ordered_json(nullptr)},
+                     {"linear_bounded", cell.linear_bounded
+                                            ? nlohmann::ordered_json(*cell.linear_bounded)
+                                            : nlohmann::ordered_json(nullptr)}});
+  }
+  const nlohmann::ordered_json json = {{"model", map.model},  {"scene", map.scene},
+                                       {"method", map.method}, {"steps", map.steps},
+                                       {"cells", cells}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace hamgen::app
