@@ -135,7 +135,10 @@ std::vector<BenchMethod> methods_of(const BenchRequest& options, const Setting& 
   std::vector<std::string> specs =
       options.schemes.empty() ? default_specs(derive(setting.model)) : split_specs(options.schemes);
   std::vector<Request> requests;  // all of them first: a misspelt name compiles nothing
-  for (const std::string& spec : specs) requests.push_back(request_of_spec(spec, setting.base));
+  for (const std::string& spec : specs) {
+    requests.push_back(request_of_spec(spec, setting.base));
+    take_gauge_at(setting.scene, setting.model, requests.back());
+  }
   std::vector<BenchMethod> methods;
   for (std::size_t i = 0; i < specs.size(); ++i)
     methods.push_back(bench_method(specs[i], setting.source, requests[i], options.compiler));

@@ -73,6 +73,10 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("X");
   command.add_option("--order", options.order, "order of a member by generating function, to 10")
       ->type_name("R");
+  command.add_option("--gauge", options.gauge, "locally-exact: the linear part without error")
+      ->type_name("NAME");
+  add_repeated(command, "--reference", options.reference, "where it is linearised; default: 0")
+      ->type_name("NAME=VALUE,...");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
       ->type_name("NAME");
@@ -159,6 +163,11 @@ Request request_of(const MethodOptions& options) {
     request.order =
         static_cast<int>(std::min(integer_value("--order " + options.order, options.order, 1), 99L));
   }
+  request.gauge = options.gauge;
+  for (const std::string& text : options.reference) {
+    for (Assignment& assignment : split_assignments("--reference", text))
+      request.reference.push_back(std::move(assignment));
+  }
   request.solver = options.solver;
   request.scalar = options.scalar;
   request.fold = options.fold;
@@ -196,6 +205,9 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--beta", request.beta);
   add("--gamma", request.gamma);
   if (request.order > 0) add("--order", std::to_string(request.order));
+  add("--gauge", request.gauge);
+  for (const auto& [name, value] : request.reference)
+    add("--reference", fmt::format("{}={}", name, value));
   add("--solver", request.solver);
   add("--scalar", request.scalar);
   for (const std::string& name : request.fold) add("--fold", name);

@@ -36,13 +36,15 @@ struct Command {
 [[nodiscard]] Command add_report(CLI::App& app);
 [[nodiscard]] Command add_stress(CLI::App& app);
 [[nodiscard]] Command add_verify(CLI::App& app);
+[[nodiscard]] Command add_tune(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);
 
 // Which integrator is meant; the texts are kept as typed.
 struct MethodOptions {
   std::string model;  // path of the .ham file
-  std::string scheme, alpha, beta, gamma, order, solver, scalar;
+  std::string scheme, alpha, beta, gamma, gauge, order, solver, scalar;
+  std::vector<std::string> reference;  // NAME=VALUE,... of the gauge
   std::vector<std::string> fold;
   std::vector<std::string> set;  // NAME=VALUE
 };

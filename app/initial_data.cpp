@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/schemes/read_gauge.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -28,6 +30,21 @@ void require_folded_defaults(const Model& model, const SceneValues& scene) {
                       runtime::number_text(to_double(scene.parameters[i])), model.source.path));
     }
     first = end;
+  }
+}
+
+// Near a pole of C an error is multiplied by 1/(h w - 2 pi k): by 100 at most, then.
+void require_regular_step(const PluginSource& plugin, const Rational& step) {
+  constexpr double nearest = 0.01 / (2 * std::numbers::pi);
+  const double h = std::abs(to_double(step));
+  for (const double pole : plugin.singular_steps) {
+    const double k = std::round(h / pole);
+    if (k < 1 || std::abs(h / pole - k) >= nearest) continue;
+    throw UsageError(fmt::format(
+        "--h {}: the gauge has a pole at h = {:.10g}, where h w = {:.0f}*2 pi for the frequency "
+        "w = {:.10g} of the linear part\nhelp: take another step, for example --h {:.3g}",
+        runtime::number_text(to_double(step)), k * pole, k, 2 * std::numbers::pi / pole,
+        (k - 0.5) * pole));
   }
 }
 
@@ -109,10 +126,25 @@ SceneValues complete_scene(const Model& model, const SceneRequest& request) {
   return values;
 }
 
+void take_gauge_at(const SceneValues& scene, const Model& model, Request& request) {
+  if (request.gauge.empty()) return;
+  const std::vector<std::string> names = element_names(model.parameters);
+  const Values defaults = read_reference(model, {});
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string base = names[i].substr(0, names[i].find('['));
+    const bool is_given = std::ranges::any_of(request.reference, [&](const auto& given) {
+      return given.first == names[i] || given.first == base;
+    });
+    if (is_given || scene.parameters[i] == defaults.at(names[i])) continue;
+    request.reference.emplace_back(names[i], hamgen::to_text(scene.parameters[i]));
+  }
+}
+
 runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
                                       const runtime::Library& library) {
   const Model& model = plugin.model;
   require_folded_defaults(model, scene);
+  require_regular_step(plugin, *scene.h);
   const std::vector<std::string> names = element_names(model.parameters);
   const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
   runtime::InitialValues values;

@@ -65,7 +65,7 @@ int run_command(const std::vector<std::string>& words) {
                "hamgen");
   const std::vector<Command> commands = {add_check(app), add_show(app),   add_generate(app),
                                          add_run(app),   add_bench(app),  add_report(app),
-                                         add_stress(app), add_verify(app), add_list(app),
+                                         add_stress(app), add_tune(app),  add_verify(app), add_list(app),
                                          add_cache(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);

@@ -80,6 +80,8 @@ int report(const ReportOptions& options) {
       wanted.initial.push_back(std::move(assignment));
   }
   const SceneValues scene = complete_scene(model, wanted);
+  take_gauge_at(scene, model, request);
+  request.command = generate_command(options.method.model, request);
   const BenchMethod method = chosen_method(options, source, request);
   const Mechanics mechanics = derive(model);
 

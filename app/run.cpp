@@ -151,11 +151,12 @@ int run(const RunOptions& options) {
   Request request = request_of(options.method);
   SizesAndRest set = split_sizes(read_model(source), options.method.set);
   request.sizes = set.sizes;
-  request.command = generate_command(options.method.model, request);
   const Model model = read_request(source, request);
   if (!model.warnings.empty() && !options.quiet) print_error(render(model.warnings, source));
   const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
   const long every = record_distance(options, scene);
+  take_gauge_at(scene, model, request);
+  request.command = generate_command(options.method.model, request);
 
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);

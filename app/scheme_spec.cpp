@@ -16,8 +16,8 @@ std::vector<std::string> split_outside_parentheses(std::string_view text, char s
   std::vector<std::string> pieces(1);
   int depth = 0;
   for (const char c : text) {
-    if (c == '(') ++depth;
-    if (c == ')') --depth;
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
     if (c == separator && depth == 0) {
       pieces.emplace_back();
     } else {
@@ -56,6 +56,7 @@ Request request_of_spec(std::string_view spec, const Request& base) {
   Request request = base;
   const std::map<std::string, std::string Request::*> fields = {
       {"alpha", &Request::alpha},   {"beta", &Request::beta},     {"gamma", &Request::gamma},
+      {"gauge", &Request::gauge},
       {"solver", &Request::solver}, {"scalar", &Request::scalar}, {"scheme", &Request::scheme}};
   const std::vector<std::string> pieces = split_outside_parentheses(spec, ':');
   for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -12,11 +12,13 @@
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/language/read_model.hpp"
+#include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "generator/schemes/locally_exact.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
@@ -55,6 +57,12 @@ void add_scheme_parameters(Model& model, const Request& request) {
          .values = {std::make_shared<const Node>(Node{nowhere, NumberNode{value}})},
          .comment = "of the scheme"});
   }
+  for (const std::string& name : request.scheme_parameters) {
+    model.parameters.push_back(
+        {.name = name,
+         .values = {std::make_shared<const Node>(Node{Span{}, NumberNode{Rational(0)}})},
+         .comment = "of the scheme"});
+  }
 }
 
 // Burns the defaults of --fold in.
@@ -72,6 +80,19 @@ void fold_parameters(Model& model, const Request& request) {
   }
 }
 
+void check_gauge(const Request& request) {
+  if (request.gauge.empty()) {
+    if (request.reference.empty()) return;
+    throw UsageError("--reference says where --gauge locally-exact is exact, but there is no --gauge");
+  }
+  if (request.gauge != "locally-exact") {
+    throw UsageError(fmt::format("unknown gauge '{}'; there is locally-exact", request.gauge));
+  }
+  if (!(request.alpha + request.beta + request.gamma).empty()) {
+    throw UsageError("give either --gauge or --alpha, --beta, --gamma");
+  }
+}
+
 // THE LIST's scheme of that name.
 const Scheme& named_scheme(const std::string& name) {
   if (const Scheme* scheme = find_scheme(name)) return *scheme;
@@ -84,6 +105,9 @@ const Scheme& named_scheme(const std::string& name) {
 
 // The member of the request; in its description the user's own words: 0.03, not 3/100.
 Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
+  if (!request.gauge.empty()) {
+    return locally_exact_member(mechanics, read_reference(model, request.reference));
+  }
   const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
   const std::string beta = request.beta.empty() ? "0" : request.beta;
   const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
@@ -99,15 +123,16 @@ Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const
   if (request.scheme.empty()) return requested_member(model, mechanics, request);
   const Scheme& named = named_scheme(request.scheme);
   const bool has_parameters =
-      !request.alpha.empty() || !request.beta.empty() || !request.gamma.empty();
+      !(request.alpha + request.beta + request.gamma + request.gauge).empty();
   if (std::holds_alternative<Composition>(named.method)) {
     return compose(named, requested_member(model, mechanics, request));
   }
-  if (has_parameters) throw UsageError("give either --scheme or --alpha, --beta, --gamma");
+  if (has_parameters) throw UsageError("give either --scheme or --alpha, --beta, --gamma, --gauge");
   return for_system(named, mechanics);
 }
 
 Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
+  check_gauge(request);
   Scheme scheme = scheme_of_own_order(model, mechanics, request);
   if (request.order == 0) return scheme;
   scheme = raise_order(std::move(scheme), request.order);
@@ -180,9 +205,11 @@ Stages run_stages(const SourceText& source, const Request& request) {
   // Loops know one way to solve and one set of parameters for all degrees of freedom.
   const Scheme* named = request.scheme.empty() ? nullptr : find_scheme(request.scheme);
   const bool any_solver = named != nullptr && !named->has_member();
-  const bool keep_sums = (any_solver || request.solver.empty() || request.solver == "newton") &&
+  const bool keep_sums = request.gauge.empty() && !request.observe_curvature &&
+                         (any_solver || request.solver.empty() || request.solver == "newton") &&
                          (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
   Mechanics mechanics = derive(model, keep_sums);
+  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
   if (request.watch_modified > 0) watch_modified(mechanics, scheme, request);
   StepEquations equations = discretise(mechanics, scheme);
@@ -293,6 +320,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   for (const NamedExpression& invariant : stages.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);
   }
+  plugin.singular_steps = singular_steps(stages.equations.scheme);
   plugin.needs_eigen = needs_eigen(stages.program);
   plugin.needs_quadmath = request.scalar == "quad";
   plugin.model = std::move(stages.model);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
@@ -22,6 +23,12 @@ struct Request {
   std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list;
                                           // by their own names: run-time parameters
   int order = 0;                          // of a member by its generating function; 0: its own
+  std::string gauge;                      // locally-exact, instead of alpha, beta, gamma
+  // Where that gauge is exact: state (0 if not given) and parameters (the model's defaults).
+  std::vector<std::pair<std::string, std::string>> reference;
+  // Further names that alpha, beta, gamma may use: run-time parameters, 0 by default.
+  std::vector<std::string> scheme_parameters;
+  bool observe_curvature = false;         // invariants are energy_curvature instead of the model's
   std::string solver;                     // newton, fixed-point, sweeps:K
   std::string scalar;                     // float, double, long-double, quad
   std::string format;                     // cpp-header, cpp-plugin, cmake-package
@@ -64,6 +71,7 @@ struct PluginSource {
   std::vector<std::string> parameter_names;   // run-time parameters in interface order
   std::vector<std::string> invariant_names;
   bool needs_energy_parameter = false;        // the last parameter is E0
+  std::vector<double> singular_steps;         // the scheme has poles at their multiples
   bool needs_eigen = false;
   bool needs_quadmath = false;
 };

@@ -120,7 +120,7 @@ Extrapolation extrapolate(const std::shared_ptr<const Library>& library, const I
   for (const Wide value : start.state) state.push_back(to_quad(value));
   const Quad end = to_quad(time);
   Quad now = 0;
-  Quad step = end / 64;
+  Quad step = end / Quad(options.first_parts);
   Extrapolation result;
   while (now != end && result.failure.empty()) {
     const bool is_last = size(end - now) <= size(step);

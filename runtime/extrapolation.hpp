@@ -14,6 +14,7 @@ namespace hamgen::runtime {
 
 struct ExtrapolationOptions {
   double tolerance = 1e-28;                      // of one extrapolated step, relative to the state
+  int first_parts = 64;                          // the first step is the time divided by this
   std::function<void(double)> on_progress = {};  // the fraction of the time that is done
   const std::atomic<bool>* stop = nullptr;
 };

@@ -6,6 +6,7 @@
 #include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/operation_count.hpp"
+#include "generator/mechanics/step_series.hpp"
 #include "generator/mechanics/taylor.hpp"
 
 namespace hamgen {
@@ -44,6 +45,15 @@ SparseMatrix times_j(const SparseMatrix& m, int n) {
 std::vector<SparseMatrix> gauge_series(const SparseMatrix& c, int count) {
   std::vector<SparseMatrix> series(at(count));
   for (const auto& [place, value] : c) {
+    if (is_undefined(substitute(value, {{"h", Expression(0)}}))) {
+      // It may still have a limit, and a series.
+      if (const auto limits = step_series(value, count)) {
+        for (int l = 0; l < count; ++l) {
+          if (!(*limits)[at(l)].is_zero()) series[at(l)][place] = (*limits)[at(l)];
+        }
+        continue;
+      }
+    }
     Expression derivative_of_entry = value;
     Rational factorial = 1;
     for (int l = 0; l < count; ++l) {

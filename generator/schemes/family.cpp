@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "generator/algebra/evaluate.hpp"
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/mechanics/mechanics.hpp"
+#include "generator/mechanics/step_series.hpp"
 #include "generator/schemes/all_schemes.hpp"
 
 namespace hamgen {
@@ -206,16 +208,21 @@ bool has_gamma(const Member& member) {
 
 std::optional<Expression> at_zero_step(const Expression& entry) {
   if (!depends_on(entry, "h")) return entry;
-  SymbolTable table;
-  const GiNaC::ex h = table.symbol("h", kRankOfStep);
-  try {
-    // A series: 1/tan(h) - 1/h has its value at 0 only as a limit.
-    const GiNaC::ex series = to_ginac(entry, table).series(h == 0, 1);
-    if (series.ldegree(h) < 0) return std::nullopt;
-    return from_ginac(series.coeff(h, 0), table);
-  } catch (const std::exception&) {  // an essential singularity, such as sqrt(h) has
-    return std::nullopt;
+  const std::optional<std::vector<Expression>> series = step_series(entry, 1);
+  return series ? std::optional(series->front()) : std::nullopt;
+}
+
+std::vector<double> singular_steps(const Scheme& scheme) {
+  if (!scheme.has_member()) return {};
+  const std::vector<double>& steps = scheme.member().singular_steps;
+  const auto* composition = std::get_if<Composition>(&scheme.method);
+  if (composition == nullptr) return steps;
+  std::set<double> result;
+  for (const Expression& substep : composition->substeps) {
+    const double part = std::abs(to_double(evaluate(substep, {}).value()));
+    for (const double step : steps) result.insert(step / part);
   }
+  return {result.begin(), result.end()};
 }
 
 SparseMatrix stage_matrix(const Member& member) {

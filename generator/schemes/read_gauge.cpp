@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
+#include "generator/language/scene.hpp"
 #include "generator/mechanics/derive.hpp"
 
 namespace hamgen {
@@ -101,6 +103,28 @@ class GaugeText {
 GaugeBlock read_gauge_block(const Model& model, const std::string& option,
                             const std::string& text) {
   return GaugeText(model, option).read(text);
+}
+
+Values read_reference(const Model& model,
+                      const std::vector<std::pair<std::string, std::string>>& given) {
+  Model without_scenes = model;
+  without_scenes.scenes.clear();
+  SceneRequest request;
+  for (const auto& [name, value] : given) {
+    const std::string base = name.substr(0, name.find('['));
+    const bool is_parameter =
+        std::ranges::find(model.parameters, base, &Parameter::name) != model.parameters.end();
+    (is_parameter ? request.set : request.initial).emplace_back(name, value);
+  }
+  const SceneValues values = scene_values(without_scenes, request);
+  Values result;
+  const auto add = [&](const std::vector<std::string>& names, const std::vector<Rational>& numbers) {
+    for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = numbers[i];
+  };
+  add(element_names(model.coordinates), values.q);
+  add(element_names(model.momenta), values.p);
+  add(element_names(model.parameters), values.parameters);
+  return result;
 }
 
 }  // namespace hamgen

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "generator/algebra/evaluate.hpp"
 #include "generator/language/model.hpp"
 #include "generator/schemes/scheme.hpp"
 
@@ -13,5 +16,10 @@ namespace hamgen {
 // "gamma".  Throws UsageError where the brackets make no matrix, ModelError for a wrong entry.
 [[nodiscard]] GaugeBlock read_gauge_block(const Model& model, const std::string& option,
                                           const std::string& text);
+
+// The point at which a gauge is taken, by the names of variables and parameters: a variable that is
+// not given is 0, a parameter has its default.  Throws as scene_values does.
+[[nodiscard]] Values read_reference(const Model& model,
+                                    const std::vector<std::pair<std::string, std::string>>& given);
 
 }  // namespace hamgen

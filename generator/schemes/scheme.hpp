@@ -90,6 +90,9 @@ struct FamilyParameters {
 // The value of an entry of C as h goes to 0; empty if it has none that could be found.
 [[nodiscard]] std::optional<Expression> at_zero_step(const Expression& entry);
 
+// Steps at which the scheme has a pole, with all their multiples.
+[[nodiscard]] std::vector<double> singular_steps(const Scheme& scheme);
+
 // The matrix (1/2 + C) J of zbar = z + h (I/2 + C) J grad H(zbar).
 [[nodiscard]] SparseMatrix stage_matrix(const Member& member);
 

@@ -116,11 +116,16 @@ Finding prove_order(const Member& member) {
                         member.generating_order - 1)};
   }
   for (const auto& [place, value] : member.c) {
-    const Expression at_zero = substitute(value, {{"h", Expression(0)}});
-    if (vanishes(at_zero)) continue;
+    const std::optional<Expression> at_zero = at_zero_step(value);
+    if (!at_zero) {
+      return {"order", Verdict::not_decided,
+              fmt::format("no limit was found for the entry ({}, {}) of C as h goes to 0",
+                          place.first + 1, place.second + 1)};
+    }
+    if (vanishes(*at_zero)) continue;
     return {"order 1", Verdict::proved,
             fmt::format("leading error h^2 f'(C0 f), f = J grad H; C0 has the entry ({}, {}) = {}",
-                        place.first + 1, place.second + 1, to_text(at_zero))};
+                        place.first + 1, place.second + 1, to_text(*at_zero))};
   }
   return {"order 2", Verdict::proved,
           "C(0) = 0; leading error h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12), f = J grad H"};

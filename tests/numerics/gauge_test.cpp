@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
+#include <string_view>
 
 #include "tests/numerics/dense_step.hpp"
 #include "tests/numerics/emitted_run.hpp"
@@ -75,6 +77,111 @@ TEST(Gauge, FullMatricesThatAreOddInHHaveOrderTwoAndOthersOrderOne) {
     }
     EXPECT_NEAR(observed_orders(errors).back(), order, 0.1) << beta;
   }
+}
+
+// A linear system with its flow in closed form.
+struct Linear {
+  const char* text;
+  std::function<Vector(const Vector&, long double)> flow;
+};
+
+std::vector<Linear> linear_systems() {
+  using std::cos, std::cosh, std::exp, std::sin, std::sinh;
+  return {
+      {"coordinate q\nmomentum p\nH = p^2/2 + 9*q^2/2\n",
+       [](const Vector& z, long double t) {
+         return Vector{cos(3 * t) * z[0] + sin(3 * t) / 3 * z[1],
+                       -3 * sin(3 * t) * z[0] + cos(3 * t) * z[1]};
+       }},
+      {"coordinate q\nmomentum p\nH = p^2/2 - q^2/2\n",
+       [](const Vector& z, long double t) {
+         return Vector{cosh(t) * z[0] + sinh(t) * z[1], sinh(t) * z[0] + cosh(t) * z[1]};
+       }},
+      {"coordinate q\nmomentum p\nH = p^2/2\n",
+       [](const Vector& z, long double t) { return Vector{z[0] + t * z[1], z[1]}; }},
+      // A free centre of mass and an oscillation with w^2 = 2.
+      {"coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + (x - y)^2/2\n",
+       [](const Vector& z, long double t) {
+         const long double w = std::sqrt(2.0L);
+         const long double s = (z[0] + z[1]) / 2 + t * (z[2] + z[3]) / 2;
+         const long double d =
+             cos(w * t) * (z[0] - z[1]) / 2 + sin(w * t) / w * (z[2] - z[3]) / 2;
+         const long double v =
+             -w * sin(w * t) * (z[0] - z[1]) / 2 + cos(w * t) * (z[2] - z[3]) / 2;
+         const long double mean = (z[2] + z[3]) / 2;
+         return Vector{s + d, s - d, mean + v, mean - v};
+       }},
+      // One Jordan chain of four.
+      {"coordinate x, y\nmomentum px, py\nH = px^2/2 + x*py\n",
+       [](const Vector& z, long double t) {
+         const auto [x, y, p, k] = std::array{z[0], z[1], z[2], z[3]};
+         return Vector{x + p * t - k * t * t / 2,
+                       y + x * t + p * t * t / 2 - k * t * t * t / 6, p - k * t, k};
+       }},
+      // Eigenvalues +-1 +- i: q grows in a spiral, p shrinks in one.
+      {"coordinate x, y\nmomentum px, py\nH = x*px + y*py + x*py - y*px\n",
+       [](const Vector& z, long double t) {
+         const long double g = exp(t), c = cos(t), s = sin(t);
+         return Vector{g * (c * z[0] - s * z[1]), g * (s * z[0] + c * z[1]),
+                       (c * z[2] - s * z[3]) / g, (s * z[2] + c * z[3]) / g};
+       }},
+  };
+}
+
+TEST(LocallyExact, LinearSystemsOfEveryKindAreSolvedToRoundOffWithAnyStep) {
+  const Vector start = {0.5L, -0.25L, 0.375L, 0.75L};
+  constexpr int steps = 6;
+  for (const Linear& system : linear_systems()) {
+    const Emitted emitted(system.text, {.gauge = "locally-exact", .scalar = "long-double"});
+    const Emitted midpoint(system.text, {.scalar = "long-double"});
+    const auto size = 2 * static_cast<long>(emitted.library().degrees_of_freedom());
+    const Vector z(start.begin(), start.begin() + size);
+    for (const long double h : {0x1p-10L, 0.125L, 0.75L, 1.25L}) {
+      const Vector exact = system.flow(z, steps * h);
+      // Of each of the 6 steps the entries of (I/2 + C) h A and of the solution, a few units of
+      // 2^-64 each, multiplied by the condition of the step's system and by what the flow makes of
+      // them: the 2^8 below stands for both; and by exp(t), exp(7.5) = 1808 at most.
+      const long double unit = 0x1p-64L * std::exp(steps * h);
+      EXPECT_LT(distance(emitted.after(steps, z, h), exact), 256 * steps * unit)
+          << system.text << "h = " << static_cast<double>(h);
+    }
+    // The midpoint rule is exact for the two nilpotent systems of low degree only.
+    if (std::string_view(system.text).find('/') == std::string_view::npos ||
+        std::string_view(system.text).find("q^2") != std::string_view::npos) {
+      EXPECT_GT(distance(midpoint.after(steps, z, 0.75L), system.flow(z, steps * 0.75L)), 1e-3L)
+          << system.text;
+    }
+  }
+}
+
+TEST(LocallyExact, TheOscillatorIsExactForStepsOfManyPeriods) {
+  const Emitted emitted("coordinate q\nmomentum p\nH = p^2/2 + q^2/2\n",
+                        {.gauge = "locally-exact"});
+  for (const long double h : {0.001L, 0.1L, 1.0L, 3.0L, 5.0L, 10.0L, 100.0L, 1000.0L}) {
+    constexpr int steps = 100;
+    const long double t = steps * static_cast<long double>(static_cast<double>(h));
+    const Vector end = emitted.after(steps, {1.0L, 0.0L}, static_cast<double>(h));
+    // A step rounds h/2 in tan and the solution: 2^-53 (h + 16/|sin(h/2)|) of the phase and the
+    // amplitude, with |sin(h/2)| > 0.13 for all of these except h = 0.001, where the coefficients
+    // cancel as they grow.
+    const long double bound = steps * 0x1p-53L * (h + 128);
+    EXPECT_NEAR(static_cast<double>(end[0] - std::cos(t)), 0, static_cast<double>(bound))
+        << static_cast<double>(h);
+    EXPECT_NEAR(static_cast<double>(end[1] + std::sin(t)), 0, static_cast<double>(bound))
+        << static_cast<double>(h);
+  }
+}
+
+TEST(LocallyExact, NonlinearSystemsHaveOrderTwo) {
+  const std::string text = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+  const Vector start = {2.0L, 0.0L};
+  const Emitted member(text, {.gauge = "locally-exact", .scalar = "long-double"});
+  const Vector exact = member.after(1 << 15, start, 0x1p-13L);
+  std::vector<long double> errors;
+  for (int k = 4; k <= 7; ++k) {
+    errors.push_back(distance(member.after(4 << k, start, std::ldexp(1.0L, -k)), exact));
+  }
+  EXPECT_NEAR(observed_orders(errors).back(), 2.0, 0.1);
 }
 
 }  // namespace

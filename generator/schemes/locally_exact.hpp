@@ -1,0 +1,19 @@
+// The gauge that makes a member exact on the linear part of a system at one fixed point.
+#pragma once
+
+#include "generator/algebra/evaluate.hpp"
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/schemes/scheme.hpp"
+
+namespace hamgen {
+
+// C = (hA)^-1 - coth(hA/2)/2 with A = J H''(reference), a function of h.  It makes
+// I/2 + C = (hA)^-1 - (exp(hA) - 1)^-1, for which the linear step Z = z + hA zbar is exp(hA) z.
+// C is odd in h and lies in sp(2n), so that the member is symmetric, of order 2 and symplectic for
+// every H; it has poles where h times a frequency of A is a multiple of 2 pi.
+//
+// `reference` has a value for every variable and every parameter.  Throws UsageError where H'' is
+// not defined there, or A is too large or has no such function.
+[[nodiscard]] Scheme locally_exact_member(const Mechanics& mechanics, const Values& reference);
+
+}  // namespace hamgen

@@ -1,0 +1,203 @@
+#include "generator/schemes/matrix_function.hpp"
+
+#include <ginac/ginac.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/eigen.hpp>
+
+#include "generator/algebra/from_ginac.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/mechanics.hpp"
+
+namespace hamgen {
+
+namespace {
+
+namespace mp = boost::multiprecision;
+using Real = mp::number<mp::cpp_bin_float<70>, mp::et_off>;
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+// What the eigenvalues of a matrix in 70 digits agree to if they are equal, relative to the largest.
+const Real kSame("1e-30");
+// Eigenvectors worse conditioned than this belong to a matrix that is not diagonalisable.
+const Real kWorst("1e12");
+
+Real to_real(const Rational& value) {
+  return Real(value.get_num().get_str()) / Real(value.get_den().get_str());
+}
+
+// The simplest fraction within 1e-45 of the value, relative to it, if it is short; else its first
+// 50 digits.
+Rational to_rational(const Real& value) {
+  Integer p0 = 0, q0 = 1, p1 = 1, q1 = 0;
+  Real rest = value;
+  for (int i = 0; i < 24 && q1 < 1000000; ++i) {
+    const Real whole = floor(rest);
+    const Integer a(whole.convert_to<mp::cpp_int>().str());
+    const Integer p2 = a * p1 + p0;
+    const Integer q2 = a * q1 + q0;
+    p0 = p1, q0 = q1, p1 = p2, q1 = q2;
+    const Rational fraction(p1, q1);
+    if (abs(to_real(fraction) - value) <= abs(value) * Real("1e-45")) return fraction;
+    rest = 1 / (rest - whole);
+  }
+  const std::string digits = Real(abs(value)).str(50, std::ios::scientific);
+  const Rational magnitude = parse_decimal(digits).value();
+  return value < 0 ? Rational(-magnitude) : magnitude;
+}
+
+RationalMatrix to_rational(const Matrix& matrix) {
+  const Real scale = matrix.cwiseAbs().maxCoeff();
+  RationalMatrix result(static_cast<std::size_t>(matrix.rows()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      const bool zero = abs(matrix(i, j)) <= scale * Real("1e-40");
+      result[static_cast<std::size_t>(i)].push_back(zero ? Rational(0) : to_rational(matrix(i, j)));
+    }
+  }
+  return result;
+}
+
+Expression h() { return Expression::symbol("h", kRankOfStep); }
+
+Expression number(const Real& value) { return Expression(to_rational(value)); }
+
+Expression call(const char* name, const Expression& x) { return Expression::apply(name, {x}); }
+
+const Expression kHalf(Rational(1, 2));
+
+RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b) {
+  RationalMatrix result(a.size(), std::vector<Rational>(a.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if (sgn(a[i][k]) == 0) continue;
+      for (std::size_t j = 0; j < a.size(); ++j) result[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return result;
+}
+
+bool is_zero(const RationalMatrix& a) {
+  return std::ranges::all_of(a, [](const auto& row) {
+    return std::ranges::all_of(row, [](const Rational& x) { return sgn(x) == 0; });
+  });
+}
+
+// f(x) = - sum B_2k x^(2k-1) / (2k)!, which ends for a nilpotent A.  Empty if A is not nilpotent.
+std::vector<MatrixTerm> nilpotent_terms(const RationalMatrix& a) {
+  std::vector<MatrixTerm> terms;
+  const RationalMatrix square = product(a, a);
+  RationalMatrix power = a;
+  for (int k = 1; !is_zero(power); ++k) {
+    if (2 * k - 1 > static_cast<int>(a.size())) return {};
+    const GiNaC::ex coefficient = -GiNaC::bernoulli(2 * k) / GiNaC::factorial(2 * k);
+    const Expression factor(hamgen::to_rational(GiNaC::ex_to<GiNaC::numeric>(coefficient)));
+    terms.push_back({factor * Expression::power(h(), Expression(2 * k - 1)), power});
+    power = product(power, square);
+  }
+  return terms;
+}
+
+// Eigenvalues a +- i b of A^2 that are one, with the projector P on their space.
+struct Cluster {
+  Real a, b;
+  Matrix projector;
+};
+
+std::vector<Cluster> clusters(const Matrix& square) {
+  const Eigen::EigenSolver<Matrix> solver(square);
+  const Matrix vectors = solver.pseudoEigenvectors();
+  const Eigen::FullPivLU<Matrix> lu(vectors);
+  const Matrix inverse = lu.isInvertible() ? Matrix(lu.inverse()) : Matrix();
+  const auto largest_row = [](const Matrix& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); };
+  if (solver.info() != Eigen::Success || inverse.size() == 0 ||
+      largest_row(vectors) * largest_row(inverse) > kWorst) {
+    throw UsageError(
+        "--gauge locally-exact: the linear part at the reference has a multiple frequency without "
+        "enough modes, its matrix is not diagonalisable\n"
+        "help: choose another point with --reference");
+  }
+  const auto& values = solver.eigenvalues();
+  const Real scale = values.cwiseAbs().maxCoeff();
+  std::vector<Cluster> result;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    Real a = values(i).real();
+    Real b = abs(values(i).imag());
+    if (b <= scale * kSame) b = 0;
+    if (b == 0 && abs(a) <= scale * kSame) a = 0;
+    const Matrix projector = vectors.col(i) * inverse.row(i);
+    const auto same = std::ranges::find_if(result, [&](const Cluster& c) {
+      return abs(c.a - a) <= scale * kSame && abs(c.b - b) <= scale * kSame;
+    });
+    if (same == result.end()) {
+      result.push_back({a, b, projector});
+    } else {
+      same->projector += projector;
+    }
+  }
+  return result;
+}
+
+void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) {
+  const Matrix linear = a * cluster.projector;
+  if (cluster.b == 0 && cluster.a == 0) {
+    result.terms.push_back({-h() / Expression(12), to_rational(linear)});
+    return;
+  }
+  if (cluster.b == 0) {
+    // Eigenvalues +-i w or +-s of A.
+    const bool oscillates = cluster.a < 0;
+    const Real rate = sqrt(abs(cluster.a));
+    const Expression y = number(rate) * h();
+    const Expression half_coth = kHalf / call(oscillates ? "tan" : "tanh", y * kHalf);
+    const Expression function = oscillates ? half_coth - Expression(1) / y
+                                           : Expression(1) / y - half_coth;
+    result.terms.push_back({function, to_rational(Matrix(linear / rate))});
+    if (oscillates) result.frequencies.push_back(to_rational(rate));
+    return;
+  }
+  // Eigenvalues +-(s +- i w): with f(h(s + i w)) = F + i G and Q = (A^2 - a) P / b, whose square is
+  // -P, the part is A (Re((F + i G)/(s + i w)) P + Im((F + i G)/(s + i w)) Q), and
+  // coth((u + i v)/2) = (sinh u - i sin v)/(cosh u - cos v), in half angles because
+  // cosh u - cos v = 2 sinh(u/2)^2 + 2 sin(v/2)^2 would cancel, and divided by cosh(u/2)^2, which
+  // may overflow.
+  const Real modulus = sqrt(cluster.a * cluster.a + cluster.b * cluster.b);
+  const Real s = sqrt((modulus + cluster.a) / 2);
+  const Real w = sqrt((modulus - cluster.a) / 2);
+  const Matrix turned =
+      a * ((a * a - cluster.a * Matrix::Identity(a.rows(), a.cols())) * cluster.projector) /
+      cluster.b;
+  const Expression u = number(s) * h();
+  const Expression v = number(w) * h();
+  const Expression square = number(modulus) * h();
+  const Expression tangent = call("tanh", u * kHalf);
+  const Expression sine = call("sin", v * kHalf) / call("cosh", u * kHalf);
+  const Expression cosine = call("cos", v * kHalf) / call("cosh", u * kHalf);
+  const Expression denominator = tangent * tangent + sine * sine;
+  const Expression real = number(s) / square - kHalf * tangent / denominator;
+  const Expression imaginary = kHalf * sine * cosine / denominator - number(w) / square;
+  result.terms.push_back({real, to_rational(Matrix((s * linear - w * turned) / modulus))});
+  result.terms.push_back({imaginary, to_rational(Matrix((w * linear + s * turned) / modulus))});
+}
+
+}  // namespace
+
+MatrixFunction gauge_function(const RationalMatrix& a) {
+  MatrixFunction result;
+  result.terms = nilpotent_terms(a);
+  if (!result.terms.empty() || is_zero(a)) return result;
+  const auto size = static_cast<Eigen::Index>(a.size());
+  Matrix matrix(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      matrix(i, j) = to_real(a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    }
+  }
+  for (const Cluster& cluster : clusters(matrix * matrix)) add_terms(matrix, cluster, result);
+  return result;
+}
+
+}  // namespace hamgen
