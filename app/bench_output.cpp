@@ -225,7 +225,7 @@ Plot picture_of(const Bench& bench) {
     }
     return result;
   };
-  return {.panels = {panel(Observed::energy), panel(Observed::state)}, .width = 600, .height = 440};
+  return {.panels = {panel(Observed::energy), panel(Observed::state)}, .width = 660, .height = 440};
 }
 
 }  // namespace hamgen::app

@@ -155,7 +155,7 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int height) {
   text += axis('x', panel.logarithmic_x, x) + axis('y', panel.logarithmic_y, y);
   text += panel.square ? "set size ratio -1\n" : "set size noratio\n";
   text += fmt::format("set rmargin {}\nunset label\n",
-                      longest == 0 ? 3.0 : 5.0 + 0.95 * static_cast<double>(longest));
+                      longest == 0 ? 3.0 : 5.0 + 0.78 * static_cast<double>(longest));
   for (const EndLabel& label : labels) {
     const std::string_view colour = kColours[colour_of(panel, label.series)];
     text += fmt::format(

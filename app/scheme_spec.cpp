@@ -38,16 +38,22 @@ int order_value(std::string_view spec, const std::string& text) {
 void require_scheme(const std::string& name) {
   if (find_scheme(name) != nullptr) return;
   std::vector<std::string> names;
-  for (const auto& scheme : all_schemes()) names.emplace_back(scheme.name);
+  for (const Scheme& scheme : all_schemes()) names.emplace_back(scheme.name);
   const std::string near = nearest(name, names);
   throw UsageError(fmt::format("--schemes: unknown scheme '{}'{}\nhelp: see hamgen list schemes",
                                name, near.empty() ? "" : ", did you mean '" + near + "'?"));
 }
 
-// The scheme exists, and for an H that is not separable it must be one for any H.
+// The scheme exists and this system has what it needs.
 bool suits(std::string_view name, const Mechanics& mechanics) {
-  const auto* scheme = find_scheme(name);
-  return scheme != nullptr && (scheme->needs.find("any H") == 0 || mechanics.is_separable());
+  const Scheme* scheme = find_scheme(name);
+  if (scheme == nullptr) return false;
+  try {
+    static_cast<void>(for_system(*scheme, mechanics));
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -101,7 +107,7 @@ std::vector<std::string> default_specs(const Mechanics& mechanics) {
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=4"}},
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=6"}},
       {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=8"}},
-      {.specs = {"blanes-moan-6", "kahan-li-6"}},
+      {.specs = {"blanes-moan-rkn-6", "blanes-moan-6", "kahan-li-6"}},
       {.specs = {"kahan-li-8-verlet", "kahan-li-8"}},
       {.specs = {"gauss-8"}},
   };
