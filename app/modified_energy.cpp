@@ -20,14 +20,14 @@ Rational exact(const runtime::Wide& value) {
   return Rational(from_double(value.hi) + from_double(value.lo));
 }
 
-struct Orbit {
+struct WatchedOrbit {
   double h = 0.0;
   long steps = 0;
   std::vector<double> variations;  // by the power of h that Ht goes to
 };
 
 // The orbit in quad precision: what is left of the variation is that of the step, not of rounding.
-Orbit watch_orbit(const SourceText& source, Request request, const ModifiedOptions& options,
+WatchedOrbit watch_orbit(const SourceText& source, Request request, const ModifiedOptions& options,
                   const std::vector<Expression>& terms) {
   request.scalar = "quad";
   const Model model = read_request(source, request);
@@ -87,7 +87,7 @@ ModifiedReport modified_report(const SourceText& source, const Request& request,
     report.json["terms"].push_back({{"power", j}, {"value", formula}});
   }
   if (options.scene.empty()) return report;
-  const Orbit orbit = watch_orbit(source, request, options, terms);
+  const WatchedOrbit orbit = watch_orbit(source, request, options, terms);
   report.text += fmt::format("along scene {}, h = {}, {} steps in quad precision:\n"
                              "  terms to  max |Ht - Ht(0)|\n",
                              options.scene, orbit.h, orbit.steps);
