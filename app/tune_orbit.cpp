@@ -82,7 +82,7 @@ Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
   for (long i = 0; i < request.samples; ++i) {
     orbit.points.push_back(point_at(*library, parameters, rounded(at.state)));
     const runtime::Extrapolation next =
-        runtime::extrapolate_midpoint(library, at, distance, options);
+        runtime::extrapolate(library, at, distance, options);
     if (!next.failure.empty()) {
       orbit.failure = fmt::format("it fails after t = {:.6g}: {}",
                                   static_cast<double>(i) * distance.hi + next.reached, next.failure);

@@ -5,6 +5,7 @@
 //   model     hamiltonians/driven_oscillator.ham
 //   H(q, p) = p^2/2 + (1 + eps*cos(omega*t))*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     linear solve of size 2 for q, p
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

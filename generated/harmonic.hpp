@@ -5,6 +5,7 @@
 //   model     hamiltonians/harmonic.ham
 //   H(q, p) = p^2/2 + w^2*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     linear solve of size 2 for q, p, constant matrix hoisted
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
