@@ -51,17 +51,5 @@ TEST(Lowering, WhatDependsOnParametersAloneLeavesTheLoop) {
   EXPECT_EQ(count(body, "std::sqrt("), 0) << body;
 }
 
-// x -> 3 x (1 - x), m times.
-std::string nest(int m) {
-  std::string x = "q1";
-  std::string lets;
-  for (int i = 0; i < m; ++i) {
-    const std::string name = "x" + std::to_string(i);
-    lets.append("let ").append(name).append(" = 3*").append(x).append("*(1 - ").append(x).append(")\n");
-    x = name;
-  }
-  return loop(lets + "H = (p1^2 + p2^2)/2 + " + x + " + q1*q2\n");
-}
-
 }  // namespace
 }  // namespace hamgen

@@ -1,6 +1,8 @@
 // Emitted integrators of higher order by the generating function.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/numerics/emitted_run.hpp"
 
 namespace hamgen::numerics_test {
