@@ -110,7 +110,7 @@ Command add_generate(CLI::App& app) {
       ->type_name("NAME");
   parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
   parser->add_option("--require", options->require,
-                     "fail unless proved: symplectic,symmetric,order:P,conserves:NAME,emitted-code")
+                     "only if proved: symplectic,symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");

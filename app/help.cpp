@@ -51,8 +51,15 @@ class ShortHelp : public CLI::FormatterBase {
     for (const bool positional : {true, false}) {
       for (const CLI::Option* option : app->get_options()) {
         if (option->get_positional() != positional) continue;
-        rows.push_back(
-            {positional ? option->get_name() : option_label(*option), option->get_description()});
+        const std::string label = positional ? option->get_name() : option_label(*option);
+        // An option without a description shares the line of the next.
+        const bool joined = !rows.empty() && rows.back().right.empty();
+        if (joined) {
+          rows.back().left += ", " + label;
+          rows.back().right = option->get_description();
+        } else {
+          rows.push_back({label, option->get_description()});
+        }
       }
     }
     std::size_t width = 0;

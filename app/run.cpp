@@ -106,12 +106,12 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 }
 
 // Writes the emitted header if asked to; returns where it is, or how to see it.
-std::string keep_header(const PluginSource& plugin, const RunOptions& options,
-                        const std::string& command) {
-  if (options.keep.empty()) return "print it with: " + command;
-  const std::string stem = std::filesystem::path(options.method.model).stem().string();
-  const std::filesystem::path path = std::filesystem::path(options.keep) / (stem + ".hpp");
-  runtime::atomic_write(path, plugin.header_text);
+std::string keep_header(const SourceText& source, const Request& request,
+                        const RunOptions& options) {
+  if (options.keep.empty()) return "print it with: " + request.command;
+  const OutputFile header = generate(source, request).at(0);
+  const std::filesystem::path path = std::filesystem::path(options.keep) / header.path;
+  runtime::atomic_write(path, header.text);
   return path.string();
 }
 
@@ -180,7 +180,7 @@ int run(const RunOptions& options) {
   }
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   report.start = &start;
-  report.header = keep_header(plugin, options, request.command);
+  report.header = keep_header(source, request, options);
 
   std::optional<TrajectoryTable> table;
   if (!options.output.empty())

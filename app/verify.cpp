@@ -56,7 +56,7 @@ Command add_verify(CLI::App& app) {
   parser->add_option("--h", modified->h, "with this step; default: the scene's")->type_name("H");
   parser->add_flag("--latex", modified->latex, "print it as LaTeX");
   parser->add_option("--require", *required,
-                     "symplectic (default),symmetric,order:P,conserves:NAME,emitted-code: else 5")
+                     "else 5: symplectic (default),symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
   parser->add_flag("--json", *json, "the findings as JSON");
   return {parser, [options, modified, required, json] {

@@ -47,7 +47,7 @@ TEST(LocallyExact, CoefficientsAreEvaluatedOnceARunAndTheHeaderSaysWhereTheyHold
                         "symplectic"),
             std::string::npos)
       << header;
-  EXPECT_NE(header.find("k.c2 = 1.0 / std::tan(2.5 * h);"), std::string::npos) << header;
+  EXPECT_NE(header.find(" = 1.0 / std::tan(2.5 * h);"), std::string::npos) << header;
   EXPECT_EQ(header.find("std::tan", header.find("std::tan") + 1), std::string::npos);
   EXPECT_NE(header.find("namespace m::locally_exact"), std::string::npos);
 }
