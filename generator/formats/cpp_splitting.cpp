@@ -109,7 +109,7 @@ class SplittingWriter {
     // The functions of a system in loops add to one long gradient.
     out_.line("for (Real& value : gradient) value = 0;");
     out_.line(fmt::format("{}(par, now.q, gradient);", kind.gradient));
-    out_.line(fmt::format("for (int i = 0; i < n; ++i) {}[i] = gradient[{}i];", kind.values,
+    out_.line(fmt::format("for (int j = 0; j < n; ++j) {}[j] = gradient[{}j];", kind.values,
                           kind.kick ? "" : "n + "));
   }
 

@@ -1,0 +1,309 @@
+// Every scheme as it is emitted: its order as observed, forth and back, and failure.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/source_text.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "tests/schemes/emitted_program.hpp"
+
+namespace hamgen::schemes_test {
+namespace {
+
+std::string space(const std::string& name) {
+  std::string text = "scheme_" + name;
+  std::ranges::replace(text, '-', '_');
+  return text;
+}
+
+struct Observed {
+  double coarse = 0, fine = 0;  // errors with h and h/2
+  double back = 0;              // distance from the start after steps forth and back
+};
+
+// Errors in quad at time 1 against gauss-16 with a small step, from (q, p) = (0.8, 0.3).
+std::map<std::string, Observed> observe(const std::string& model, const std::vector<Scheme>& schemes) {
+  std::string text = header(model, {.scheme = "gauss-16", .scalar = "quad"}, "reference");
+  std::string calls;
+  for (const Scheme& scheme : schemes) {
+    text += header(model, {.scheme = scheme.name, .scalar = "quad"}, space(scheme.name));
+    calls += "  observe<" + space(scheme.name) + "::Propagator, " + space(scheme.name) +
+             "::State, " + space(scheme.name) + "::Parameters>(\"" + scheme.name + "\", " +
+             std::to_string(scheme.order >= 12 ? 6 : scheme.order >= 6 ? 8 : 32) + ");\n";
+  }
+  text += R"(
+#include <cmath>
+#include <cstdio>
+using Quad = __float128;
+Quad size(Quad x) { return x < 0 ? -x : x; }
+reference::State exact;
+template <class Propagator, class State, class Parameters>
+State after(Quad h, int steps, const State& z) {
+  Propagator run(Parameters{}, h, z);
+  if (!run.advance(steps).converged) std::puts("not converged");
+  return run.state();
+}
+template <class Propagator, class State, class Parameters>
+void observe(const char* name, int steps) {
+  State start;
+  start.q = Quad(8) / 10;
+  start.p = Quad(3) / 10;
+  double error[2];
+  State z;
+  for (int k = 0; k < 2; ++k) {
+    const int count = steps << k;
+    z = after<Propagator, State, Parameters>(Quad(1) / count, count, start);
+    error[k] = static_cast<double>(size(z.q - exact.q) + size(z.p - exact.p));
+  }
+  const State back = after<Propagator, State, Parameters>(Quad(-1) / (2 * steps), 2 * steps, z);
+  std::printf("%s %.17g %.17g %.17g\n", name, error[0], error[1],
+              static_cast<double>(size(back.q - start.q) + size(back.p - start.p)));
+}
+int main() {
+  reference::State start;
+  start.q = Quad(8) / 10;
+  start.p = Quad(3) / 10;
+  exact = after<reference::Propagator, reference::State, reference::Parameters>(Quad(1) / 40, 40, start);
+)" + calls + "}\n";
+  std::istringstream lines(output_of(text));
+  std::map<std::string, Observed> result;
+  for (std::string name; lines >> name;) {
+    Observed seen;
+    if (!(lines >> seen.coarse >> seen.fine >> seen.back)) {
+      ADD_FAILURE() << "after " << name;
+      break;
+    }
+    result[name] = seen;
+  }
+  return result;
+}
+
+void check(const std::string& model, bool splittings) {
+  std::vector<Scheme> schemes;
+  for (const Scheme& scheme : all_schemes()) {
+    if (std::holds_alternative<Splitting>(scheme.method) == splittings) schemes.push_back(scheme);
+  }
+  const auto seen = observe(model, schemes);
+  ASSERT_EQ(seen.size(), schemes.size());
+  for (const Scheme& scheme : schemes) {
+    const Observed& o = seen.at(scheme.name);
+    EXPECT_NEAR(std::log2(o.coarse / o.fine), scheme.order, 0.35) << scheme.name << " " << o.coarse;
+    // Quad rounds to 1e-34, and a few hundred substeps add up; a step that is not symmetric misses by
+    // its own error.
+    if (scheme.symmetric) {
+      EXPECT_LT(o.back, 1e-30) << scheme.name;
+    } else {
+      EXPECT_GT(o.back, 1e-12) << scheme.name;
+    }
+  }
+}
+
+TEST(Emitted, SplittingsHaveTheirOrderAndReturnIfSymmetric) { check(kPendulum, true); }
+
+TEST(Emitted, SchemesForAnyHamiltonianHaveTheirOrderAndReturnIfSymmetric) { check(kMixed, false); }
+
+// H = p^2/2 + sqrt(q) drives q below 0, where H is not real: each scheme fails, and the state stays.
+TEST(Emitted, FailureLeavesTheStateAsItWasBeforeTheStep) {
+  const std::string model = "system fall\ncoordinate q\nmomentum p\nH = p^2/2 + sqrt(q)\n";
+  std::string text;
+  std::string calls;
+  int number = 0;
+  auto add = [&](Request request) {
+    const std::string name = "fall_" + std::to_string(number++);
+    text += header(model, request, name);
+    calls += "  falls<" + name + "::Propagator, " + name + "::State>(\"" + request.scheme + " " +
+             request.solver + "\", [](" + name + "::State& z) { return " + name +
+             "::step({}, 0.1, z).converged; });\n";
+  };
+  for (const char* name : {"stormer-verlet", "ruth-3", "saba-2", "yoshida-4", "yoshida-6-verlet",
+                           "gauss-4", "gauss-6", "rk4"}) {
+    add({.scheme = name});
+  }
+  add({.scheme = "gauss-4", .solver = "newton"});
+  add({.scheme = "gauss-4", .solver = "fixed-point"});
+  add({.scheme = "suzuki-4", .solver = "fixed-point"});
+  text += R"(
+#include <cstdio>
+#include <cstring>
+template <class Propagator, class State, class Step>
+void falls(const char* name, Step step) {
+  State z;
+  z.q = 1.0;
+  z.p = -0.5;
+  Propagator run({}, 0.1, z);
+  bool failed = false;
+  for (int i = 0; i < 100 && !failed; ++i) {
+    const State before = run.state();
+    failed = !run.step().converged;
+    const State now = run.state();
+    if (failed && std::memcmp(&before, &now, sizeof now) != 0) std::printf("%s changed\n", name);
+    if (!(now.q - now.q == 0 && now.p - now.p == 0)) std::printf("%s not finite\n", name);
+  }
+  if (!failed) std::printf("%s did not fail\n", name);
+  bool single = false;
+  for (int i = 0; i < 100 && !single; ++i) {
+    const State before = z;
+    single = !step(z);
+    if (single && std::memcmp(&before, &z, sizeof z) != 0) std::printf("%s: step changed\n", name);
+  }
+  if (!single) std::printf("%s: step did not fail\n", name);
+}
+int main() {
+)" + calls + "}\n";
+  EXPECT_EQ(output_of(text), "");
+}
+
+// omega h = 50: the fixed point diverges, Newton takes over, and the energy of the stiff spring stays.
+TEST(Emitted, GaussSolvesStiffProblemsByNewton) {
+  const std::string model =
+      "system stiff\ncoordinate q\nmomentum p\nH = p^2/2 + 125000*q^2 + q^4/4\n";
+  std::string text = "#include <cstdio>\n";
+  std::string calls;
+  for (const std::string name : {"gauss-2", "gauss-4", "gauss-8"}) {
+    text += header(model, {.scheme = name}, space(name));
+    calls += "  {\n    using namespace " + space(name) + ";\n" + R"(    State z;
+    z.q = 1.0;
+    const double start = energy({}, z);
+    Propagator run({}, 0.1, z);
+    const StepReport report = run.advance(1000);
+    const double error = energy({}, run.state()) / start - 1;
+    if (!report.converged) std::puts("not converged");
+    if (!(error < 1e-3 && error > -1e-3)) std::printf("energy error %g\n", error);
+    if (report.iterations > 12000) std::printf("%d iterations\n", report.iterations);
+  }
+)";
+  }
+  EXPECT_EQ(output_of(text + "int main() {\n" + calls + "}\n"), "");
+}
+
+// A figure of the paper, and the same scheme with the coefficients of Laskar and Robutel.
+TEST(Emitted, Saba2AsPrintedAndAsPublishedHaveTheirEnergySpread) {
+  const std::string model =
+      "system pendulum\ncoordinate q\nmomentum p\nH = p^2/2 - 0.03*cos(q)\n";
+  std::string text = "#include <cstdio>\n";
+  std::string calls;
+  for (const std::string name : {"saba-2-printed", "saba-2"}) {
+    text += header(model, {.scheme = name}, space(name));
+    calls += "  {\n    using namespace " + space(name) + ";\n" + R"(    State z;
+    z.q = 3.1;
+    Propagator run({}, 0.1, z);
+    double low = 1, high = -1;
+    for (int i = 0; i < 20000; ++i) {
+      if (!run.step().converged) std::puts("failed");
+      const double now = energy({}, run.state());
+      if (now < low) low = now;
+      if (now > high) high = now;
+    }
+    std::printf("%.6g ", high - low);
+  }
+)";
+  }
+  std::istringstream output(output_of(text + "int main() {\n" + calls + "}\n"));
+  double printed = 0;
+  double published = 0;
+  output >> printed >> published;
+  EXPECT_NEAR(printed, 5.6e-7, 0.05 * 5.6e-7);
+  EXPECT_NEAR(published, 1.0e-7, 0.05 * 1.0e-7);
+}
+
+// Thirty pendulums that do not know of each other, in loops, and one of them written out.
+TEST(Emitted, LoopsTakeTheStepsThatWrittenOutCodeTakes) {
+  const std::string many =
+      "system many\nsize n = 30\ncoordinate q[1..n]\nmomentum p[1..n]\n"
+      "H = sum(i = 1..n, p[i]^2/2 - cos(q[i]))\n";
+  std::string text = "#include <cstdio>\n";
+  std::string calls;
+  int number = 0;
+  auto add = [&](Request request) {
+    const std::string one = "one_" + std::to_string(number);
+    const std::string all = "all_" + std::to_string(number++);
+    text += header(kPendulum, request, one) + header(many, request, all);
+    calls += "  {\n    " + one + "::State a;\n    a.q = 0.8;\n    a.p = 0.3;\n    " + all +
+             "::State b;\n    for (int i = 0; i < 30; ++i) b.q[i] = 0.8, b.p[i] = 0.3;\n    " + one +
+             "::Propagator first({}, 0.1, a);\n    " + all + "::Propagator second({}, 0.1, b);\n" +
+             R"(    if (!first.advance(100).converged || !second.advance(100).converged) std::puts("failed");
+    for (int i = 0; i < 30; ++i) {
+      const double dq = first.state().q - second.state().q[i];
+      const double dp = first.state().p - second.state().p[i];
+      if (!(dq * dq + dp * dp < 1e-26)) std::printf("scheme )" + std::to_string(number - 1) +
+             R"(: %g %g\n", dq, dp);
+    }
+  }
+)";
+  };
+  for (const char* name : {"stormer-verlet", "ruth-3", "saba-2", "yoshida-4", "gauss-4", "rk4"}) {
+    add({.scheme = name});
+  }
+  add({.scheme = "gauss-4", .solver = "newton"});
+  EXPECT_EQ(output_of(text + "int main() {\n" + calls + "}\n"), "");
+}
+
+class Strictly : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scalars, Strictly,
+                         ::testing::Values("float", "double", "long-double", "quad"),
+                         [](const auto& instance) {
+                           std::string name = instance.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST_P(Strictly, EmittedSchemesCompileWithoutAWarning) {
+  const std::string loops =
+      "system chain\nsize n = 40\ncoordinate q[1..n]\nmomentum p[1..n]\n"
+      "H = sum(i = 1..n, p[i]^2/2) + sum(i = 1..n-1, (q[i+1] - q[i])^4/4) + q[1]^2 + q[n]^2\n";
+  std::string text;
+  int number = 0;
+  auto add = [&](const std::string& model, Request request) {
+    request.scalar = GetParam();
+    text += header(model, request, "strict_" + std::to_string(number++));
+  };
+  for (const std::string& model : {kPendulum, kMixed, loops}) {
+    for (const char* name : {"yoshida-4", "gauss-2", "gauss-6", "rk4"}) add(model, {.scheme = name});
+    add(model, {.scheme = "gauss-4", .solver = "fixed-point"});
+    if (model != loops) add(model, {.scheme = "gauss-4", .solver = "newton"});
+    if (model == kMixed) continue;
+    for (const char* name : {"stormer-verlet", "ruth-3", "saba-3"}) add(model, {.scheme = name});
+  }
+  for (const char* compiler : {"g++", "clang++"}) EXPECT_EQ(warnings_of(compiler, text), "");
+}
+
+std::string refusal(const std::string& model, const Request& request) {
+  try {
+    (void)generate(make_source("model.ham", model), request);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Requests, ForAHamiltonianThatIsNotSeparableNameAnAlternative) {
+  EXPECT_EQ(refusal(kMixed, {.scheme = "yoshida-6-verlet"}),
+            "--scheme yoshida-6-verlet needs a separable H = T(p) + V(q), and the H of mixed mixes "
+            "coordinates and momenta\nhelp: --scheme yoshida-6 or gauss-6 takes any H");
+  EXPECT_NE(refusal(kMixed, {.scheme = "ruth-3"}).find("--scheme gauss-4 takes any H"),
+            std::string::npos);
+  EXPECT_NE(refusal("system s\ncoordinate q\nmomentum p\nH = sqrt(1 + p^2) + q^2\n",
+                    {.scheme = "blanes-moan-rkn-6"})
+                .find("quadratic in p"),
+            std::string::npos);
+}
+
+TEST(Requests, ComposeSymmetricMembersOnly) {
+  EXPECT_NE(refusal(kPendulum, {.scheme = "yoshida-4", .alpha = "1/3"}).find("symmetric"),
+            std::string::npos);
+  EXPECT_EQ(refusal(kPendulum, {.scheme = "yoshida-4", .beta = "h/7", .gamma = "-h/9"}), "");
+}
+
+TEST(Requests, ForASolverOfAnExplicitSchemeAreRefused) {
+  EXPECT_NE(refusal(kPendulum, {.scheme = "rk4", .solver = "newton"}).find("explicit"),
+            std::string::npos);
+  EXPECT_NE(refusal(kPendulum, {.scheme = "gauss-4", .solver = "sweeps:3"}).find("fixed-point"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hamgen::schemes_test
