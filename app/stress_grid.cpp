@@ -213,6 +213,10 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
 
 std::vector<std::array<double, 2>> StressGrid::linear_bound() {
   if (axes_.size() < 2) return {};
+  const MethodOptions& chosen = options_.method;
+  const bool is_midpoint = (chosen.scheme.empty() || chosen.scheme == "implicit-midpoint") &&
+                           (chosen.alpha + chosen.beta + chosen.gamma).empty();
+  if (is_midpoint) return {};  // bounded for every h omega
   constexpr int across = 160;
   constexpr int up = 80;
   const auto value = [](const StressAxis& axis, double part) {
