@@ -185,12 +185,12 @@ void print_targets(const std::vector<Result>& results, const std::string& title,
       methods.emplace_back(result.method, result.is_peer);
   }
   const std::vector<double> targets = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  fmt::print("\n  {:<24}", title);
+  fmt::print("\n  {:<26}", title);
   for (const double target : targets) fmt::print(" {:>10.0e}", target);
   fmt::print("\n");
   std::map<std::pair<bool, double>, double> best;
   for (const auto& [method, is_peer] : methods) {
-    fmt::print("  {:<24}", method);
+    fmt::print("  {:<26}", method);
     for (const double target : targets) {
       const auto seconds = seconds_for(results, method, target, error);
       fmt::print(" {:>10}", seconds ? fmt::format("{:.3g}", 1e6 * *seconds / time) : "-");
@@ -200,7 +200,7 @@ void print_targets(const std::vector<Result>& results, const std::string& title,
     }
     fmt::print("\n");
   }
-  fmt::print("  {:<24}", "best peer / best hamgen");
+  fmt::print("  {:<26}", "best peer / best hamgen");
   for (const double target : targets) {
     const auto peer = best.find({true, target});
     const auto own = best.find({false, target});
@@ -233,10 +233,10 @@ void compare(const Case& chosen, bool all_rows) {
   fmt::print("\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}\n", chosen.path,
              problem.scene.name, time, problem.reference.error);
   if (all_rows) {
-    fmt::print("  {:<24} {:>9} {:>12} {:>13} {:>12}\n", "method", "h or tol", "us/unit time",
+    fmt::print("  {:<26} {:>9} {:>12} {:>13} {:>12}\n", "method", "h or tol", "us/unit time",
                "energy error", "state error");
     for (const Result& result : results)
-      fmt::print("  {:<24} {:>9.3g} {:>12.4g} {:>13.2e} {:>12.2e}\n", result.method, result.setting,
+      fmt::print("  {:<26} {:>9.3g} {:>12.4g} {:>13.2e} {:>12.2e}\n", result.method, result.setting,
                  1e6 * result.median() / time, result.energy_error, result.state_error);
   }
   print_targets(results, "us/unit, state error", time, &Result::state_error);
