@@ -215,6 +215,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
   add("--require", request.require);
+  if (request.tangent) words.emplace_back("--tangent");
   return on_one_line(runtime::command_text(words));
 }
 

@@ -22,6 +22,7 @@ struct GenerateOptions {
   std::string format;
   std::string name_space;
   std::string require;
+  bool tangent = false;
   bool check = false;
 };
 
@@ -93,6 +94,7 @@ int generate_files(const GenerateOptions& options) {
   request.format = options.format;
   request.name_space = options.name_space;
   request.require = options.require;
+  request.tangent = options.tangent;
   request.command = generate_command(options.method.model, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, request.command);
@@ -112,6 +114,7 @@ Command add_generate(CLI::App& app) {
   parser->add_option("--require", options->require,
                      "only if proved: symplectic,symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
+  parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");
   add_method_options(*parser, options->method);

@@ -1,8 +1,10 @@
 // hamgen verify: what algebra proves of the step, one line a property.
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
+#include "app/measure.hpp"
 #include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -10,13 +12,28 @@
 namespace hamgen::app {
 namespace {
 
-int verify(const MethodOptions& options, const ModifiedOptions& modified,
-           const std::string& required, bool json) {
-  const SourceText source = read_model_source(options);
-  const Request request = request_with_sizes(options, source);
-  const Proof proof = verify_step(source, request);
+struct VerifyOptions {
+  MethodOptions method;
+  ModifiedOptions modified;  // its scene is also where the compiled step is measured
+  std::string required;
+  bool measure = false;
+  bool json = false;
+};
+
+int verify(const VerifyOptions& options) {
+  const SourceText source = read_model_source(options.method);
+  const Request request = request_with_sizes(options.method, source);
+  Proof proof = verify_step(source, request);
+  if (options.measure) {
+    const bool symmetric = std::ranges::any_of(proof, [](const Finding& f) {
+      return f.property == "symmetric" && f.verdict == Verdict::proved;
+    });
+    for (Finding& finding : measure(source, request, options.modified.scene, symmetric)) {
+      proof.push_back(std::move(finding));
+    }
+  }
   bool holds = true;
-  const bool by_default = required.empty();
+  const bool by_default = options.required.empty();
   auto rows = nlohmann::ordered_json::array();
   for (const Finding& finding : proof) {
     rows.push_back({{"property", finding.property},
@@ -27,41 +44,38 @@ int verify(const MethodOptions& options, const ModifiedOptions& modified,
     if (needed && finding.verdict == Verdict::refuted) holds = false;
   }
   std::string text = to_text(proof);
-  if (!modified.terms.empty()) {
-    const ModifiedReport report = modified_report(source, request, modified);
+  if (!options.modified.terms.empty()) {
+    const ModifiedReport report = modified_report(source, request, options.modified);
     rows.push_back(report.json);
     text += report.text;
   }
-  print(json ? rows.dump(2) + "\n" : text);
-  require(proof, required);
+  print(options.json ? rows.dump(2) + "\n" : text);
+  require(proof, options.required);
   return holds ? done : proof_failed;
 }
 
 }  // namespace
 
 Command add_verify(CLI::App& app) {
-  const auto options = std::make_shared<MethodOptions>();
-  const auto modified = std::make_shared<ModifiedOptions>();
-  const auto required = std::make_shared<std::string>();
-  const auto json = std::make_shared<bool>(false);
+  const auto options = std::make_shared<VerifyOptions>();
+  ModifiedOptions& modified = options->modified;
   CLI::App* parser = app.add_subcommand(
       "verify", "proves what it can of the step by algebra: symplectic, symmetric, invariants");
-  add_method_options(*parser, *options);
-  add_repeated(*parser, "--set", options->set, "another value for a size of the model")
+  add_method_options(*parser, options->method);
+  add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
       ->type_name("SIZE=N");
-  parser->add_option("--terms", modified->terms, "print K terms of the modified Hamiltonian")
+  parser->add_option("--terms", modified.terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
-  parser->add_option("--scene", modified->scene, "measure it along this scene's orbit")
+  parser->add_option("--scene", modified.scene, "measure along this scene's orbit")
       ->type_name("NAME");
-  parser->add_option("--h", modified->h, "with this step; default: the scene's")->type_name("H");
-  parser->add_flag("--latex", modified->latex, "print it as LaTeX");
-  parser->add_option("--require", *required,
+  parser->add_option("--h", modified.h, "with this step; default: the scene's")->type_name("H");
+  parser->add_flag("--latex", modified.latex, "print it as LaTeX");
+  parser->add_flag("--measure", options->measure, "compile the step and measure it too");
+  parser->add_option("--require", options->required,
                      "else 5: symplectic (default),symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
-  parser->add_flag("--json", *json, "the findings as JSON");
-  return {parser, [options, modified, required, json] {
-            return verify(*options, *modified, *required, *json);
-          }};
+  parser->add_flag("--json", options->json, "the findings as JSON");
+  return {parser, [options] { return verify(*options); }};
 }
 
 }  // namespace hamgen::app

@@ -11,6 +11,7 @@
 #include "generator/equations/step_equations.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
+#include "generator/formats/cpp_tangent.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -155,7 +156,8 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
   CppOptions options{.command = request.command,
                      .model_path = source.path,
                      .scalar = request.scalar,
-                     .name_space = request.name_space};
+                     .name_space = request.name_space,
+                     .tangent = request.tangent && has_tangent(program)};
   if (options.name_space.empty()) {
     const StepEquations& equations = program.plan.equations;
     std::string scheme = equations.scheme.name;
@@ -221,6 +223,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
     plan = plan_solve(equations, request.solver);
   }
   Program program = build_program(plan);
+  if (request.tangent && has_tangent(program)) program = with_hessian(std::move(program));
   return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
           std::move(program)};
 }
@@ -263,6 +266,10 @@ Model read_request(const SourceText& source, const Request& request) {
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
   CppOptions options = cpp_options(source, stages.program, request);
+  if (request.tangent && !options.tangent) {
+    throw UsageError("--tangent: the linearised step is written for single members of their own order "
+                     "whose sums are written out");
+  }
   const Proof proof = prove(stages);
   require(proof, request.require);
   require_emitted(proof);

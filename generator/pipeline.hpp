@@ -34,6 +34,7 @@ struct Request {
   std::string format;                     // cpp-header, cpp-plugin, cmake-package
   std::string name_space;                 // of the emitted code; default MODEL::SCHEME
   std::vector<std::string> fold;          // parameters to burn in
+  bool tangent = false;                   // the linearised step too, where it can be written
   std::string require;                    // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;      // other integer constants than the file's
   int watch_modified = 0;                 // terms of the modified Hamiltonian among the invariants,

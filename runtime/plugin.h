@@ -6,7 +6,7 @@
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
-#define HAMGEN_PLUGIN_VERSION 1
+#define HAMGEN_PLUGIN_VERSION 2
 
 #ifdef __cplusplus
 extern "C" {
@@ -56,6 +56,10 @@ struct hamgen_plugin {
   void (*invariants)(const double* parameters, const double* state, double* values);
   /* grad H: 2n values, H_q first. */
   void (*gradient)(const double* parameters, const double* state, double* gradient);
+  /* One step from `state` to `new_state` and its linearisation there: matrix[i * 2n + j] is
+   * d(new_state_i)/d(state_j).  0 if there is no step.  Null in a plugin made without it. */
+  int (*tangent)(const double* parameters, double h, const double* state, double* new_state,
+                 double* matrix);
 };
 
 typedef const struct hamgen_plugin* (*hamgen_plugin_entry_type)(void);

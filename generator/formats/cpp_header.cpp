@@ -13,6 +13,7 @@
 #include "generator/formats/cpp_preamble.hpp"
 #include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_support.hpp"
+#include "generator/formats/cpp_tangent.hpp"
 
 namespace hamgen {
 
@@ -77,6 +78,7 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
   write_solve(out, context, parts, coefficients);
   if (role == StepRole::propagator) write_member_step(out, context, parts);
   write_member_propagator(out, context, parts, role);
+  if (context.options.tangent) write_tangent(out, context);
 }
 
 // The same for a system whose sums stay loops.
@@ -126,7 +128,9 @@ std::string namespace_text(CppContext& context) {
 }  // namespace
 
 std::string cpp_header(const Program& program, const CppOptions& options) {
-  CppContext context(program, options);
+  CppOptions with_derivatives = options;
+  with_derivatives.gradient = options.gradient || (options.tangent && program.plan.sweeps);
+  CppContext context(program, with_derivatives);
   const std::string body = namespace_text(context);
   CodeWriter out;
   write_preamble(out, context);

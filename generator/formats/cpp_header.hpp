@@ -16,6 +16,7 @@ struct CppOptions {
   // What is proved, tested and refuted of the step, for the first lines; empty: not looked at.
   std::string proved, tested, refuted;
   bool gradient = false;   // emit gradient() too
+  bool tangent = false;    // emit the linearised step too
   bool builtins = false;   // functions of the compiler instead of <cmath>
 };
 

@@ -28,6 +28,34 @@ void write_fill(CodeWriter& out, const CppContext& context, const std::string& t
   }
 }
 
+void write_tangent_interface(CodeWriter& out, const CppContext& context) {
+  const int size = 2 * context.n();
+  std::string increments;
+  std::string ends;
+  for (int i = 0; i < size; ++i) {
+    increments += fmt::format("  dz.{0} = end.{0} - z.{0};\n", context.state_field(i));
+    ends += fmt::format("  new_state[{}] = static_cast<double>(end.{});\n", i, context.state_field(i));
+  }
+  out.lines(fmt::format(R"(int tangent_of(const double* parameters, double h, const double* state, double* new_state,
+               double* matrix) {{
+  const Parameters par = read_parameters(parameters, nullptr);
+  const State z = read_state(state, nullptr);
+  Propagator propagator(par, static_cast<Real>(h), z);
+  if (!propagator.step().converged) return 0;
+  const State& end = propagator.state();
+  State dz;
+{}{}  Real m[{}][{}];
+  if (!tangent(par, static_cast<Real>(h), z, dz, m)) return 0;
+  for (int i = 0; i < {}; ++i) {{
+    for (int j = 0; j < {}; ++j) matrix[i * {} + j] = static_cast<double>(m[i][j]);
+  }}
+  return 1;
+}}
+
+)",
+                        increments, ends, size, size, size, size, size));
+}
+
 }  // namespace
 
 void write_interface(CodeWriter& out, const CppContext& context) {
@@ -132,11 +160,13 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   };
   vector_function("invariants_of", "invariants", context.mechanics.invariants.size());
   vector_function("gradient_of", "gradient", static_cast<std::size_t>(2 * context.n()));
+  if (context.options.tangent) write_tangent_interface(out, context);
   out.line(fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
                        "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
-                       "gradient_of}};",
+                       "gradient_of, {}}};",
                        context.n(), context.parameters.size(), context.mechanics.invariants.size(), context.scalar.digits,
-                       description, context.program.plan.solver));
+                       description, context.program.plan.solver,
+                       context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");
   out.line();

@@ -742,6 +742,12 @@ void build_hessian(Program& program, const Mechanics& mechanics) {
 
 }  // namespace
 
+Program with_hessian(Program program) {
+  if (!program.hessian_places.empty()) return program;
+  build_hessian(program, program.plan.equations.mechanics);
+  return program;
+}
+
 Program build_program(const SolvePlan& plan) {
   const Mechanics& mechanics = plan.equations.mechanics;
   Program program{.plan = plan};

@@ -68,13 +68,15 @@ struct Program {
   // Of a splitting: n results each, dV/dq and dT/dp.
   Evaluation potential_gradient = {};
   Evaluation kinetic_gradient = {};
-  // Of an implicit Runge-Kutta method: the entries of the Hessian at `hessian_places`, i <= j.
+  // Of an implicit Runge-Kutta method, and for tangent maps: the entries of the Hessian at `hessian_places`, i <= j.
   Evaluation hessian = {};
   std::vector<std::pair<int, int>> hessian_places = {};
 };
 
 // Values of free symbols, computed together: what they share is computed once.
 [[nodiscard]] Evaluation evaluate_together(const std::vector<Expression>& values);
+// With the Hessian as a function of the state besides.
+[[nodiscard]] Program with_hessian(Program program);
 [[nodiscard]] Program build_program(const SolvePlan& plan);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);

@@ -128,11 +128,12 @@ Precise value_of_exact(const Expression& e) {
 }
 
 Finding order_finding(const OrderFound& found, bool exact, const std::string& what) {
+  const bool proved = exact && found.residual == 0;
   const std::string how =
-      exact ? "exact rational coefficients"
-            : fmt::format("conditions hold to {:.0e}, the digits of the coefficients",
-                          std::max(found.residual, 1e-60));
-  return {fmt::format("order {}", found.order), exact ? Verdict::proved : Verdict::tested,
+      proved ? "exact rational coefficients"
+             : fmt::format("conditions hold to {:.0e}, the digits of the coefficients",
+                           std::max(found.residual, 1e-60));
+  return {fmt::format("order {}", found.order), proved ? Verdict::proved : Verdict::tested,
           fmt::format("formal series against the flow, {}; {}", how,
                       found.at_least ? "no error found in the next power"
                                      : fmt::format("leading error h^{} ({}), {}", found.order + 1,

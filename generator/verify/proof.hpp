@@ -33,8 +33,6 @@ using Proof = std::vector<Finding>;
 // min(n, 3) degrees of freedom; beyond, by the factorisation of the difference.
 [[nodiscard]] Finding prove_step_symplectic(const Member& member);
 [[nodiscard]] Finding prove_symmetric(const Member& member);
-[[nodiscard]] Finding prove_splitting_symplectic();
-[[nodiscard]] Finding prove_tableau_symplectic(const RungeKutta& tableau);
 [[nodiscard]] Finding prove_order(const Member& member);
 // Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal series,
 // which are looked at up to order + 1.  `nystrom`: T is quadratic in p.

@@ -6,23 +6,21 @@
 
 namespace hamgen {
 
-Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-             const Expression& hamiltonian) {
-  if (std::holds_alternative<Splitting>(scheme.method)) return {prove_splitting_symplectic()};
-  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
-    return {prove_tableau_symplectic(*tableau)};
+namespace {
+
+// A symplectic Runge-Kutta method conserves quadratic invariants (Cooper 1987; HLW IV.2.2), as the
+// member C = 0 does.
+Proof invariants_of_tableau(const Mechanics& mechanics) {
+  Proof proof = prove_invariants(mechanics, {.degrees_of_freedom = mechanics.degrees_of_freedom});
+  for (Finding& finding : proof) {
+    if (finding.property.ends_with("conserved by the step") && finding.verdict == Verdict::proved) {
+      finding.detail = "quadratic or linear, and the tableau is symplectic";
+    }
   }
-  const std::optional<int> sweeps = program.plan.sweeps;
-  if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
-    return prove_splitting(*splitting, scheme.order, scheme.needs.find("quadratic") != std::string::npos);
-  }
-  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
-    return prove_tableau(*tableau, scheme.order);
-  }
-  if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
-    return prove_composition(*composition, scheme.order);
-  }
-  const Member& member = scheme.member();
+  return proof;
+}
+
+Proof prove_member(const Mechanics& mechanics, const Member& member, std::optional<int> sweeps) {
   Proof proof{prove_gauge(member)};
   if (sweeps) {
     // After K sweeps Z is off the solution by O(h^(K+2)), an error no symplectic map needs.
@@ -31,21 +29,40 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
                                  "O(h^{})",
                                  *sweeps, *sweeps + 2)});
     proof.push_back({"symmetric", Verdict::refuted, "the predictor is explicit Euler"});
-    proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
     return proof;
   }
   proof.push_back(prove_step_symplectic(member));
-  if (std::holds_alternative<Composition>(scheme.method)) {
-    proof.back().detail += "; so is each substep, and their composition";
-    proof.push_back(prove_symmetric(member));
-    proof.back().detail += "; the substeps are the same from both ends";
-    return proof;
-  }
   proof.push_back(prove_symmetric(member));
   proof.push_back(prove_order(member));
-  for (Finding& finding : prove_invariants(mechanics, member)) {
-    proof.push_back(std::move(finding));
+  for (Finding& finding : prove_invariants(mechanics, member)) proof.push_back(std::move(finding));
+  return proof;
+}
+
+Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, std::optional<int> sweeps) {
+  if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
+    const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
+    return prove_splitting(*splitting, scheme.order, nystrom);
   }
+  Proof proof;
+  Proof invariants;
+  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
+    proof = prove_tableau(*tableau, scheme.order);
+    if (proof.front().verdict == Verdict::proved) invariants = invariants_of_tableau(mechanics);
+  } else if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    proof = prove_composition(*composition, scheme.order);
+    invariants = prove_invariants(mechanics, composition->base);
+  } else {
+    return prove_member(mechanics, scheme.member(), sweeps);
+  }
+  proof.insert(proof.end(), invariants.begin(), invariants.end());
+  return proof;
+}
+
+}  // namespace
+
+Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+             const Expression& hamiltonian) {
+  Proof proof = prove_method(mechanics, scheme, program.plan.sweeps);
   proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
   return proof;
 }
