@@ -6,13 +6,13 @@
 namespace hamgen {
 
 Scheme raise_order(Scheme scheme, int order) {
+  if (order == scheme.order) return scheme;
   auto* member = std::get_if<Member>(&scheme.method);
   if (member == nullptr) {
     throw UsageError(fmt::format("--order {}: {} has order {}, and only the members of the family can be "
                                  "raised\nhelp: leave --scheme out, or name a member of the family",
                                  order, scheme.name, scheme.order));
   }
-  if (order == scheme.order) return scheme;
   if (order < scheme.order || order > kHighestOrder) {
     throw UsageError(fmt::format("--order {}: this member has order {}; it can be raised to at most {}",
                                  order, scheme.order, kHighestOrder));
