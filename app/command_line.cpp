@@ -65,11 +65,11 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   command.add_option("MODEL", options.model, "a .ham file")->required();
   command.add_option("--scheme", options.scheme, "a method by its name, see `hamgen list schemes`")
       ->type_name("NAME");
-  command.add_option("--alpha", options.alpha, "")
-      ->type_name("X");
-  command.add_option("--beta", options.beta, "")
-      ->type_name("X");
-  command.add_option("--gamma", options.gamma, "member of the family: --beta=-1/400*h; default 1/2, 0, 0")
+  command.add_option("--alpha", options.alpha, "")->type_name("X");
+  command.add_option("--beta", options.beta, "")->type_name("X");
+  command
+      .add_option("--gamma", options.gamma,
+                  "member of the family: --beta=-1/400*h; default 1/2, 0, 0")
       ->type_name("X");
   command.add_option("--order", options.order, "order of a member by generating function, to 10")
       ->type_name("R");
@@ -160,8 +160,8 @@ Request request_of(const MethodOptions& options) {
   request.beta = options.beta;
   request.gamma = options.gamma;
   if (!options.order.empty()) {
-    request.order =
-        static_cast<int>(std::min(integer_value("--order " + options.order, options.order, 1), 99L));
+    request.order = static_cast<int>(
+        std::min(integer_value("--order " + options.order, options.order, 1), 99L));
   }
   request.gauge = options.gauge;
   for (const std::string& text : options.reference) {

@@ -111,8 +111,9 @@ Command add_generate(CLI::App& app) {
   parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
       ->type_name("NAME");
   parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
-  parser->add_option("--require", options->require,
-                     "only if proved: symplectic,symmetric,order:P,conserves:NAME")
+  parser
+      ->add_option("--require", options->require,
+                   "only if proved: symplectic,symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
   parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
   parser->add_flag("--check", options->check,

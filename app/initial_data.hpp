@@ -15,14 +15,14 @@ namespace hamgen::app {
 // Throws UsageError with an example if something is missing.
 [[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request);
 
-// A locally exact gauge is taken at the run's own parameters, where the user has not said otherwise:
-// those that are not the model's defaults are added to the request's reference.
+// A locally exact gauge is taken at the run's own parameters, where the user has not said
+// otherwise: those that are not the model's defaults are added to the request's reference.
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request);
 
 // The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs
-// it, is computed by the plugin.  Throws UsageError if the run would change a folded parameter or its
-// step is at a pole of the scheme, and
-// ModelError naming the component if H or its gradient is not defined at the initial state.
+// it, is computed by the plugin.  Throws UsageError if the run would change a folded parameter or
+// its step is at a pole of the scheme, and ModelError naming the component if H or its gradient is
+// not defined at the initial state.
 [[nodiscard]] runtime::InitialValues initial_values(const PluginSource& plugin,
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);

@@ -13,8 +13,8 @@
 namespace hamgen::app {
 namespace {
 
-// Solving for M leaves some 2n rounding errors in entries of size |M|, and M^T J M multiplies two of
-// them: scaled by |M|^2 that is far below this for the sizes that are written out.
+// Solving for M leaves some 2n rounding errors in entries of size |M|, and M^T J M multiplies two
+// of them: scaled by |M|^2 that is far below this for the sizes that are written out.
 constexpr double kRoundOff = 1e-13;
 constexpr int kStates = 100;
 
@@ -105,8 +105,8 @@ Proof measure(const SourceText& source, Request request, const std::string& scen
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "");
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   const hamgen_plugin& step = loaded.library->plugin();
-  const std::string where = fmt::format("at {} states and parameters around the scene, h = {:g}",
-                                        kStates, start.h.hi);
+  const std::string where =
+      fmt::format("at {} states and parameters around the scene, h = {:g}", kStates, start.h.hi);
   Proof proof;
   if (step.tangent == nullptr) {
     proof.push_back({"tangent map", Verdict::not_decided,
@@ -128,7 +128,8 @@ Proof measure(const SourceText& source, Request request, const std::string& scen
         continue;
       }
       defect = std::max(defect, symplectic_defect(matrix, n));
-      if (step.tangent(z.parameters.data(), -start.h.hi, end.data(), back.data(), matrix.data()) != 0) {
+      if (step.tangent(z.parameters.data(), -start.h.hi, end.data(), back.data(), matrix.data()) !=
+          0) {
         reversal = std::max(reversal, reversal_residual(z.state, back));
       }
     }

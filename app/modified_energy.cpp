@@ -28,7 +28,7 @@ struct WatchedOrbit {
 
 // The orbit in quad precision: what is left of the variation is that of the step, not of rounding.
 WatchedOrbit watch_orbit(const SourceText& source, Request request, const ModifiedOptions& options,
-                  const std::vector<Expression>& terms) {
+                         const std::vector<Expression>& terms) {
   request.scalar = "quad";
   const Model model = read_request(source, request);
   SceneRequest scene_request;
@@ -88,9 +88,10 @@ ModifiedReport modified_report(const SourceText& source, const Request& request,
   }
   if (options.scene.empty()) return report;
   const WatchedOrbit orbit = watch_orbit(source, request, options, terms);
-  report.text += fmt::format("along scene {}, h = {}, {} steps in quad precision:\n"
-                             "  terms to  max |Ht - Ht(0)|\n",
-                             options.scene, orbit.h, orbit.steps);
+  report.text += fmt::format(
+      "along scene {}, h = {}, {} steps in quad precision:\n"
+      "  terms to  max |Ht - Ht(0)|\n",
+      options.scene, orbit.h, orbit.steps);
   report.json["scene"] = options.scene;
   report.json["h"] = orbit.h;
   report.json["steps"] = orbit.steps;

@@ -71,10 +71,11 @@ std::string energy_text(const RunReport& report) {
                   energy.max_error(), energy.spread(), energy.final_error());
   // A step across a singularity, or far too large, solves its equations and means nothing.
   constexpr double kMeaningless = 10.0;
-  const bool lost = energy.initial != 0.0 &&
-                    energy.max_error() > kMeaningless * std::fabs(energy.initial);
-  return lost ? text + " - warning: far more than H(0) itself, so the trajectory is not to be "
-                       "trusted; try a smaller step"
+  const bool lost =
+      energy.initial != 0.0 && energy.max_error() > kMeaningless * std::fabs(energy.initial);
+  return lost ? text +
+                    " - warning: far more than H(0) itself, so the trajectory is not to be "
+                    "trusted; try a smaller step"
               : text;
 }
 

@@ -61,9 +61,9 @@ bool suits(std::string_view name, const Mechanics& mechanics) {
 Request request_of_spec(std::string_view spec, const Request& base) {
   Request request = base;
   const std::map<std::string, std::string Request::*> fields = {
-      {"alpha", &Request::alpha},   {"beta", &Request::beta},     {"gamma", &Request::gamma},
-      {"gauge", &Request::gauge},
-      {"solver", &Request::solver}, {"scalar", &Request::scalar}, {"scheme", &Request::scheme}};
+      {"alpha", &Request::alpha},  {"beta", &Request::beta},     {"gamma", &Request::gamma},
+      {"gauge", &Request::gauge},  {"solver", &Request::solver}, {"scalar", &Request::scalar},
+      {"scheme", &Request::scheme}};
   const std::vector<std::string> pieces = split_outside_parentheses(spec, ':');
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const std::size_t equals = pieces[i].find('=');

@@ -67,11 +67,11 @@ void run_all(StressGrid& grid, const StressLimits& limits, StressMap& map, bool 
   while (finished < map.cells.size() && !interrupt_flag()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (quiet) continue;
-    bar.update({.steps_done = static_cast<long long>(finished.load()),
-                .steps = static_cast<long long>(map.cells.size()),
-                .seconds =
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-                .show_rate = false});
+    bar.update(
+        {.steps_done = static_cast<long long>(finished.load()),
+         .steps = static_cast<long long>(map.cells.size()),
+         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+         .show_rate = false});
   }
   bar.remove();
 }
@@ -87,9 +87,10 @@ void write_stress_files(const StressOptions& options, const StressMap& map) {
     write(script, stress_script(map, picture.string()));
     const std::string problem = run_gnuplot(script);
     if (!problem.empty())
-      print_error(fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                              "gnuplot {}\n",
-                              problem, script.string()));
+      print_error(
+          fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
+                      "gnuplot {}\n",
+                      problem, script.string()));
     else if (!options.quiet)
       print_error(fmt::format("{}\n", picture.string()));
   };

@@ -32,12 +32,12 @@ struct StressCell {
   double h = 0.0;
   long steps_done = 0;
   StressOutcome outcome = StressOutcome::done;
-  bool bounded = true;             // no component grew beyond 1000 times the largest at the start, or 1
-  double energy_scale = 0.0;       // see energy_scale_of
-  double energy_error = 0.0;       // max |H - H(0)| over the states that were reached
-  int iterations_median = 0;       // a step
+  bool bounded = true;        // no component grew beyond 1000 times the largest at the start, or 1
+  double energy_scale = 0.0;  // see energy_scale_of
+  double energy_error = 0.0;  // max |H - H(0)| over the states that were reached
+  int iterations_median = 0;  // a step
   int iterations_max = 0;
-  std::optional<double> h_omega;   // of the fastest linear oscillation at the initial state
+  std::optional<double> h_omega;  // of the fastest linear oscillation at the initial state
   std::optional<bool> linear_bounded;
 };
 
@@ -46,8 +46,8 @@ struct StressLimits {
   std::chrono::duration<double> time{1.0};
 };
 
-// The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what an
-// energy error is compared with, even if H happens to vanish there.
+// The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what
+// an energy error is compared with, even if H happens to vanish there.
 [[nodiscard]] double energy_scale_of(const runtime::Library& library,
                                      const std::vector<double>& parameters,
                                      const std::vector<double>& state);
@@ -63,9 +63,9 @@ void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
                                                         const std::vector<double>& parameters,
                                                         const std::vector<double>& state);
 
-// A member (alpha, beta, gamma) of the family on H = p^2/2 + omega^2 q^2/2: the powers of its matrix
-// are bounded iff this is positive.  With X = (1 + h beta)(1 - h omega^2 gamma) and
-// D = X + h^2 omega^2 alpha (1 - alpha) it is the smaller of D and X - h^2 omega^2 (alpha - 1/2)^2.
+// A member (alpha, beta, gamma) of the family on H = p^2/2 + omega^2 q^2/2: the powers of its
+// matrix are bounded iff this is positive.  With X = (1 + h beta)(1 - h omega^2 gamma) and D = X +
+// h^2 omega^2 alpha (1 - alpha) it is the smaller of D and X - h^2 omega^2 (alpha - 1/2)^2.
 [[nodiscard]] double linear_margin(double h, double omega_squared, double alpha, double beta,
                                    double gamma);
 
@@ -77,8 +77,8 @@ struct StressAxis {
 
 struct StressMap {
   std::string model, scene, method;
-  std::vector<StressAxis> axes;   // one or two
-  std::vector<StressCell> cells;  // the first axis runs fastest
+  std::vector<StressAxis> axes;                     // one or two
+  std::vector<StressCell> cells;                    // the first axis runs fastest
   std::vector<std::array<double, 2>> linear_bound;  // points of its border in the plane of the axes
   long steps = 0;
 

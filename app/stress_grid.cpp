@@ -33,9 +33,10 @@ StressAxis axis_of(const std::string& text) {
   }
   const std::string option = "--vary " + text;
   if (parts.size() < 2 || parts.size() > 3)
-    throw UsageError(fmt::format("{}: not a range\nhelp: write --vary {}=LOW:HIGH or "
-                                 "--vary {}=LOW:HIGH:COUNT",
-                                 option, name, name));
+    throw UsageError(
+        fmt::format("{}: not a range\nhelp: write --vary {}=LOW:HIGH or "
+                    "--vary {}=LOW:HIGH:COUNT",
+                    option, name, name));
   const double low = constant_of(option, parts[0]);
   const double high = constant_of(option, parts[1]);
   if (!(low < high)) throw UsageError(fmt::format("{}: the range is empty", option));
@@ -43,14 +44,14 @@ StressAxis axis_of(const std::string& text) {
     throw UsageError(fmt::format("{}: a step is more than 0 times the scene's", option));
   StressAxis axis{.label = name, .logarithmic = low > 0.0 && high / low >= 20.0};
   const double span = axis.logarithmic ? std::log10(high / low) : high - low;
-  const long count = parts.size() == 3 ? integer_value(option, parts[2], 2)
+  const long count = parts.size() == 3  ? integer_value(option, parts[2], 2)
                      : axis.logarithmic ? std::lround(4.0 * span) + 1
                                         : 21;
   if (count > 1000) throw UsageError(fmt::format("{}: more than 1000 values", option));
   for (long i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);
-    axis.values.push_back(i == 0           ? low
-                          : i + 1 == count ? high
+    axis.values.push_back(i == 0             ? low
+                          : i + 1 == count   ? high
                           : axis.logarithmic ? low * std::pow(10.0, part * span)
                                              : low + part * span);
   }
@@ -74,7 +75,9 @@ std::vector<StressAxis> axes_of(const StressOptions& options) {
 }
 
 bool mentions_word(const std::string& text, const std::string& word) {
-  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
   for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) {
     const bool begins = at == 0 || !is_letter(text[at - 1]);
     const std::size_t end = at + word.size();
@@ -86,15 +89,17 @@ bool mentions_word(const std::string& text, const std::string& word) {
 // The axis alpha varies --alpha itself, if no expression mentions it.
 MethodOptions with_run_time_members(MethodOptions method, const std::vector<StressAxis>& axes) {
   const std::string texts = method.alpha + "," + method.beta + "," + method.gamma;
-  for (const auto& [name, value] : {std::pair{"alpha", &method.alpha}, std::pair{"beta", &method.beta},
-                                    std::pair{"gamma", &method.gamma}}) {
+  for (const auto& [name, value] :
+       {std::pair{"alpha", &method.alpha}, std::pair{"beta", &method.beta},
+        std::pair{"gamma", &method.gamma}}) {
     const bool varied = std::ranges::any_of(
         axes, [name = std::string(name)](const auto& axis) { return axis.label == name; });
     if (!varied || mentions_word(texts, name)) continue;
     if (!value->empty())
-      throw UsageError(fmt::format("--vary {0} and --{0} {1}: both choose {0}\nhelp: leave one out, "
-                                   "or use {0} in the expression",
-                                   name, *value));
+      throw UsageError(
+          fmt::format("--vary {0} and --{0} {1}: both choose {0}\nhelp: leave one out, "
+                      "or use {0} in the expression",
+                      name, *value));
     *value = name;
   }
   return method;
@@ -106,8 +111,8 @@ std::optional<double> member_number(const std::string& text, double fallback,
                                     const std::map<std::string, Rational>& values) {
   if (text.empty()) return fallback;
   try {
-    return to_double(
-        evaluate_constant(read_expression("member", text, names), make_source("member", text), values));
+    return to_double(evaluate_constant(read_expression("member", text, names),
+                                       make_source("member", text), values));
   } catch (const ModelError&) {
     return std::nullopt;
   }
@@ -194,7 +199,8 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
   double alpha = 0.5;
   if (method.scheme == "symplectic-euler-a") alpha = 0.0;
   if (method.scheme == "symplectic-euler-b") alpha = 1.0;
-  const bool is_member = method.scheme.empty() || alpha != 0.5 || method.scheme == "implicit-midpoint";
+  const bool is_member =
+      method.scheme.empty() || alpha != 0.5 || method.scheme == "implicit-midpoint";
   if (!is_member) return std::nullopt;
   const SceneValues scene = scene_at(at);
   std::vector<std::string> names = element_names(plugin_.model.parameters);
@@ -240,7 +246,8 @@ std::vector<std::array<double, 2>> StressGrid::linear_bound() {
       if (!there) return;
       ((*there > 0.0) == (*left > 0.0) ? from : to) = middle;
     }
-    points.push_back({value(axes_[0], along_y ? fixed : from), value(axes_[1], along_y ? from : fixed)});
+    points.push_back(
+        {value(axes_[0], along_y ? fixed : from), value(axes_[1], along_y ? from : fixed)});
   };
   for (int i = 0; i <= across; ++i) {
     for (int j = 0; j < up; ++j)

@@ -47,10 +47,9 @@ nlohmann::ordered_json number_or_null(double value) {
 }  // namespace
 
 std::string stress_text(const StressMap& map) {
-  std::string text =
-      fmt::format("{}{}: {}, {} cells of at most {} steps\n", map.model,
-                  map.scene.empty() ? "" : ", scene " + map.scene, map.method, map.cells.size(),
-                  map.steps);
+  std::string text = fmt::format("{}{}: {}, {} cells of at most {} steps\n", map.model,
+                                 map.scene.empty() ? "" : ", scene " + map.scene, map.method,
+                                 map.cells.size(), map.steps);
   text += "  across      " + axis_text(map.axes[0]) + "\n";
   if (map.axes.size() > 1) text += "  down        " + axis_text(map.axes[1]) + "\n";
   text += "  energy      digits: error 10^-d of its scale; * below 1e-10, + above 0.1\n";
@@ -77,26 +76,27 @@ std::string stress_text(const StressMap& map) {
     median = std::max(median, cell.iterations_median);
     most = std::max(most, cell.iterations_max);
   }
-  return text + fmt::format("  iterations a step: at most {} in the median of a cell, {} in one "
-                            "step\n",
-                            median, most);
+  return text + fmt::format(
+                    "  iterations a step: at most {} in the median of a cell, {} in one "
+                    "step\n",
+                    median, most);
 }
 
 std::string stress_csv(const StressMap& map) {
   std::string text = map.axes[0].label;
   if (map.axes.size() > 1) text += "," + map.axes[1].label;
-  text += ",step_size,steps_done,outcome,bounded,energy_error,energy_scale,iterations_median,"
-          "iterations_max,h_omega,linear_bounded\n";
+  text +=
+      ",step_size,steps_done,outcome,bounded,energy_error,energy_scale,iterations_median,"
+      "iterations_max,h_omega,linear_bounded\n";
   for (const StressCell& cell : map.cells) {
     text += runtime::number_text(cell.at[0]);
     if (map.axes.size() > 1) text += "," + runtime::number_text(cell.at[1]);
-    text += fmt::format(",{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h),
-                        cell.steps_done, to_text(cell.outcome), cell.bounded ? "yes" : "no",
-                        runtime::number_text(cell.energy_error),
-                        runtime::number_text(cell.energy_scale), cell.iterations_median,
-                        cell.iterations_max,
-                        cell.h_omega ? runtime::number_text(*cell.h_omega) : "",
-                        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "");
+    text += fmt::format(
+        ",{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h), cell.steps_done,
+        to_text(cell.outcome), cell.bounded ? "yes" : "no", runtime::number_text(cell.energy_error),
+        runtime::number_text(cell.energy_scale), cell.iterations_median, cell.iterations_max,
+        cell.h_omega ? runtime::number_text(*cell.h_omega) : "",
+        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "");
   }
   return text;
 }
@@ -107,23 +107,25 @@ std::string stress_json(const StressMap& map) {
     nlohmann::ordered_json at;
     for (std::size_t axis = 0; axis < map.axes.size(); ++axis)
       at[map.axes[axis].label] = cell.at[axis];
-    cells.push_back({{"at", at},
-                     {"h", cell.h},
-                     {"steps_done", cell.steps_done},
-                     {"outcome", to_text(cell.outcome)},
-                     {"bounded", cell.bounded},
-                     {"energy_error", number_or_null(cell.energy_error)},
-                     {"energy_scale", number_or_null(cell.energy_scale)},
-                     {"iterations_median", cell.iterations_median},
-                     {"iterations_max", cell.iterations_max},
-                     {"h_omega", cell.h_omega ? number_or_null(*cell.h_omega)
-                                              : nlohmann::ordered_json(nullptr)},
-                     {"linear_bounded", cell.linear_bounded
-                                            ? nlohmann::ordered_json(*cell.linear_bounded)
-                                            : nlohmann::ordered_json(nullptr)}});
+    cells.push_back(
+        {{"at", at},
+         {"h", cell.h},
+         {"steps_done", cell.steps_done},
+         {"outcome", to_text(cell.outcome)},
+         {"bounded", cell.bounded},
+         {"energy_error", number_or_null(cell.energy_error)},
+         {"energy_scale", number_or_null(cell.energy_scale)},
+         {"iterations_median", cell.iterations_median},
+         {"iterations_max", cell.iterations_max},
+         {"h_omega",
+          cell.h_omega ? number_or_null(*cell.h_omega) : nlohmann::ordered_json(nullptr)},
+         {"linear_bounded", cell.linear_bounded ? nlohmann::ordered_json(*cell.linear_bounded)
+                                                : nlohmann::ordered_json(nullptr)}});
   }
-  const nlohmann::ordered_json json = {{"model", map.model},  {"scene", map.scene},
-                                       {"method", map.method}, {"steps", map.steps},
+  const nlohmann::ordered_json json = {{"model", map.model},
+                                       {"scene", map.scene},
+                                       {"method", map.method},
+                                       {"steps", map.steps},
                                        {"cells", cells}};
   return json.dump(2) + "\n";
 }

@@ -53,7 +53,8 @@ std::vector<double> borders(const StressAxis& axis) {
   const std::vector<double>& v = axis.values;
   const double edge = v.size() > 1 ? map(v[1]) - map(v[0]) : 1.0;
   std::vector<double> result = {back(map(v.front()) - 0.5 * edge)};
-  for (std::size_t i = 1; i < v.size(); ++i) result.push_back(back(0.5 * (map(v[i - 1]) + map(v[i]))));
+  for (std::size_t i = 1; i < v.size(); ++i)
+    result.push_back(back(0.5 * (map(v[i - 1]) + map(v[i]))));
   const double last = v.size() > 1 ? map(v.back()) - map(v[v.size() - 2]) : 1.0;
   result.push_back(back(map(v.back()) + 0.5 * last));
   return result;
@@ -104,22 +105,23 @@ std::string stress_script(const StressMap& map, const std::string& output) {
       if (shade_of(map.cells[cell]) != i) continue;
       const std::size_t column = cell % map.columns();
       const std::size_t row = cell / map.columns();
-      data += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n",
-                          map.axes[0].values[column], down.values[row], x[column], x[column + 1],
-                          y[row], y[row + 1]);
+      data += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", map.axes[0].values[column],
+                          down.values[row], x[column], x[column + 1], y[row], y[row + 1]);
     }
     if (data.empty()) continue;
     text += fmt::format("$cells_{} << EOD\n{}EOD\n", i, data);
-    plots += fmt::format("{}$cells_{} using 1:2:3:4:5:6 with boxxyerror fs solid 1 noborder lc rgb "
-                         "'{}' title '{}'",
-                         plots.empty() ? "" : ", \\\n     ", i, shade(i).colour, shade(i).label);
+    plots += fmt::format(
+        "{}$cells_{} using 1:2:3:4:5:6 with boxxyerror fs solid 1 noborder lc rgb "
+        "'{}' title '{}'",
+        plots.empty() ? "" : ", \\\n     ", i, shade(i).colour, shade(i).label);
   }
   if (!map.linear_bound.empty()) {
     text += "$bound << EOD\n";
     for (const auto& point : map.linear_bound)
       text += fmt::format("{:.9g} {:.9g}\n", point[0], point[1]);
     text += "EOD\n";
-    plots += ", \\\n     $bound using 1:2 with points pt 7 ps 0.35 lc rgb 'black' title 'linear bound'";
+    plots +=
+        ", \\\n     $bound using 1:2 with points pt 7 ps 0.35 lc rgb 'black' title 'linear bound'";
   }
   return text + "plot " + plots + "\nunset output\n";
 }

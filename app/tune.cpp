@@ -56,8 +56,7 @@ GaugeForm form_of(const std::string& text) {
   if (text == "scalar") return GaugeForm::scalar;
   if (text == "diagonal") return GaugeForm::diagonal;
   if (text == "matrix") return GaugeForm::matrix;
-  throw UsageError(
-      fmt::format("--gauge-form {}: there are scalar, diagonal and matrix", text));
+  throw UsageError(fmt::format("--gauge-form {}: there are scalar, diagonal and matrix", text));
 }
 
 // The run ends after a whole number of steps: h stays, the time gives way.
@@ -73,8 +72,7 @@ TuneSetting tune_setting(const TuneOptions& options) {
       setting.request.initial.push_back(std::move(assignment));
   }
   const Model model = read_model(setting.source, set.sizes);
-  setting.shape = {.form = form_of(options.form),
-                   .n = static_cast<int>(degrees_of_freedom(model))};
+  setting.shape = {.form = form_of(options.form), .n = static_cast<int>(degrees_of_freedom(model))};
   if (setting.shape.n == 0) throw UsageError(fmt::format("{} has no coordinates", options.model));
   if (!options.time.empty()) setting.request.steps = "1";
   if (options.h.empty()) {
@@ -91,9 +89,10 @@ TuneSetting tune_setting(const TuneOptions& options) {
   if (!options.time.empty()) setting.time = constant_option("--time", options.time);
   const double steps = to_double(Rational(setting.time / h));
   if (!(steps > 0.0) || steps > 1e9)
-    throw UsageError(fmt::format("a time of {:g} with h = {:g} makes {:g} steps\n"
-                                 "help: give another --time or --h",
-                                 to_double(setting.time), to_double(h), steps));
+    throw UsageError(
+        fmt::format("a time of {:g} with h = {:g} makes {:g} steps\n"
+                    "help: give another --time or --h",
+                    to_double(setting.time), to_double(h), steps));
   setting.steps = std::max(1L, std::lround(steps));
   if (options.time.empty()) setting.steps = std::min(setting.steps, kMostTuningSteps);
   setting.time = h * setting.steps;
@@ -127,7 +126,9 @@ double state_distance(const std::vector<runtime::Wide>& x, const std::vector<run
 class Tuner {
  public:
   Tuner(const TuneOptions& options, const TuneSetting& setting)
-      : options_(options), setting_(setting), h_(to_double(*setting.scene.h)),
+      : options_(options),
+        setting_(setting),
+        h_(to_double(*setting.scene.h)),
         integrator_(setting.source, setting.base, setting.shape, setting.request,
                     options.compiler) {}
 
@@ -159,7 +160,8 @@ class Tuner {
   // The plane around the analytic pair: from 0 to twice its values, or as far as was asked.
   [[nodiscard]] EnergyMap map() const {
     const std::vector<double>& pair = report_.gauges[1].coefficients;
-    const MapAxis b = axis("--map-beta", options_.map_beta, pair[0], std::fabs(orbit_.initial_energy));
+    const MapAxis b =
+        axis("--map-beta", options_.map_beta, pair[0], std::fabs(orbit_.initial_energy));
     const MapAxis c = axis("--map-gamma", options_.map_gamma, pair[1], 1.0);
     runtime::ProgressBar bar("map");
     const auto progress = bar_of(bar, options_.quiet);
@@ -181,8 +183,8 @@ class Tuner {
     report_.initial_energy = orbit_.initial_energy;
     bar.remove();
     if (orbit_.failure.empty()) return true;
-    print_error(fmt::format("hamgen: the orbit cannot be followed: {}\nhelp: try a shorter --time\n",
-                            orbit_.failure));
+    print_error(fmt::format(
+        "hamgen: the orbit cannot be followed: {}\nhelp: try a shorter --time\n", orbit_.failure));
     return false;
   }
 
@@ -263,19 +265,20 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
   const std::string title = fmt::format("{}{}: h = {}, {} steps", report.model,
                                         report.scene.empty() ? "" : ", scene " + report.scene,
                                         runtime::number_text(report.h), report.steps);
-  const std::string header = fmt::format(
-      "# made by   hamgen " HAMGEN_VERSION "\n# {}\n# beta = b*h, gamma = c*h; energy_spread is max "
-      "H - min H, empty where the run failed\n",
-      title);
+  const std::string header = fmt::format("# made by   hamgen " HAMGEN_VERSION
+                                         "\n# {}\n# beta = b*h, gamma = c*h; energy_spread is max "
+                                         "H - min H, empty where the run failed\n",
+                                         title);
   runtime::atomic_write(csv, map_csv(map, header));
   runtime::atomic_write(script, map_script(map, title, picture.string()));
   const std::string problem = run_gnuplot(script);
   std::error_code ignored;
   if (!problem.empty()) fs::remove(picture, ignored);  // what gnuplot began
   if (!problem.empty())
-    print_error(fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                            "gnuplot {}\n",
-                            problem, script.string()));
+    print_error(
+        fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
+                    "gnuplot {}\n",
+                    problem, script.string()));
   if (options.quiet) return;
   print_error(fmt::format("{}\n{}\n", csv.string(), script.string()));
   if (problem.empty()) print_error(fmt::format("{}\n", picture.string()));
@@ -305,8 +308,8 @@ int run_tune(const TuneOptions& options) {
 
 Command add_tune(CLI::App& app) {
   const auto options = std::make_shared<TuneOptions>();
-  CLI::App* parser = app.add_subcommand(
-      "tune", "finds constant beta, gamma that flatten the energy of one orbit");
+  CLI::App* parser =
+      app.add_subcommand("tune", "finds constant beta, gamma that flatten the energy of one orbit");
   parser->add_option("MODEL", options->model, "a .ham file")->required();
   parser->add_option("--scene", options->scene, "of the model; default: its first")
       ->type_name("NAME");
@@ -323,7 +326,8 @@ Command add_tune(CLI::App& app) {
       ->type_name("N");
   parser->add_flag("--polish", options->polish, "then minimise the measured energy spread");
   parser->add_option("--scalar", options->scalar, "of the runs; default double")->type_name("TYPE");
-  parser->add_option("--map", options->map, "energy spread over the beta, gamma plane: CSV, picture")
+  parser
+      ->add_option("--map", options->map, "energy spread over the beta, gamma plane: CSV, picture")
       ->type_name("FILE");
   parser->add_option("--grid", options->grid, "cells a side of the map; default 41")
       ->type_name("N");

@@ -15,15 +15,16 @@ struct GaugeShape {
   GaugeForm form = GaugeForm::scalar;
   int n = 1;  // degrees of freedom
 
-  [[nodiscard]] std::size_t block_size() const;  // 1, n, or n (n + 1)/2 by rows from the diagonal on
+  [[nodiscard]] std::size_t block_size()
+      const;  // 1, n, or n (n + 1)/2 by rows from the diagonal on
   [[nodiscard]] std::size_t size() const { return 2 * block_size(); }
 };
 
 using SquareMatrix = std::vector<std::vector<double>>;
 
 // B (or G) of the coefficients, n x n.
-[[nodiscard]] SquareMatrix block_of(const GaugeShape& shape, const std::vector<double>& coefficients,
-                                    bool is_gamma);
+[[nodiscard]] SquareMatrix block_of(const GaugeShape& shape,
+                                    const std::vector<double>& coefficients, bool is_gamma);
 
 // The functions of the energy's h^2 term that the coefficients multiply, at a state with this
 // gradient (H_q, then H_p): (1/2) grad H^T C1 J grad H = (1/2) (H_q^T G H_q - H_p^T B H_p).

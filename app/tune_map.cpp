@@ -19,7 +19,7 @@ namespace {
 
 // Applies `function` to 0 .. count-1 on all processors; the caller's thread looks on.
 void for_all_cells(std::size_t count, const std::function<void(std::size_t)>& function,
-             const std::function<void(std::size_t)>& on_progress) {
+                   const std::function<void(std::size_t)>& on_progress) {
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> done{0};
   std::exception_ptr failure;

@@ -13,10 +13,10 @@
 namespace hamgen::app {
 
 struct Measurement {
-  std::string failure;                // empty if all steps were done
-  double energy_spread = 0.0;         // max H - min H over all states, the first included
-  double energy_error = 0.0;          // max |H - H(0)|
-  std::vector<runtime::Wide> state;   // the last
+  std::string failure;               // empty if all steps were done
+  double energy_spread = 0.0;        // max H - min H over all states, the first included
+  double energy_error = 0.0;         // max |H - H(0)|
+  std::vector<runtime::Wide> state;  // the last
 };
 
 // A model compiled with beta = h B, gamma = h G; the same code for all coefficients.

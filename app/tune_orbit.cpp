@@ -81,11 +81,11 @@ Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
   const runtime::Wide distance = wide(request.time / request.samples);
   for (long i = 0; i < request.samples; ++i) {
     orbit.points.push_back(point_at(*library, parameters, rounded(at.state)));
-    const runtime::Extrapolation next =
-        runtime::extrapolate(library, at, distance, options);
+    const runtime::Extrapolation next = runtime::extrapolate(library, at, distance, options);
     if (!next.failure.empty()) {
-      orbit.failure = fmt::format("it fails after t = {:.6g}: {}",
-                                  static_cast<double>(i) * distance.hi + next.reached, next.failure);
+      orbit.failure =
+          fmt::format("it fails after t = {:.6g}: {}",
+                      static_cast<double>(i) * distance.hi + next.reached, next.failure);
       return orbit;
     }
     at.state = next.state;

@@ -13,15 +13,15 @@
 namespace hamgen::app {
 
 struct OrbitPoint {
-  std::vector<double> gradient;     // H_q, then H_p
-  double curvature = 0.0;           // H''(J grad H, J grad H)
+  std::vector<double> gradient;                    // H_q, then H_p
+  double curvature = 0.0;                          // H''(J grad H, J grad H)
   SquareMatrix by_coordinates, by_momenta, mixed;  // H_qq, H_pp, H_qp
 };
 
 struct Orbit {
   std::vector<OrbitPoint> points;  // at equal distances of time
   double initial_energy = 0.0;
-  std::string failure;             // why there are none; empty if there are
+  std::string failure;  // why there are none; empty if there are
 };
 
 struct OrbitRequest {

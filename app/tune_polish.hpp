@@ -15,8 +15,8 @@ struct Polished {
 // Nelder and Mead's simplex method (NLopt) from `start`, whose k-th coefficient first moves by
 // steps[k]; started anew from what it found until that gains nothing.  A function value that is not
 // finite counts as very large.
-[[nodiscard]] Polished polish(
-    const std::function<double(const std::vector<double>&)>& function,
-    const std::vector<double>& start, const std::vector<double>& steps, int most_evaluations);
+[[nodiscard]] Polished polish(const std::function<double(const std::vector<double>&)>& function,
+                              const std::vector<double>& start, const std::vector<double>& steps,
+                              int most_evaluations);
 
 }  // namespace hamgen::app

@@ -103,24 +103,25 @@ std::string verdict_of(const TuneReport& report) {
 std::string tune_text(const TuneReport& report) {
   const GaugeTexts texts =
       gauge_texts(report.shape, number_texts(report.gauges.back().coefficients));
-  std::string text = fmt::format(
-      "{}{}: h = {}, t = {} ({} steps)\n", report.model,
-      report.scene.empty() ? "" : ", scene " + report.scene, runtime::number_text(report.h),
-      runtime::number_text(report.time), report.steps);
-  text += fmt::format("  fit         {}: {} of {} coefficients determined by {} points of the orbit\n",
-                      form_name(report.shape.form), report.rank, report.shape.size(), report.samples);
+  std::string text =
+      fmt::format("{}{}: h = {}, t = {} ({} steps)\n", report.model,
+                  report.scene.empty() ? "" : ", scene " + report.scene,
+                  runtime::number_text(report.h), runtime::number_text(report.time), report.steps);
+  text +=
+      fmt::format("  fit         {}: {} of {} coefficients determined by {} points of the orbit\n",
+                  form_name(report.shape.form), report.rank, report.shape.size(), report.samples);
   text += fmt::format("  beta        {}\n  gamma       {}\n", texts.beta, texts.gamma);
   text += tune_row(report, "", [](const TunedGauge& gauge) { return gauge.name; });
   text += tune_row(report, "energy spread, h^2 term",
-              [](const TunedGauge& gauge) { return tune_number(gauge.predicted_spread); });
+                   [](const TunedGauge& gauge) { return tune_number(gauge.predicted_spread); });
   text += tune_row(report, "energy spread, measured",
-              [](const TunedGauge& gauge) { return tune_number(measured_spread(gauge)); });
+                   [](const TunedGauge& gauge) { return tune_number(measured_spread(gauge)); });
   text += tune_row(report, "energy error, measured",
-              [](const TunedGauge& gauge) { return tune_number(measured_error(gauge)); });
+                   [](const TunedGauge& gauge) { return tune_number(measured_error(gauge)); });
   text += tune_row(report, "state error at the end",
-              [](const TunedGauge& gauge) { return tune_number(gauge.state_error); });
+                   [](const TunedGauge& gauge) { return tune_number(gauge.state_error); });
   text += tune_row(report, "linear part bounded for",
-              [](const TunedGauge& gauge) { return stability_text(gauge.stability); });
+                   [](const TunedGauge& gauge) { return stability_text(gauge.stability); });
   text += tune_failures(report);
   if (!report.reference_failure.empty())
     text += fmt::format("  no state errors: {}\n", report.reference_failure);

@@ -39,8 +39,8 @@ int verify(const VerifyOptions& options) {
     rows.push_back({{"property", finding.property},
                     {"verdict", to_text(finding.verdict)},
                     {"detail", finding.detail}});
-    const bool needed = finding.property == "emitted code" ||
-                        (by_default && finding.property == "symplectic");
+    const bool needed =
+        finding.property == "emitted code" || (by_default && finding.property == "symplectic");
     if (needed && finding.verdict == Verdict::refuted) holds = false;
   }
   std::string text = to_text(proof);
@@ -71,8 +71,9 @@ Command add_verify(CLI::App& app) {
   parser->add_option("--h", modified.h, "with this step; default: the scene's")->type_name("H");
   parser->add_flag("--latex", modified.latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
-  parser->add_option("--require", options->required,
-                     "else 5: symplectic (default),symmetric,order:P,conserves:NAME")
+  parser
+      ->add_option("--require", options->required,
+                   "else 5: symplectic (default),symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
   parser->add_flag("--json", options->json, "the findings as JSON");
   return {parser, [options] { return verify(*options); }};

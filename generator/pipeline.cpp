@@ -84,7 +84,8 @@ void fold_parameters(Model& model, const Request& request) {
 void check_gauge(const Request& request) {
   if (request.gauge.empty()) {
     if (request.reference.empty()) return;
-    throw UsageError("--reference says where --gauge locally-exact is exact, but there is no --gauge");
+    throw UsageError(
+        "--reference says where --gauge locally-exact is exact, but there is no --gauge");
   }
   if (request.gauge != "locally-exact") {
     throw UsageError(fmt::format("unknown gauge '{}'; there is locally-exact", request.gauge));
@@ -112,10 +113,9 @@ Scheme requested_member(const Model& model, const Mechanics& mechanics, const Re
   const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
   const std::string beta = request.beta.empty() ? "0" : request.beta;
   const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
-  Scheme scheme = family_member(mechanics.degrees_of_freedom,
-                                read_gauge_block(model, "alpha", alpha),
-                                read_gauge_block(model, "beta", beta),
-                                read_gauge_block(model, "gamma", gamma));
+  Scheme scheme =
+      family_member(mechanics.degrees_of_freedom, read_gauge_block(model, "alpha", alpha),
+                    read_gauge_block(model, "beta", beta), read_gauge_block(model, "gamma", gamma));
   scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
   return scheme;
 }
@@ -140,7 +140,8 @@ Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Reque
   if (mechanics.keeps_sums() && scheme.member().generating_order > 0) {
     throw UsageError(fmt::format(
         "--order {}: {} has {} degrees of freedom, more than the {} that are written out, and the "
-        "generating function couples them all\nhelp: a composition of the same order keeps the sums as "
+        "generating function couples them all\nhelp: a composition of the same order keeps the "
+        "sums as "
         "loops, see `hamgen list schemes`",
         request.order, mechanics.name, mechanics.degrees_of_freedom, kMostWrittenOut));
   }
@@ -176,11 +177,13 @@ struct Stages {
   Program program;
 };
 
-std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme& scheme, int count) {
+std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme& scheme,
+                                       int count) {
   if (!scheme.is_member() || mechanics.keeps_sums()) {
-    throw UsageError(fmt::format("the modified Hamiltonian is derived for members of the family and sums "
-                                 "that are written out, not for {} of {}",
-                                 scheme.name, mechanics.name));
+    throw UsageError(
+        fmt::format("the modified Hamiltonian is derived for members of the family and sums "
+                    "that are written out, not for {} of {}",
+                    scheme.name, mechanics.name));
   }
   const Member& member = scheme.member();
   // H_0, then from the order of the scheme on; of a symmetric one every other.
@@ -207,9 +210,10 @@ Stages run_stages(const SourceText& source, const Request& request) {
   // Loops know one way to solve and one set of parameters for all degrees of freedom.
   const Scheme* named = request.scheme.empty() ? nullptr : find_scheme(request.scheme);
   const bool any_solver = named != nullptr && !named->has_member();
-  const bool keep_sums = request.gauge.empty() && !request.observe_curvature &&
-                         (any_solver || request.solver.empty() || request.solver == "newton") &&
-                         (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
+  const bool keep_sums =
+      request.gauge.empty() && !request.observe_curvature &&
+      (any_solver || request.solver.empty() || request.solver == "newton") &&
+      (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
@@ -239,19 +243,20 @@ OutputFiles cmake_package(const SourceText& source, const Program& program,
                           const CppOptions& options) {
   const std::string name = stem(source.path);
   const std::string target = identifier(name);
-  return {{name + ".hpp", cpp_header(program, options)},
-          {"CMakeLists.txt", fmt::format("cmake_minimum_required(VERSION 3.20)\n"
-                                         "project({0} CXX)\n\n"
-                                         "add_library({0} INTERFACE)\n"
-                                         "target_include_directories({0} INTERFACE "
-                                         "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
-                                         "target_compile_features({0} INTERFACE cxx_std_20)\n"
-                                         "{1}",
-                                         target,
-                                         needs_eigen(program)
-                                             ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" +
-                                                   target + " INTERFACE Eigen3::Eigen)\n"
-                                             : "")}};
+  return {
+      {name + ".hpp", cpp_header(program, options)},
+      {"CMakeLists.txt",
+       fmt::format("cmake_minimum_required(VERSION 3.20)\n"
+                   "project({0} CXX)\n\n"
+                   "add_library({0} INTERFACE)\n"
+                   "target_include_directories({0} INTERFACE "
+                   "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
+                   "target_compile_features({0} INTERFACE cxx_std_20)\n"
+                   "{1}",
+                   target,
+                   needs_eigen(program) ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" +
+                                              target + " INTERFACE Eigen3::Eigen)\n"
+                                        : "")}};
 }
 
 }  // namespace
@@ -267,8 +272,9 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
   CppOptions options = cpp_options(source, stages.program, request);
   if (request.tangent && !options.tangent) {
-    throw UsageError("--tangent: the linearised step is written for single members of their own order "
-                     "whose sums are written out");
+    throw UsageError(
+        "--tangent: the linearised step is written for single members of their own order "
+        "whose sums are written out");
   }
   const Proof proof = prove(stages);
   require(proof, request.require);

@@ -19,31 +19,31 @@ enum class Scalar { float32, float64, extended, quad };
 
 // What the user asks of the generator.  Texts are as on the command line; empty means default.
 struct Request {
-  std::string scheme;                     // a name of `hamgen list schemes`; empty: the member below
-  std::string alpha, beta, gamma;         // number, expression in h, parameters, E0, or a list;
-                                          // by their own names: run-time parameters
-  int order = 0;                          // of a member by its generating function; 0: its own
-  std::string gauge;                      // locally-exact, instead of alpha, beta, gamma
+  std::string scheme;              // a name of `hamgen list schemes`; empty: the member below
+  std::string alpha, beta, gamma;  // number, expression in h, parameters, E0, or a list;
+                                   // by their own names: run-time parameters
+  int order = 0;                   // of a member by its generating function; 0: its own
+  std::string gauge;               // locally-exact, instead of alpha, beta, gamma
   // Where that gauge is exact: state (0 if not given) and parameters (the model's defaults).
   std::vector<std::pair<std::string, std::string>> reference;
   // Further names that alpha, beta, gamma may use: run-time parameters, 0 by default.
   std::vector<std::string> scheme_parameters;
-  bool observe_curvature = false;         // invariants are energy_curvature instead of the model's
-  std::string solver;                     // newton, fixed-point, sweeps:K
-  std::string scalar;                     // float, double, long-double, quad
-  std::string format;                     // cpp-header, cpp-plugin, cmake-package
-  std::string name_space;                 // of the emitted code; default MODEL::SCHEME
-  std::vector<std::string> fold;          // parameters to burn in
-  bool tangent = false;                   // the linearised step too, where it can be written
-  std::string require;                    // symplectic,symmetric,order:P,conserves:NAME,emitted-code
-  std::map<std::string, long> sizes;      // other integer constants than the file's
-  int watch_modified = 0;                 // terms of the modified Hamiltonian among the invariants,
-  Rational step;                          // at this h; as many for a symmetric step are even powers
-  std::string command;                    // as the user typed it, for the header; may be empty
+  bool observe_curvature = false;     // invariants are energy_curvature instead of the model's
+  std::string solver;                 // newton, fixed-point, sweeps:K
+  std::string scalar;                 // float, double, long-double, quad
+  std::string format;                 // cpp-header, cpp-plugin, cmake-package
+  std::string name_space;             // of the emitted code; default MODEL::SCHEME
+  std::vector<std::string> fold;      // parameters to burn in
+  bool tangent = false;               // the linearised step too, where it can be written
+  std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
+  std::map<std::string, long> sizes;  // other integer constants than the file's
+  int watch_modified = 0;             // terms of the modified Hamiltonian among the invariants,
+  Rational step;                      // at this h; as many for a symmetric step are even powers
+  std::string command;                // as the user typed it, for the header; may be empty
 };
 
-// The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma as
-// run-time parameters where the request uses them by name.
+// The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma
+// as run-time parameters where the request uses them by name.
 [[nodiscard]] Model read_request(const SourceText& source, const Request& request);
 
 // Throws ProofError if something required does not hold.
@@ -56,23 +56,23 @@ struct Request {
 // What algebra can say of the step: one finding a property.
 [[nodiscard]] Proof verify_step(const SourceText& source, const Request& request);
 
-// H_0, H_1, ... of the Hamiltonian sum of h^j H_j whose flow the step follows: `count` of them that do
-// not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.
+// H_0, H_1, ... of the Hamiltonian sum of h^j H_j whose flow the step follows: `count` of them that
+// do not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.
 [[nodiscard]] std::vector<Expression> modified_hamiltonian(const SourceText& source,
                                                            const Request& request, int count);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {
   Model model;
-  std::string text;                           // one translation unit, self-contained
-  std::string header_text;                    // the same mathematics as a header for the user
-  std::string scheme_name;                    // "implicit-midpoint", "alpha = 3/10, ..."
-  std::string solver;                         // "Newton of size 1, ..." one line
-  std::vector<std::string> left_out;          // what the planner left out and why
-  std::vector<std::string> parameter_names;   // run-time parameters in interface order
+  std::string text;                          // one translation unit, self-contained
+  std::string header_text;                   // the same mathematics as a header for the user
+  std::string scheme_name;                   // "implicit-midpoint", "alpha = 3/10, ..."
+  std::string solver;                        // "Newton of size 1, ..." one line
+  std::vector<std::string> left_out;         // what the planner left out and why
+  std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
-  bool needs_energy_parameter = false;        // the last parameter is E0
-  std::vector<double> singular_steps;         // the scheme has poles at their multiples
+  bool needs_energy_parameter = false;  // the last parameter is E0
+  std::vector<double> singular_steps;   // the scheme has poles at their multiples
   bool needs_eigen = false;
   bool needs_quadmath = false;
 };

@@ -62,8 +62,7 @@ Flattening flatten(const std::vector<double>& target,
   std::vector<std::vector<long double>> upper(count);  // upper[k][j] = q_j . f_k
   std::vector<bool> used(count, false);
   std::vector<long double> projections;  // q_j . (-target)
-  const bool is_flat =
-      length(rest) <= kRounding * length(Column(target.begin(), target.end()));
+  const bool is_flat = length(rest) <= kRounding * length(Column(target.begin(), target.end()));
   while (order.size() < count && !is_flat) {
     std::size_t best = count;
     long double largest = kRounding;

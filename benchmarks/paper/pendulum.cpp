@@ -97,8 +97,7 @@ Orbit integrate(const CompiledScheme& scheme, const Start& start, long steps,
 
 State exact_state(const CompiledScheme& midpoint, long double q, long double time) {
   const runtime::InitialValues start = initial_values(midpoint, {.q = q}, {});
-  const runtime::Extrapolation solution =
-      runtime::extrapolate(midpoint.library, start, wide(time));
+  const runtime::Extrapolation solution = runtime::extrapolate(midpoint.library, start, wide(time));
   if (!solution.failure.empty()) throw std::runtime_error("reference: " + solution.failure);
   return state_of(solution.state);
 }

@@ -8,7 +8,8 @@ namespace hamgen {
 namespace {
 
 // The nodes of e that depend on a variable, operands before what uses them.
-std::vector<Expression> dependent_nodes(const Expression& e, std::span<const Expression> variables) {
+std::vector<Expression> dependent_nodes(const Expression& e,
+                                        std::span<const Expression> variables) {
   std::map<const void*, bool> depends;
   for (const Expression& variable : variables) depends[variable.identity()] = true;
   std::vector<Expression> order(variables.begin(), variables.end());
@@ -72,9 +73,8 @@ std::vector<Expression> gradient(const Expression& e, std::span<const Expression
       case Kind::power: {
         const Expression& base = operands[0];
         const Expression& exponent = operands[1];
-        add(base, [&] {
-          return outer * exponent * Expression::power(base, exponent - Expression(1));
-        });
+        add(base,
+            [&] { return outer * exponent * Expression::power(base, exponent - Expression(1)); });
         add(exponent, [&] { return outer * node * Expression::apply("log", {base}); });
         break;
       }
@@ -84,7 +84,8 @@ std::vector<Expression> gradient(const Expression& e, std::span<const Expression
         }
         break;
       case Kind::number:
-      case Kind::symbol: break;
+      case Kind::symbol:
+        break;
     }
   }
   std::vector<Expression> result;

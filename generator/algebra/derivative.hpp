@@ -8,8 +8,8 @@
 
 namespace hamgen {
 
-// de/dx for every symbol x of `variables`.  The derivatives are accumulated from the result towards the
-// symbols, so that all of them together cost a small multiple of e, however many there are.
+// de/dx for every symbol x of `variables`.  The derivatives are accumulated from the result towards
+// the symbols, so that all of them together cost a small multiple of e, however many there are.
 [[nodiscard]] std::vector<Expression> gradient(const Expression& e,
                                                std::span<const Expression> variables);
 [[nodiscard]] Expression derivative(const Expression& e, const Expression& variable);

@@ -28,10 +28,13 @@ std::optional<Rational> evaluate(const Expression& e, const Values& values) {
       for (const Rational& operand : operands) product *= operand;
       return product;
     }
-    case Kind::power: return evaluate_power(operands[0], operands[1]);
-    case Kind::function: return evaluate_function(e.name(), operands);
+    case Kind::power:
+      return evaluate_power(operands[0], operands[1]);
+    case Kind::function:
+      return evaluate_function(e.name(), operands);
     case Kind::number:
-    case Kind::symbol: break;
+    case Kind::symbol:
+      break;
   }
   internal_error("handled above");
 }

@@ -25,7 +25,8 @@ std::size_t mix(std::size_t seed, std::size_t value) {
 
 std::size_t hash_number(const Rational& value) {
   const std::size_t over = mpz_get_ui(value.get_num_mpz_t());
-  return mix(mix(over, mpz_get_ui(value.get_den_mpz_t())), static_cast<std::size_t>(sgn(value) + 1));
+  return mix(mix(over, mpz_get_ui(value.get_den_mpz_t())),
+             static_cast<std::size_t>(sgn(value) + 1));
 }
 
 }  // namespace
@@ -342,12 +343,21 @@ std::vector<Expression> substitute(std::span<const Expression> values,
     Expression result = node;
     if (changed) {
       switch (node.kind()) {
-        case Kind::sum: result = Expression::sum(std::move(operands)); break;
-        case Kind::product: result = Expression::product(std::move(operands)); break;
-        case Kind::power: result = Expression::power(operands[0], operands[1]); break;
-        case Kind::function: result = Expression::apply(node.name(), std::move(operands)); break;
+        case Kind::sum:
+          result = Expression::sum(std::move(operands));
+          break;
+        case Kind::product:
+          result = Expression::product(std::move(operands));
+          break;
+        case Kind::power:
+          result = Expression::power(operands[0], operands[1]);
+          break;
+        case Kind::function:
+          result = Expression::apply(node.name(), std::move(operands));
+          break;
         case Kind::number:
-        case Kind::symbol: break;
+        case Kind::symbol:
+          break;
       }
     }
     done.emplace(node.identity(), result);
@@ -372,9 +382,8 @@ std::string parenthesised(std::string text, int level, int context) {
 std::string print_power(const Expression& base, const Rational& exponent) {
   if (exponent == 1) return print(base, level_product + 1);
   if (exponent == Rational(1, 2)) return "sqrt(" + print(base, level_sum) + ")";
-  const std::string text = exponent.get_den() == 1 && exponent > 0
-                               ? to_text(exponent)
-                               : "(" + to_text(exponent) + ")";
+  const std::string text =
+      exponent.get_den() == 1 && exponent > 0 ? to_text(exponent) : "(" + to_text(exponent) + ")";
   return print(base, level_atom) + "^" + text;
 }
 

@@ -24,9 +24,9 @@ enum class Kind : std::uint8_t { number, symbol, power, function, product, sum }
 
 class Expression {
  public:
-  Expression();               // 0
-  Expression(long value);     // NOLINT: numbers are expressions
-  Expression(Rational value); // NOLINT
+  Expression();                // 0
+  Expression(long value);      // NOLINT: numbers are expressions
+  Expression(Rational value);  // NOLINT
 
   // Symbols are ordered by rank, then by name.  "pi" is the circle's number.
   [[nodiscard]] static Expression symbol(std::string name, int rank = 0);
@@ -40,9 +40,9 @@ class Expression {
   [[nodiscard]] bool is_number() const { return kind() == Kind::number; }
   [[nodiscard]] bool is_zero() const;
   [[nodiscard]] bool is_one() const;
-  [[nodiscard]] const Rational& number() const;  // of a number
-  [[nodiscard]] const std::string& name() const; // of a symbol or a function
-  [[nodiscard]] int rank() const;                // of a symbol
+  [[nodiscard]] const Rational& number() const;   // of a number
+  [[nodiscard]] const std::string& name() const;  // of a symbol or a function
+  [[nodiscard]] int rank() const;                 // of a symbol
   // Terms, factors, {base, exponent} or arguments.
   [[nodiscard]] std::span<const Expression> operands() const;
   [[nodiscard]] std::size_t hash() const;

@@ -93,12 +93,21 @@ GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
     for (const Expression& operand : node.operands()) operands.push_back(self(self, operand));
     GiNaC::ex result;
     switch (node.kind()) {
-      case Kind::sum: result = GiNaC::add(operands); break;
-      case Kind::product: result = GiNaC::mul(operands); break;
-      case Kind::power: result = GiNaC::pow(operands[0], operands[1]); break;
-      case Kind::function: result = ginac_function(node.name(), operands); break;
+      case Kind::sum:
+        result = GiNaC::add(operands);
+        break;
+      case Kind::product:
+        result = GiNaC::mul(operands);
+        break;
+      case Kind::power:
+        result = GiNaC::pow(operands[0], operands[1]);
+        break;
+      case Kind::function:
+        result = ginac_function(node.name(), operands);
+        break;
       case Kind::number:
-      case Kind::symbol: internal_error("handled above");
+      case Kind::symbol:
+        internal_error("handled above");
     }
     done.emplace(node.identity(), result);
     return result;

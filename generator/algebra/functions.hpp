@@ -12,7 +12,7 @@
 namespace hamgen {
 
 struct Function {
-  std::string_view name;         // in the language, and in GiNaC where the two agree
+  std::string_view name;  // in the language, and in GiNaC where the two agree
   int arity = 1;
   std::string_view cpp;          // in <cmath>, without std::
   std::string_view quad;         // in <quadmath.h>; empty for those written as a power

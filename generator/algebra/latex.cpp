@@ -10,8 +10,9 @@ namespace hamgen {
 namespace {
 
 constexpr std::array<std::string_view, 22> kGreek = {
-    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda",
-    "mu",    "nu",   "xi",    "pi",    "rho",     "sigma", "tau", "phi",  "chi",  "psi",   "omega"};
+    "alpha", "beta",  "gamma",  "delta", "epsilon", "zeta", "eta", "theta",
+    "iota",  "kappa", "lambda", "mu",    "nu",      "xi",   "pi",  "rho",
+    "sigma", "tau",   "phi",    "chi",   "psi",     "omega"};
 
 std::string letter(const std::string& name) {
   if (name.size() == 1) return name;
@@ -42,7 +43,8 @@ std::string power(const Expression& base, const Rational& exponent) {
   if (exponent == 1) return base.kind() == Kind::sum ? bracketed(base) : print(base);
   if (exponent == Rational(1, 2)) return "\\sqrt{" + print(base) + "}";
   // q^2, \cos(q)^2; \mathrm{eps}^{2}.
-  const bool plain = base.kind() == Kind::symbol || base.kind() == Kind::function || (base.is_number() && base.number() >= 0);
+  const bool plain = base.kind() == Kind::symbol || base.kind() == Kind::function ||
+                     (base.is_number() && base.number() >= 0);
   return (plain ? print(base) : bracketed(base)) + "^{" + to_text(exponent) + "}";
 }
 
@@ -74,7 +76,7 @@ std::string product(const Expression& e) {
 }
 
 std::string function(const Expression& e) {
-  constexpr std::array<std::string_view, 9> kNamed = {"cos",  "cosh", "exp", "log", "sin",
+  constexpr std::array<std::string_view, 9> kNamed = {"cos",  "cosh", "exp",  "log", "sin",
                                                       "sinh", "tan",  "tanh", "sqrt"};
   const bool named = std::ranges::find(kNamed, e.name()) != kNamed.end();
   std::string arguments;
@@ -85,15 +87,18 @@ std::string function(const Expression& e) {
 
 std::string print(const Expression& e) {
   switch (e.kind()) {
-    case Kind::symbol: return symbol(e.name());
-    case Kind::function: return function(e);
+    case Kind::symbol:
+      return symbol(e.name());
+    case Kind::function:
+      return function(e);
     case Kind::power:
       if (!e.operands()[1].is_number()) {
         return "{" + bracketed(e.operands()[0]) + "}^{" + print(e.operands()[1]) + "}";
       }
       return product(e);
     case Kind::number:
-    case Kind::product: return product(e);
+    case Kind::product:
+      return product(e);
     case Kind::sum: {
       std::string text;
       for (const Expression& term : e.operands()) {

@@ -30,7 +30,8 @@ Rational root(const Rational& base, unsigned long degree) {
 
 Rational numeric_value(const Expression& e) {
   switch (e.kind()) {
-    case Kind::number: return e.number();
+    case Kind::number:
+      return e.number();
     case Kind::sum: {
       Rational sum(0);
       for (const Expression& term : e.operands()) sum += numeric_value(term);
@@ -53,7 +54,8 @@ Rational numeric_value(const Expression& e) {
       return rounded(*value);
     }
     case Kind::symbol:
-    case Kind::function: break;
+    case Kind::function:
+      break;
   }
   internal_error("not an algebraic constant: " + to_text(e));
 }

@@ -111,7 +111,8 @@ Polynomial PolynomialRing::expand(const Expression& e) {
   if (const auto it = expanded_.find(e); it != expanded_.end()) return it->second;
   Polynomial result;
   switch (e.kind()) {
-    case Kind::number: break;
+    case Kind::number:
+      break;
     case Kind::sum:
       for (const Expression& term : e.operands()) accumulate(result, expand(term));
       break;
@@ -196,8 +197,8 @@ Expression PolynomialRing::horner(const Polynomial& p, const Predicate& varies) 
   return nest(std::move(terms));
 }
 
-// The atom (or its reciprocal) that most terms contain is factored out of them, as often as they all
-// contain it; then the same for what is inside and for what is left.
+// The atom (or its reciprocal) that most terms contain is factored out of them, as often as they
+// all contain it; then the same for what is inside and for what is left.
 Expression PolynomialRing::nest(std::vector<Term> terms) const {
   std::size_t most = 1;
   std::size_t chosen = 0;
@@ -237,11 +238,9 @@ Expression PolynomialRing::nest(std::vector<Term> terms) const {
     inside.push_back(std::move(term));
   }
   for (Term& term : inside) {
-    term.exponents[chosen] =
-        static_cast<std::int16_t>(term.exponents[chosen] - direction * least);
+    term.exponents[chosen] = static_cast<std::int16_t>(term.exponents[chosen] - direction * least);
   }
-  const Expression factor =
-      Expression::power(atoms_[chosen], Expression(long{direction} * least));
+  const Expression factor = Expression::power(atoms_[chosen], Expression(long{direction} * least));
   sum.push_back(factor * nest(std::move(inside)));
   if (!rest.empty()) sum.push_back(nest(std::move(rest)));
   return Expression::sum(std::move(sum));

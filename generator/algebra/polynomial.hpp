@@ -1,8 +1,8 @@
 // Expressions as polynomials: sums of products of atoms with rational coefficients.
 //
-// An atom is what multiplication cannot take apart: a symbol, a function's value such as cos(q), or a
-// root or reciprocal of a sum.  Its exponent may be negative.  sin(x)^2 is written 1 - cos(x)^2 and
-// sinh(x)^2 as cosh(x)^2 - 1, so that a polynomial in these atoms has one form.
+// An atom is what multiplication cannot take apart: a symbol, a function's value such as cos(q), or
+// a root or reciprocal of a sum.  Its exponent may be negative.  sin(x)^2 is written 1 - cos(x)^2
+// and sinh(x)^2 as cosh(x)^2 - 1, so that a polynomial in these atoms has one form.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class PolynomialRing {
   std::size_t most_terms_;
   std::vector<Expression> atoms_;
   ExpressionMap<std::size_t> places_;
-  ExpressionMap<long> roots_;               // base: the d of its atom base^(1/d)
+  ExpressionMap<long> roots_;  // base: the d of its atom base^(1/d)
   std::map<std::size_t, std::pair<std::size_t, int>> squares_;  // sin: {cos, 1}: s^2 = 1 - c^2
   ExpressionMap<Polynomial> expanded_;
   std::map<std::pair<std::size_t, std::string>, Polynomial> slopes_;

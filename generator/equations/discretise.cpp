@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "generator/equations/step_equations.hpp"
 
@@ -94,8 +94,8 @@ Expression StepEquations::row(int i) const {
 
 std::vector<int> StepEquations::row_gradients(int i) const {
   std::vector<int> result;
-  for (auto it = stage_matrix.lower_bound({i, 0});
-       it != stage_matrix.end() && it->first.first == i; ++it) {
+  for (auto it = stage_matrix.lower_bound({i, 0}); it != stage_matrix.end() && it->first.first == i;
+       ++it) {
     if (!gradient_symbol(it->first.second).is_zero()) result.push_back(it->first.second);
   }
   return result;
@@ -130,9 +130,7 @@ bool uses_energy_parameter(const StepEquations& equations) {
 }
 
 StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
-  StepEquations equations{.mechanics = mechanics,
-                          .scheme = scheme,
-                          .stage_matrix = {}};
+  StepEquations equations{.mechanics = mechanics, .scheme = scheme, .stage_matrix = {}};
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   if (scheme.is_member() && scheme.member().generating_order > 0) {
     equations.function =
@@ -160,11 +158,12 @@ std::string to_text(const StepEquations& equations) {
     text += "for h = " + list_text(composition->substeps) + " times the step size, in turn:\n";
   }
   if (equations.mechanics.keeps_sums()) {
-    return text + fmt::format("for every degree of freedom i = 1..{}:\n"
-                              "  bar(q_i) = q_i + h*alpha*H(p_i) + h*gamma*H(q_i)\n"
-                              "  bar(p_i) = p_i - h*(1 - alpha)*H(q_i) - h*beta*H(p_i)\n"
-                              "  new q_i = q_i + h*H(p_i), new p_i = p_i - h*H(q_i)\n",
-                              n);
+    return text + fmt::format(
+                      "for every degree of freedom i = 1..{}:\n"
+                      "  bar(q_i) = q_i + h*alpha*H(p_i) + h*gamma*H(q_i)\n"
+                      "  bar(p_i) = p_i - h*(1 - alpha)*H(q_i) - h*beta*H(p_i)\n"
+                      "  new q_i = q_i + h*H(p_i), new p_i = p_i - h*H(q_i)\n",
+                      n);
   }
   for (int i = 0; i < 2 * n; ++i) {
     text += fmt::format("{} = {}\n", to_text(equations.stage(i)), to_text(equations.row(i)));

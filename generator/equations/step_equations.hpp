@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "generator/mechanics/generating_function.hpp"
-
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
 
@@ -20,7 +19,7 @@ namespace hamgen {
 struct StepEquations {
   Mechanics mechanics;  // gradient and Hessian are those of K where there is one, the energy is H
   Scheme scheme;
-  SparseMatrix stage_matrix;  // B
+  SparseMatrix stage_matrix;                        // B
   std::optional<GeneratingFunction> function = {};  // K and how it is written
   std::vector<Expression> energy_gradient = {};     // grad H where K stands in for H
 
@@ -28,8 +27,8 @@ struct StepEquations {
   [[nodiscard]] bool has_exact_hessian() const;
 
   // Names of the symbols of the step for component i of the state.
-  [[nodiscard]] Expression stage(int i) const;              // zbar_i: "bar(q)"
-  [[nodiscard]] Expression gradient_symbol(int i) const;    // dH/dz_i at zbar: "H(q)"
+  [[nodiscard]] Expression stage(int i) const;                  // zbar_i: "bar(q)"
+  [[nodiscard]] Expression gradient_symbol(int i) const;        // dH/dz_i at zbar: "H(q)"
   [[nodiscard]] Expression hessian_symbol(int i, int j) const;  // at zbar: "H(q,p)"
   // dH/dz_i and d2H/dz_i dz_j with the stage values for the state.
   [[nodiscard]] Expression stage_gradient(int i) const;

@@ -19,7 +19,8 @@ class CodeWriter {
     const std::size_t depth = static_cast<std::size_t>(2 * depth_);
     std::string rest = text;
     std::size_t indent = depth;
-    std::vector<std::size_t> columns{first_operand(text, depth)};  // where each bracket level goes on
+    std::vector<std::size_t> columns{
+        first_operand(text, depth)};  // where each bracket level goes on
     if (text.find("//") == std::string::npos && text.find('"') == std::string::npos) {
       while (indent + rest.size() > kColumns) {
         const std::size_t equals = rest.find(" = ");

@@ -1,9 +1,8 @@
 // The mathematics of a large system in C++: loops over kernels, scattered into arrays.
-#include "generator/formats/cpp_arrays.hpp"
-
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/cpp_arrays.hpp"
 #include "generator/program/names.hpp"
 
 namespace hamgen {
@@ -80,22 +79,29 @@ class ArrayWriter {
     Names names;
     for (const std::string_view local : kLocals) names.reserve(std::string(local));
     for (const KernelRange& range : kernel.ranges) names.reserve(loop_index(range.index));
-    for (const Slot& slot : kernel.slots) names.set(slot.symbol, names.unique(slot_name(slot.symbol)));
-    const CppExpression cpp(context_.scalar, [&](const std::string& symbol) -> std::string {
-      const auto& parameters = context_.parameter_text;
-      if (const auto it = parameters.find(symbol); it != parameters.end()) {
-        return it->second;
-      }
-      for (const ParameterSlot& slot : kernel.parameters) {
-        if (slot.symbol != symbol) continue;
-        return fmt::format("par.{}[{}]", member_identifier(slot.parameter), affine(slot.position));
-      }
-      for (const KernelRange& range : kernel.ranges) {
-        if (range.index == symbol) return fmt::format("Real({})", loop_index(symbol));
-      }
-      if (symbol == "pi") return literal(*parse_decimal("3.14159265358979323846264338327950288"), context_.scalar);
-      return names.local(symbol);
-    }, context_.options.builtins);
+    for (const Slot& slot : kernel.slots)
+      names.set(slot.symbol, names.unique(slot_name(slot.symbol)));
+    const CppExpression cpp(
+        context_.scalar,
+        [&](const std::string& symbol) -> std::string {
+          const auto& parameters = context_.parameter_text;
+          if (const auto it = parameters.find(symbol); it != parameters.end()) {
+            return it->second;
+          }
+          for (const ParameterSlot& slot : kernel.parameters) {
+            if (slot.symbol != symbol) continue;
+            return fmt::format("par.{}[{}]", member_identifier(slot.parameter),
+                               affine(slot.position));
+          }
+          for (const KernelRange& range : kernel.ranges) {
+            if (range.index == symbol) return fmt::format("Real({})", loop_index(symbol));
+          }
+          if (symbol == "pi")
+            return literal(*parse_decimal("3.14159265358979323846264338327950288"),
+                           context_.scalar);
+          return names.local(symbol);
+        },
+        context_.options.builtins);
     std::set<std::string> used;
     for (const Expression& value : values) collect_symbols(value, used);
     const Evaluation evaluation = evaluate_together(values);
@@ -106,7 +112,8 @@ class ArrayWriter {
     if (kernel.ranges.empty()) out_.open("");
     for (const Slot& slot : kernel.slots) {
       if (!used.contains(slot.symbol)) continue;
-      out_.line(fmt::format("const Real {} = x[{}];", names.local(slot.symbol), affine(slot.position)));
+      out_.line(
+          fmt::format("const Real {} = x[{}];", names.local(slot.symbol), affine(slot.position)));
     }
     for (const Statement& s : evaluation.statements) {
       const std::string text = cpp(s.value);
@@ -156,9 +163,10 @@ class ArrayWriter {
 
   void write_gradient(const std::string& name, Part part, const std::string& comment) {
     out_.line("// " + comment);
-    out_.open(fmt::format("inline void {}([[maybe_unused]] const Parameters& par, "
-                          "[[maybe_unused]] const Real* x, [[maybe_unused]] Real* gradient)",
-                          name));
+    out_.open(
+        fmt::format("inline void {}([[maybe_unused]] const Parameters& par, "
+                    "[[maybe_unused]] const Real* x, [[maybe_unused]] Real* gradient)",
+                    name));
     for (const Kernel* kernel : kernels(part)) {
       std::vector<Expression> values;
       std::vector<std::string> targets;
@@ -196,11 +204,14 @@ class ArrayWriter {
 
   // put(row, column, value) for every entry, in an order that never changes.
   void write_hessian(Part part, const std::string& name) {
-    out_.line("// put(row, column, value) for the second derivatives of H, repeated entries to be added.");
+    out_.line(
+        "// put(row, column, value) for the second derivatives of H, repeated entries to be "
+        "added.");
     out_.line("template <class Put>");
-    out_.open(fmt::format("inline void {}([[maybe_unused]] const Parameters& par, "
-                          "[[maybe_unused]] const Real* x, Put put)",
-                          name));
+    out_.open(
+        fmt::format("inline void {}([[maybe_unused]] const Parameters& par, "
+                    "[[maybe_unused]] const Real* x, Put put)",
+                    name));
     for (const Kernel* kernel : kernels(part)) {
       if (kernel->hessian.empty()) continue;
       std::vector<Expression> values;

@@ -42,7 +42,8 @@ std::string reduced_solve(bool constant) {
         });
         if (!matrix_.factorise()) break;
 )";
-  return std::string(R"(  // Newton's iteration from bar_; the torn momenta follow from the coordinates.
+  return std::string(
+             R"(  // Newton's iteration from bar_; the torn momenta follow from the coordinates.
   bool iterate(StepReport& report) {
     rule_.begin();
     for (int iteration = 1;; ++iteration) {
@@ -51,8 +52,10 @@ std::string reduced_solve(bool constant) {
       for (int i = 0; i < n; ++i) {
         residual_[i] = bar_[i] - z_.q[i] - h_ * (alpha_ * gradient_[n + i] + gamma_ * gradient_[i]);
       }
-)") + (constant ? "      if (!factorised_) {\n" + assemble + "        factorised_ = true;\n      }\n"
-                : "      {\n" + assemble + "      }\n") +
+)") +
+         (constant
+              ? "      if (!factorised_) {\n" + assemble + "        factorised_ = true;\n      }\n"
+              : "      {\n" + assemble + "      }\n") +
          R"(      matrix_.solve(residual_);
       Real size = 0;
       Real scale = 0;
@@ -108,8 +111,10 @@ std::string full_solve(bool constant) {
         residual_[i] = bar_[i] - z_.q[i] - (alpha_ * by_p + gamma_ * by_q);
         residual_[n + i] = bar_[n + i] - z_.p[i] + ((1 - alpha_) * by_q + beta_ * by_p);
       }
-)") + (constant ? "      if (!factorised_) {\n" + assemble + "        factorised_ = true;\n      }\n"
-                : "      {\n" + assemble + "      }\n") +
+)") +
+         (constant
+              ? "      if (!factorised_) {\n" + assemble + "        factorised_ = true;\n      }\n"
+              : "      {\n" + assemble + "      }\n") +
          R"(      matrix_.solve(residual_);
       Real size = 0;
       Real scale = 0;
@@ -140,12 +145,17 @@ void write_array_propagator(CodeWriter& out, const CppContext& context, StepRole
   const bool reduced = plan.method == ArrayMethod::reduced_newton;
   const FamilyParameters member =
       uniform_parameters(program.plan.equations.scheme.member()).value();
-  const CppExpression cpp(context.scalar, [&](const std::string& symbol) -> std::string {
-    if (symbol == "h") return "h";
-    const auto it = context.parameter_text.find(symbol);
-    return it != context.parameter_text.end() ? it->second : symbol;
-  }, context.options.builtins);
-  out.line("// Many steps: start values are extrapolated, rounding errors of the updates carried along.");
+  const CppExpression cpp(
+      context.scalar,
+      [&](const std::string& symbol) -> std::string {
+        if (symbol == "h") return "h";
+        const auto it = context.parameter_text.find(symbol);
+        return it != context.parameter_text.end() ? it->second : symbol;
+      },
+      context.options.builtins);
+  out.line(
+      "// Many steps: start values are extrapolated, rounding errors of the updates carried "
+      "along.");
   out.line("class " + name + " {");
   out.line(" public:");
   out.indent();
@@ -163,7 +173,8 @@ void write_array_propagator(CodeWriter& out, const CppContext& context, StepRole
       out.line("for (int i = 0; i < n; ++i) drift_[i] = gradient_[n + i];");
       out.line("masses(par_, bar_, [&](int row, int, Real value) { mass_[row - n] += value; });");
       out.open("for (int i = 0; i < n; ++i)");
-      out.line("const Real inverse = alpha_ * (1 - alpha_) * mass_[i] / (1 + h_ * beta_ * mass_[i]);");
+      out.line(
+          "const Real inverse = alpha_ * (1 - alpha_) * mass_[i] / (1 + h_ * beta_ * mass_[i]);");
       out.line("scale_[i] = h_ * (h_ * inverse - gamma_);");
       out.close();
     }
@@ -205,7 +216,8 @@ void write_array_propagator(CodeWriter& out, const CppContext& context, StepRole
 )");
   }
   out.line();
-  out.lines(R"(  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  out.lines(
+      R"(  // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
   StepReport advance(long long steps) {
     StepReport total;
     total.converged = true;

@@ -37,8 +37,11 @@ std::vector<std::string> fields(const std::vector<CppGroup>& groups) {
 }  // namespace
 
 CppContext::CppContext(const Program& the_program, const CppOptions& the_options)
-    : program(the_program), options(the_options), scalar(find_scalar(the_options.scalar)),
-      equations(program.plan.equations), mechanics(equations.mechanics) {
+    : program(the_program),
+      options(the_options),
+      scalar(find_scalar(the_options.scalar)),
+      equations(program.plan.equations),
+      mechanics(equations.mechanics) {
   // A large system's state is two arrays, whatever the model calls their parts.
   for (int i = 0; i < 2 * n(); ++i) {
     variables.push_back(mechanics.variables[static_cast<std::size_t>(i)]);
@@ -59,15 +62,19 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
 }
 
 CppExpression CppContext::expression(Names& names) {
-  return CppExpression(scalar, [this, &names](const std::string& symbol) -> std::string {
-    if (symbol == "pi") {
-      uses_pi = true;
-      return "pi";
-    }
-    if (symbol == "h") return "h";
-    if (const auto it = parameter_text.find(symbol); it != parameter_text.end()) return it->second;
-    return names.local(symbol);
-  }, options.builtins);
+  return CppExpression(
+      scalar,
+      [this, &names](const std::string& symbol) -> std::string {
+        if (symbol == "pi") {
+          uses_pi = true;
+          return "pi";
+        }
+        if (symbol == "h") return "h";
+        if (const auto it = parameter_text.find(symbol); it != parameter_text.end())
+          return it->second;
+        return names.local(symbol);
+      },
+      options.builtins);
 }
 
 void CppContext::note(const CppExpression& cpp) {
@@ -91,7 +98,8 @@ void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
   for (const Statement& s : statements) {
     const std::string value = cpp(s.value);
     const std::string& name = names.local(s.name);
-    out.line(fmt::format("{}{} = {};", declared.contains(s.name) ? "" : "const Real ", name, value));
+    out.line(
+        fmt::format("{}{} = {};", declared.contains(s.name) ? "" : "const Real ", name, value));
   }
 }
 

@@ -1,5 +1,5 @@
-// What the parts of one emitted file share: how parameters and state are called in C++, and what has
-// been used of the libraries so far.
+// What the parts of one emitted file share: how parameters and state are called in C++, and what
+// has been used of the libraries so far.
 #pragma once
 
 #include <map>
@@ -37,9 +37,9 @@ class CppContext {
   std::vector<CppGroup> parameter_groups;
   std::vector<CppGroup> state_groups;
   std::vector<std::string> parameter_fields;
-  std::vector<std::string> state_fields;  // "q" or "q[2]": of z_1..z_2n in State
+  std::vector<std::string> state_fields;              // "q" or "q[2]": of z_1..z_2n in State
   std::map<std::string, std::string> parameter_text;  // "eps" is par.eps
-  std::set<std::string> functions;  // of <cmath>, used so far
+  std::set<std::string> functions;                    // of <cmath>, used so far
   bool uses_pi = false;
 
   [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }

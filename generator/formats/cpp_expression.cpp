@@ -93,7 +93,8 @@ std::string CppExpression::print(const Expression& e, int context) const {
         return bracket("-" + literal(Rational(-e.number()), scalar_), level_product, context);
       }
       return literal(e.number(), scalar_);
-    case Kind::symbol: return namer_(e.name());
+    case Kind::symbol:
+      return namer_(e.name());
     case Kind::function: {
       std::string arguments;
       for (const Expression& argument : e.operands()) {
@@ -107,11 +108,11 @@ std::string CppExpression::print(const Expression& e, int context) const {
                        level_product, context);
       }
       const bool factors = e.operands()[1].is_number() && e.operands()[1].number() > 1 &&
-                           e.operands()[1].number() <= 8 &&
-                           e.operands()[1].number().get_den() == 1;
+                           e.operands()[1].number() <= 8 && e.operands()[1].number().get_den() == 1;
       return bracket(power(e), factors ? level_product : level_atom, context);
     }
-    case Kind::product: return bracket(product(e), level_product, context);
+    case Kind::product:
+      return bracket(product(e), level_product, context);
     case Kind::sum: {
       // A positive term first, if there is one: b - a rather than -a + b.
       std::vector<std::string> terms;

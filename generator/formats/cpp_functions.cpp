@@ -49,9 +49,8 @@ void write_functions(CodeWriter& out, CppContext& context) {
   write_evaluation(
       out, context,
       fmt::format("inline void gradient({}, Real (&values)[{}])", kArguments, 2 * context.n()),
-      program.gradient, [&](CodeWriter& w, const CppExpression& cpp) {
-        write_results(w, cpp, program.gradient);
-      });
+      program.gradient,
+      [&](CodeWriter& w, const CppExpression& cpp) { write_results(w, cpp, program.gradient); });
 }
 
 void write_invariants(CodeWriter& out, CppContext& context) {

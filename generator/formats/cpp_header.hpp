@@ -9,15 +9,15 @@
 namespace hamgen {
 
 struct CppOptions {
-  std::string command;     // as the user typed it
+  std::string command;  // as the user typed it
   std::string model_path;
   std::string scalar;      // name of a scalar, "" is double
   std::string name_space;  // "pendulum::implicit_midpoint"
   // What is proved, tested and refuted of the step, for the first lines; empty: not looked at.
   std::string proved, tested, refuted;
-  bool gradient = false;   // emit gradient() too
-  bool tangent = false;    // emit the linearised step too
-  bool builtins = false;   // functions of the compiler instead of <cmath>
+  bool gradient = false;  // emit gradient() too
+  bool tangent = false;   // emit the linearised step too
+  bool builtins = false;  // functions of the compiler instead of <cmath>
 };
 
 [[nodiscard]] std::string cpp_header(const Program& program, const CppOptions& options);

@@ -8,13 +8,15 @@ namespace {
 
 // Copies an array of doubles into a struct's fields.
 void write_fill(CodeWriter& out, const CppContext& context, const std::string& target,
-                const std::vector<std::string>& names,
-                const std::string& values) {
+                const std::vector<std::string>& names, const std::string& values) {
   if (context.arrays() && target == "result" && values == "state") {
-    const std::string low = context.scalar.digits <= 53 ? "" : " + (state_lo ? Real(state_lo[{0}]) : Real(0))";
+    const std::string low =
+        context.scalar.digits <= 53 ? "" : " + (state_lo ? Real(state_lo[{0}]) : Real(0))";
     out.open("for (int i = 0; i < n; ++i)");
-    out.line("result.q[i] = static_cast<Real>(state[i])" + fmt::format(fmt::runtime(low), "i") + ";");
-    out.line("result.p[i] = static_cast<Real>(state[n + i])" + fmt::format(fmt::runtime(low), "n + i") + ";");
+    out.line("result.q[i] = static_cast<Real>(state[i])" + fmt::format(fmt::runtime(low), "i") +
+             ";");
+    out.line("result.p[i] = static_cast<Real>(state[n + i])" +
+             fmt::format(fmt::runtime(low), "n + i") + ";");
     out.close();
     return;
   }
@@ -34,9 +36,11 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
   std::string ends;
   for (int i = 0; i < size; ++i) {
     increments += fmt::format("  dz.{0} = end.{0} - z.{0};\n", context.state_field(i));
-    ends += fmt::format("  new_state[{}] = static_cast<double>(end.{});\n", i, context.state_field(i));
+    ends +=
+        fmt::format("  new_state[{}] = static_cast<double>(end.{});\n", i, context.state_field(i));
   }
-  out.lines(fmt::format(R"(int tangent_of(const double* parameters, double h, const double* state, double* new_state,
+  out.lines(fmt::format(
+      R"(int tangent_of(const double* parameters, double h, const double* state, double* new_state,
                double* matrix) {{
   const Parameters par = read_parameters(parameters, nullptr);
   const State z = read_state(state, nullptr);
@@ -53,13 +57,14 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
 }}
 
 )",
-                        increments, ends, size, size, size, size, size));
+      increments, ends, size, size, size, size, size));
 }
 
 }  // namespace
 
 void write_interface(CodeWriter& out, const CppContext& context) {
-  const std::string description = fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name);
+  const std::string description =
+      fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name);
   out.line();
   out.line("// The interface of plugin.h.");
   out.line(fmt::format("using namespace {};", context.options.name_space));
@@ -73,9 +78,10 @@ void write_interface(CodeWriter& out, const CppContext& context) {
   out.line();
   auto fill = [&](const std::string& name, const std::string& type,
                   const std::vector<std::string>& names, const std::string& values) {
-    out.open(fmt::format("{0} {1}([[maybe_unused]] const double* {2}, [[maybe_unused]] const "
-                         "double* {2}_lo)",
-                         type, name, values));
+    out.open(
+        fmt::format("{0} {1}([[maybe_unused]] const double* {2}, [[maybe_unused]] const "
+                    "double* {2}_lo)",
+                    type, name, values));
     out.line(type + " result;");
     write_fill(out, context, "result", names, values);
     out.line("return result;");
@@ -84,7 +90,8 @@ void write_interface(CodeWriter& out, const CppContext& context) {
   };
   fill("read_parameters", "Parameters", context.parameter_fields, "parameters");
   fill("read_state", "State", context.state_fields, "state");
-  out.lines(R"(hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
+  out.lines(
+      R"(hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
                    const double* state, const double* state_lo) {
   const Parameters par = read_parameters(parameters, parameters_lo);
   return new hamgen_run{Propagator(par, static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)), par};
@@ -126,34 +133,39 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     out.open("for (int i = 0; i < 2 * n; ++i)");
     out.line("const Real value = i < n ? z.q[i] : z.p[i - n];");
     out.line("state[i] = static_cast<double>(value);");
-    out.line("if (state_lo) state_lo[i] = static_cast<double>(value - static_cast<Real>(state[i]));");
+    out.line(
+        "if (state_lo) state_lo[i] = static_cast<double>(value - static_cast<Real>(state[i]));");
     out.close();
   }
   for (int i = 0; i < (context.arrays() ? 0 : 2 * context.n()); ++i) {
     out.line(fmt::format("state[{}] = static_cast<double>(z.{});", i, context.state_field(i)));
-    out.line(fmt::format("if (state_lo) state_lo[{0}] = static_cast<double>(z.{1} - "
-                         "static_cast<Real>(state[{0}]));",
-                         i, context.state_field(i)));
+    out.line(
+        fmt::format("if (state_lo) state_lo[{0}] = static_cast<double>(z.{1} - "
+                    "static_cast<Real>(state[{0}]));",
+                    i, context.state_field(i)));
   }
   out.close();
   out.line();
   out.open("double energy_of(const double* parameters, const double* state)");
-  out.line("return static_cast<double>(energy(read_parameters(parameters, nullptr), "
-           "read_state(state, nullptr)));");
+  out.line(
+      "return static_cast<double>(energy(read_parameters(parameters, nullptr), "
+      "read_state(state, nullptr)));");
   out.close();
   out.line();
   auto vector_function = [&](const std::string& name, const std::string& function,
                              std::size_t count) {
-    out.open(fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
-                         "double* state, [[maybe_unused]] double* values)",
-                         name));
+    out.open(
+        fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
+                    "double* state, [[maybe_unused]] double* values)",
+                    name));
     if (count != 0) {
       out.line(fmt::format("Real result[{}];", count));
       const bool flat = context.arrays() && function == "gradient";
-      out.line(fmt::format("{}(read_parameters(parameters, nullptr), read_state(state, nullptr){}, result);",
-                           function, flat ? ".q" : ""));
-      out.line(fmt::format("for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);",
-                           count));
+      out.line(fmt::format(
+          "{}(read_parameters(parameters, nullptr), read_state(state, nullptr){}, result);",
+          function, flat ? ".q" : ""));
+      out.line(fmt::format(
+          "for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);", count));
     }
     out.close();
     out.line();
@@ -161,12 +173,13 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   vector_function("invariants_of", "invariants", context.mechanics.invariants.size());
   vector_function("gradient_of", "gradient", static_cast<std::size_t>(2 * context.n()));
   if (context.options.tangent) write_tangent_interface(out, context);
-  out.line(fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
-                       "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
-                       "gradient_of, {}}};",
-                       context.n(), context.parameters.size(), context.mechanics.invariants.size(), context.scalar.digits,
-                       description, context.program.plan.solver,
-                       context.options.tangent ? "tangent_of" : "nullptr"));
+  out.line(
+      fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
+                  "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
+                  "gradient_of, {}}};",
+                  context.n(), context.parameters.size(), context.mechanics.invariants.size(),
+                  context.scalar.digits, description, context.program.plan.solver,
+                  context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");
   out.line();

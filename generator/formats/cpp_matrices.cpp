@@ -6,9 +6,11 @@
 namespace hamgen {
 
 void write_band_matrix(CodeWriter& out, int width) {
-  out.line(fmt::format("// A matrix whose entries lie within {} of the diagonal: elimination with partial",
-                        width));
-  out.line("// pivoting, which fills as many diagonals again above it.  Row i holds columns i - width on.");
+  out.line(fmt::format(
+      "// A matrix whose entries lie within {} of the diagonal: elimination with partial", width));
+  out.line(
+      "// pivoting, which fills as many diagonals again above it.  Row i holds columns i - width "
+      "on.");
   out.open("class BandMatrix");
   out.dedent();
   out.lines(fmt::format(R"( public:
@@ -69,14 +71,15 @@ void write_band_matrix(CodeWriter& out, int width) {
   Real factor_[n][width > 0 ? width : 1] = {{}};
   int pivot_[n] = {{}};
 )",
-                         fmt::arg("width", width)));
+                        fmt::arg("width", width)));
   out.indent();
   out.close(";");
   out.line();
 }
 
 void write_sparse_matrix(CodeWriter& out) {
-  out.lines(R"(// A sparse matrix that is filled again and again by the same sequence of entries.  The first filling
+  out.lines(
+      R"(// A sparse matrix that is filled again and again by the same sequence of entries.  The first filling
 // finds the pattern, later ones only add values in place.
 class SparseMatrix {
  public:

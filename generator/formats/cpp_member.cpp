@@ -81,8 +81,9 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
   out.aligned(members);
   out.close(";");
   out.line();
-  out.open("inline Coefficients prepare([[maybe_unused]] const Parameters& par, "
-           "[[maybe_unused]] Real h)");
+  out.open(
+      "inline Coefficients prepare([[maybe_unused]] const Parameters& par, "
+      "[[maybe_unused]] Real h)");
   out.line("Coefficients k;");
   out.lines(code.text());
   out.line("return k;");
@@ -104,7 +105,8 @@ void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& 
 
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
   out.lines(cpp_two_sum() + "\n");
-  if ((parts.elimination || parts.eigen) && !parts.inverse) out.lines(elimination_text(context, parts) + "\n");
+  if ((parts.elimination || parts.eigen) && !parts.inverse)
+    out.lines(elimination_text(context, parts) + "\n");
   if (parts.newton) out.lines(cpp_newton_rule(context.scalar, parts.simplified) + "\n");
   if (parts.fixed_point) out.lines(cpp_fixed_point_rule(context.scalar) + "\n");
   if (parts.has_start()) {
@@ -114,7 +116,8 @@ void write_support(CodeWriter& out, const CppContext& context, const MemberParts
     out.line("bool known = false;  // else the state itself is the start");
     for (std::size_t s = 0; s < context.program.stages.size(); ++s) {
       const auto& solve = context.program.stages[s].solve;
-      if (solve && solve->kind == BlockKind::newton) out.line(fmt::format("NewtonRule rule_{};", s));
+      if (solve && solve->kind == BlockKind::newton)
+        out.line(fmt::format("NewtonRule rule_{};", s));
     }
     out.close(";");
     out.line();

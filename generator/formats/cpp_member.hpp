@@ -8,12 +8,12 @@ namespace hamgen {
 // What the solves of a program need besides their own text.
 struct MemberParts {
   bool newton = false;
-  bool simplified = false;    // its matrix is approximate
+  bool simplified = false;  // its matrix is approximate
   bool fixed_point = false;
-  bool elimination = false;   // a linear system is solved by emitted elimination
-  bool eigen = false;         // or by Eigen
-  bool inverse = false;       // a matrix is inverted once per run
-  bool coefficients = false;  // something depends on h and parameters alone
+  bool elimination = false;                // a linear system is solved by emitted elimination
+  bool eigen = false;                      // or by Eigen
+  bool inverse = false;                    // a matrix is inverted once per run
+  bool coefficients = false;               // something depends on h and parameters alone
   std::vector<std::string> unknowns = {};  // of all loops: they have start values
   [[nodiscard]] bool has_start() const { return !unknowns.empty(); }
 };

@@ -11,7 +11,8 @@ namespace {
 // The user's words as the end of a // comment: a line's end there, or a backslash before it, would
 // let the compiler read on.
 std::string one_line(std::string text) {
-  std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
   return text.ends_with('\\') ? text + "." : text;
 }
 

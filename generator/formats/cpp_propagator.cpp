@@ -8,9 +8,9 @@ namespace hamgen {
 
 namespace {
 
-std::string solve_call(const MemberParts& parts, const std::string& par,
-                       const std::string& k, const std::string& h, const std::string& z,
-                       const std::string& carry, const std::string& start) {
+std::string solve_call(const MemberParts& parts, const std::string& par, const std::string& k,
+                       const std::string& h, const std::string& z, const std::string& carry,
+                       const std::string& start) {
   std::string text = "solve(" + par + ", ";
   if (parts.coefficients) text += k + ", ";
   text += h + ", " + z + ", " + carry + ", ";
@@ -46,7 +46,8 @@ void write_member_step(CodeWriter& out, const CppContext& context, const MemberP
   if (parts.coefficients) out.line("const Coefficients k = prepare(par, h);");
   if (parts.has_start()) out.line("Start start;");
   out.line("State dz;");
-  out.line("const StepReport report = " + solve_call(parts, "par", "k", "h", "z", "State()", "start") + ";");
+  out.line("const StepReport report = " +
+           solve_call(parts, "par", "k", "h", "z", "State()", "start") + ";");
   out.line("if (!report.converged) return report;");
   for (int i = 0; i < 2 * context.n(); ++i) {
     if (context.program.increments[static_cast<std::size_t>(i)].is_zero()) continue;
@@ -78,9 +79,9 @@ void write_substep_access(CodeWriter& out, const std::string& reset) {
 void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts,
                              StepRole role) {
   if (parts.has_start()) out.lines(cpp_history(static_cast<int>(parts.unknowns.size())) + "\n");
-  out.line(parts.has_start()
-               ? "// Many steps: start values are extrapolated, rounding errors of the updates carried along."
-               : "// Many steps: rounding errors of the updates are carried along.");
+  out.line(parts.has_start() ? "// Many steps: start values are extrapolated, rounding errors of "
+                               "the updates carried along."
+                             : "// Many steps: rounding errors of the updates are carried along.");
   const std::string name = class_name(role);
   out.open("class " + name);
   out.dedent();
@@ -126,7 +127,8 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   out.line();
   write_advance(out);
   if (role == StepRole::substep) {
-    write_substep_access(out, parts.has_start() ? "start_ = Start();\nhistory_ = History();\n" : "");
+    write_substep_access(out,
+                         parts.has_start() ? "start_ = Start();\nhistory_ = History();\n" : "");
   }
   out.line();
   out.dedent();

@@ -32,17 +32,17 @@ void write_vector_field(CodeWriter& out, CppContext& context) {
     return;
   }
   const Evaluation& gradient = context.program.gradient;
-  write_evaluation(out, context,
-                   head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])",
-                   gradient,
-                   [&](CodeWriter& w, const CppExpression& cpp) {
-                     for (int i = 0; i < 2 * n; ++i) {
-                       const auto k = static_cast<std::size_t>(i < n ? i + n : i - n);
-                       const Expression& slope = gradient.results[k];
-                       w.line(fmt::format("values[{}] = {};", i, cpp(i < n ? slope : -slope)));
-                     }
-                   },
-                   CppContext::StateForm::array);
+  write_evaluation(
+      out, context,
+      head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])", gradient,
+      [&](CodeWriter& w, const CppExpression& cpp) {
+        for (int i = 0; i < 2 * n; ++i) {
+          const auto k = static_cast<std::size_t>(i < n ? i + n : i - n);
+          const Expression& slope = gradient.results[k];
+          w.line(fmt::format("values[{}] = {};", i, cpp(i < n ? slope : -slope)));
+        }
+      },
+      CppContext::StateForm::array);
 }
 
 // y = x + h sum a_j f_j, and dz = h sum b_j f_j: only what is not zero.
@@ -50,7 +50,8 @@ std::string combination(const std::vector<Rational>& row, const ScalarType& scal
   std::string text;
   for (std::size_t j = 0; j < row.size(); ++j) {
     if (row[j] == 0) continue;
-    text += (text.empty() ? "" : " + ") + fmt::format("{} * f_{}[k]", literal(row[j], scalar), j + 1);
+    text +=
+        (text.empty() ? "" : " + ") + fmt::format("{} * f_{}[k]", literal(row[j], scalar), j + 1);
   }
   return text;
 }
@@ -63,8 +64,9 @@ std::vector<Rational> numbers(const std::vector<Expression>& values) {
 
 void write_explicit(CodeWriter& out, const CppContext& context, const RungeKutta& tableau) {
   out.line("// dz = Z - z for one step from z.");
-  out.open("[[nodiscard]] inline StepReport solve(const Parameters& par, Real h, "
-           "const Real (&z)[dimension], Real (&dz)[dimension])");
+  out.open(
+      "[[nodiscard]] inline StepReport solve(const Parameters& par, Real h, "
+      "const Real (&z)[dimension], Real (&dz)[dimension])");
   out.line("StepReport report;");
   out.line("Real y[dimension];");
   for (std::size_t i = 0; i < tableau.b.size(); ++i) {

@@ -16,8 +16,9 @@ class SolveWriter {
 
   void write(CodeWriter& out) {
     Names names;
-    for (const char* local : {"size", "scale", "iteration", "verdict", "progress", "length", "matrix",
-                              "increment", "carry", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
+    for (const char* local :
+         {"size", "scale", "iteration", "verdict", "progress", "length", "matrix", "increment",
+          "carry", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
       names.reserve(local);
     }
     for (const auto& [symbol, text] : coefficient_text_) names.set(symbol, text);
@@ -43,9 +44,12 @@ class SolveWriter {
     }
     // Loop variables that are started from the state need it for their scale too.
     out.line("// dz = Z - z for one step from z + carry.");
-    std::string signature = "[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, ";
+    std::string signature =
+        "[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, ";
     if (parts_.coefficients) signature += "const Coefficients& k, ";
-    signature += "[[maybe_unused]] Real h, [[maybe_unused]] const State& z, [[maybe_unused]] const State& carry, ";
+    signature +=
+        "[[maybe_unused]] Real h, [[maybe_unused]] const State& z, [[maybe_unused]] const State& "
+        "carry, ";
     if (parts_.has_start()) signature += "Start& start, ";
     out.open(signature + "State& dz)");
     out.line("StepReport report;");
@@ -57,14 +61,17 @@ class SolveWriter {
       write_statements(out, cpp, names, stage.before);
       if (stage.solve) write_loop(out, cpp, names, *stage.solve, s, unknown);
       if (stage.solve && stage.solve->kind == BlockKind::newton) {
-        out.line("// The last increments correct the gradient to first order: no evaluation at the solution.");
+        out.line(
+            "// The last increments correct the gradient to first order: no evaluation at the "
+            "solution.");
       }
       write_statements(out, cpp, names, stage.after);
     }
     std::string size;
     for (int i = 0; i < 2 * context_.n(); ++i) {
       if (context_.program.increments[at(i)].is_zero()) continue;
-      out.line(fmt::format("dz.{} = {};", context_.state_field(i), cpp(context_.program.increments[at(i)])));
+      out.line(fmt::format("dz.{} = {};", context_.state_field(i),
+                           cpp(context_.program.increments[at(i)])));
       size += (size.empty() ? "" : " + ") + fmt::format("dz.{0} * dz.{0}", context_.state_field(i));
     }
     if (!size.empty()) {
@@ -163,7 +170,9 @@ class SolveWriter {
                     std::size_t s, const std::set<std::string>& declared) {
     const std::string rule = fmt::format("start.rule_{}", s);
     const bool array = !solve.corrections.empty();
-    out.line("// Newton's iteration for the stage values: residual R, its derivatives, increments delta.");
+    out.line(
+        "// Newton's iteration for the stage values: residual R, its derivatives, increments "
+        "delta.");
     out.line(rule + ".begin();");
     out.open("for (int iteration = 1;; ++iteration)");
     write_statements(out, cpp, names, solve.body, declared);
@@ -204,8 +213,8 @@ class SolveWriter {
     out.close();
   }
 
-  void write_fixed_point(CodeWriter& out, const CppExpression& cpp, Names& names, const Solve& solve,
-                         std::size_t s, const std::set<std::string>& declared) {
+  void write_fixed_point(CodeWriter& out, const CppExpression& cpp, Names& names,
+                         const Solve& solve, std::size_t s, const std::set<std::string>& declared) {
     const std::size_t m = solve.variables.size();
     const std::string rule = fmt::format("rule_{}", s);
     out.line(fmt::format("FixedPointRule<{}> {};", m, rule));
@@ -258,8 +267,8 @@ class SolveWriter {
     std::string values;
     for (const Expression& r : solve.residual) values += (values.empty() ? "" : ", ") + cpp(-r);
     const std::string vector = fmt::format("vector_{}", s);
-    out.line(fmt::format("{}Real {}[{}] = {{{}}};", solve.constant_matrix ? "const " : "", vector, m,
-                         values));
+    out.line(fmt::format("{}Real {}[{}] = {{{}}};", solve.constant_matrix ? "const " : "", vector,
+                         m, values));
     if (solve.constant_matrix) {
       const std::string product = fmt::format("product_{}", s);
       out.line(fmt::format("Real {}[{}] = {{}};", product, m));
@@ -268,7 +277,8 @@ class SolveWriter {
                            inverse_name(s), vector));
       out.close();
       for (std::size_t j = 0; j < m; ++j) {
-        out.line(fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), product, j));
+        out.line(
+            fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), product, j));
       }
       return;
     }
@@ -277,7 +287,8 @@ class SolveWriter {
     write_matrix(out, cpp, matrix, solve);
     out.line(fmt::format("if (!eliminate({}, {})) return report;", matrix, vector));
     for (std::size_t j = 0; j < m; ++j) {
-      out.line(fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), vector, j));
+      out.line(
+          fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), vector, j));
     }
   }
 

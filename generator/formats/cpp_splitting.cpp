@@ -23,7 +23,9 @@ struct Kind {
 class SplittingWriter {
  public:
   SplittingWriter(CodeWriter& out, CppContext& context, const Splitting& splitting)
-      : out_(out), context_(context), splitting_(splitting),
+      : out_(out),
+        context_(context),
+        splitting_(splitting),
         closed_(splitting.kicks.size() != splitting.drifts.size()) {
     const Kind kick{"potential_gradient", "kick", "", "-", true};
     const Kind drift{"kinetic_gradient", "drift", "", "+", false};
@@ -45,7 +47,8 @@ class SplittingWriter {
     } else {
       write_functions(out_, context_);
       const CoefficientText text = write_prepare(out_, context_, parts, scaled);
-      write_gradient("dV/dq at z.", "potential_gradient", context_.program.potential_gradient, text);
+      write_gradient("dV/dq at z.", "potential_gradient", context_.program.potential_gradient,
+                     text);
       write_gradient("dT/dp at z.", "kinetic_gradient", context_.program.kinetic_gradient, text);
     }
     out_.lines(cpp_compensated_sum() + "\n");
@@ -80,14 +83,15 @@ class SplittingWriter {
         "inline void {}([[maybe_unused]] const Parameters& par, [[maybe_unused]] const "
         "Coefficients& k, [[maybe_unused]] const State& z, [[maybe_unused]] Real (&values)[{}])",
         name, context_.n());
-    write_evaluation(out_, context_, signature, evaluation,
-                     [&](CodeWriter& w, const CppExpression& cpp) {
-                       for (std::size_t i = 0; i < evaluation.results.size(); ++i) {
-                         if (evaluation.results[i].is_zero()) continue;
-                         w.line(fmt::format("values[{}] = {};", i, cpp(evaluation.results[i])));
-                       }
-                     },
-                     CppContext::StateForm::fields, coefficients);
+    write_evaluation(
+        out_, context_, signature, evaluation,
+        [&](CodeWriter& w, const CppExpression& cpp) {
+          for (std::size_t i = 0; i < evaluation.results.size(); ++i) {
+            if (evaluation.results[i].is_zero()) continue;
+            w.line(fmt::format("values[{}] = {};", i, cpp(evaluation.results[i])));
+          }
+        },
+        CppContext::StateForm::fields, coefficients);
   }
 
   void write_start() {
@@ -142,9 +146,10 @@ class SplittingWriter {
   void write_solve() {
     const std::size_t pairs = std::min(splitting_.kicks.size(), splitting_.drifts.size());
     out_.line("// dz = Z - z for one step from z.");
-    out_.open(fmt::format("[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& "
-                          "par, const Coefficients& k, const State& z, {}State& dz)",
-                          closed_ ? "Start& start, " : ""));
+    out_.open(
+        fmt::format("[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& "
+                    "par, const Coefficients& k, const State& z, {}State& dz)",
+                    closed_ ? "Start& start, " : ""));
     out_.line("StepReport report;");
     out_.line("State now = z;");
     out_.line("dz = State();");
@@ -218,8 +223,8 @@ class SplittingWriter {
     out_.line("const Coefficients k = prepare(par, h);");
     if (closed_) out_.line("Start start;");
     out_.line("State dz;");
-    out_.line(fmt::format("const StepReport report = solve(par, k, z, {}dz);",
-                          closed_ ? "start, " : ""));
+    out_.line(
+        fmt::format("const StepReport report = solve(par, k, z, {}dz);", closed_ ? "start, " : ""));
     out_.line("if (!report.converged) return report;");
     write_update("z.{x} += dz.{x};");
     out_.line("return report;");

@@ -52,22 +52,24 @@ void write_stage_hessian(CodeWriter& out, CppContext& context) {
   if (context.arrays()) return;  // hessian(par, x, put) is there
   const Program& program = context.program;
   out.line("// The second derivatives of H at z.");
-  write_evaluation(out, context,
-                   "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
-                   "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
-                   program.hessian,
-                   [&](CodeWriter& w, const CppExpression& cpp) {
-                     for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
-                       const auto [i, j] = program.hessian_places[k];
-                       const std::string value = cpp(program.hessian.results[k]);
-                       w.line(fmt::format("values[{}][{}] = {};", i, j, value));
-                       if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
-                     }
-                   },
-                   CppContext::StateForm::array);
+  write_evaluation(
+      out, context,
+      "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
+      "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
+      program.hessian,
+      [&](CodeWriter& w, const CppExpression& cpp) {
+        for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
+          const auto [i, j] = program.hessian_places[k];
+          const std::string value = cpp(program.hessian.results[k]);
+          w.line(fmt::format("values[{}][{}] = {};", i, j, value));
+          if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
+        }
+      },
+      CppContext::StateForm::array);
 }
 
-constexpr const char* kElimination = R"(// P A = L U by elimination with partial pivoting, for many right sides.
+constexpr const char* kElimination =
+    R"(// P A = L U by elimination with partial pivoting, for many right sides.
 class Elimination {
  public:
   static constexpr int size = stages * dimension;
@@ -118,7 +120,8 @@ class Elimination {
 )";
 
 std::string step_text(const ScalarType& scalar) {
-  return fmt::format(R"(// Many steps: the stages start from the polynomial of the step before, rounding errors of the
+  return fmt::format(
+      R"(// Many steps: the stages start from the polynomial of the step before, rounding errors of the
 // updates are carried along.
 class Propagator {{
  public:
@@ -166,7 +169,7 @@ class Propagator {{
   }}
 
 )",
-                     fmt::arg("largest", scalar.largest));
+      fmt::arg("largest", scalar.largest));
 }
 
 std::string private_text() {
@@ -208,8 +211,10 @@ std::string private_text() {
 
 std::string fixed_point_text(bool switches, const ScalarType& scalar) {
   std::string text =
-      switches ? "  // Y_i = z + sum coupling L, over and over.  False if that contracts slowly or not at all.\n"
-               : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
+      switches
+          ? "  // Y_i = z + sum coupling L, over and over.  False if that contracts slowly or not "
+            "at all.\n"
+          : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
   text += R"(  bool fixed_point(StepReport& report) {
     StageRule rule;
 )";
@@ -248,9 +253,10 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
 
 std::string newton_text(bool arrays, const ScalarType& scalar) {
   const std::string fill =
-      arrays ? R"(    hessian(par_, x, [&values](int row, int column, Real value) { values[row][column] += value; });
+      arrays
+          ? R"(    hessian(par_, x, [&values](int row, int column, Real value) { values[row][column] += value; });
 )"
-             : "    hessian(par_, x, values);\n";
+          : "    hessian(par_, x, values);\n";
   return R"(  // I - coupling h b J H'' with the Hessian at the mean of the stages.
   bool factorise() {
     Real x[dimension];
@@ -260,7 +266,8 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
       x[k] = y_[k] + x[k] / stages;
     }
     Real values[dimension][dimension] = {};
-)" + fill + R"(    constexpr int half = dimension / 2;
+)" + fill +
+         R"(    constexpr int half = dimension / 2;
     for (int row = 0; row < Elimination::size; ++row) {
       const int i = row / dimension;
       const int k = row % dimension;
@@ -317,14 +324,15 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
         age = 0;
         continue;
       }
-)" + fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
+)" +
+         fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
       if (before > 0 && visible && 4 * rule.size > before && age > 1) factorised_ = false;
       before = rule.size;
       ++age;
     }}
   }}
 )",
-                 scalar.epsilon);
+                     scalar.epsilon);
 }
 
 std::string iterate_text(StageSolver solver) {

@@ -124,7 +124,8 @@ struct FixedPointRule {{
 }
 
 std::string cpp_history(int unknowns) {
-  return fmt::format(R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
+  return fmt::format(
+      R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
 // prediction of degree d and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
 // The degree is chosen anew every 16th step: the one that predicted best that time.
@@ -167,7 +168,7 @@ struct History {{
   }}
 }};
 )",
-                     fmt::arg("unknowns", unknowns));
+      fmt::arg("unknowns", unknowns));
 }
 
 std::string cpp_elimination(const ScalarType&) {

@@ -1,7 +1,7 @@
 // The numbers of an implicit Runge-Kutta method in C++.
-#include <fmt/format.h>
-
 #include "generator/formats/cpp_tableau.hpp"
+
+#include <fmt/format.h>
 
 namespace hamgen {
 
@@ -37,8 +37,8 @@ Rational integral_from_one(const Row& polynomial, const Rational& x) {
   return sum;
 }
 
-// Row i: with the polynomial that has the slopes f_j at the nodes c_j of the last step, the increment
-// from its end to the node 1 + c_i, per L_j = h b_j f_j.
+// Row i: with the polynomial that has the slopes f_j at the nodes c_j of the last step, the
+// increment from its end to the node 1 + c_i, per L_j = h b_j f_j.
 Matrix extrapolation(const Row& b, const Row& c) {
   const std::size_t s = b.size();
   Matrix result(s, Row(s));
@@ -100,13 +100,15 @@ void write_tableau(CodeWriter& out, const ScalarType& scalar, const RungeKutta& 
   for (const Rational& value : b) weights += (weights.empty() ? "" : ", ") + literal(value, scalar);
   out.line(fmt::format("inline constexpr Real weight[stages] = {{{}}};", weights));
   out.line();
-  out.lines(R"(// coupling[i][j] = a_ij / b_j: with L_j = h b_j f(Y_j) the stages are Y_i = z + sum coupling[i][j] L_j.
+  out.lines(
+      R"(// coupling[i][j] = a_ij / b_j: with L_j = h b_j f(Y_j) the stages are Y_i = z + sum coupling[i][j] L_j.
 // The step is symplectic because coupling[i][j] + coupling[j][i] = 1.  Written like this the sum is 1
 // exactly: rounded coefficients too give a symplectic step, and no drift in the energy.
 )");
   write_matrix_of(out, "coupling", m);
   out.line();
-  out.line("// From the stages of one step to a start for those of the next, on the same polynomial.");
+  out.line(
+      "// From the stages of one step to a start for those of the next, on the same polynomial.");
   std::vector<std::vector<std::string>> ahead;
   for (const Row& row : extrapolation(b, c)) {
     auto& texts = ahead.emplace_back();

@@ -14,9 +14,10 @@ void write_hessian_function(CodeWriter& out, CppContext& context) {
   out.line("// Second derivatives of H.");
   write_evaluation(
       out, context,
-      fmt::format("inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] const "
-                  "State& z, [[maybe_unused]] Real (&values)[{0}][{0}])",
-                  2 * context.n()),
+      fmt::format(
+          "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] const "
+          "State& z, [[maybe_unused]] Real (&values)[{0}][{0}])",
+          2 * context.n()),
       program.hessian, [&](CodeWriter& w, const CppExpression& cpp) {
         for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
           const auto [i, j] = program.hessian_places[k];
@@ -33,9 +34,10 @@ void write_stage_matrix(CodeWriter& out, CppContext& context) {
   names.reserve("values");
   const CppExpression cpp = context.expression(names);
   out.line("// I/2 + C, which makes zbar = z + (I/2 + C) (Z - z).");
-  out.open(fmt::format("inline void stage_matrix([[maybe_unused]] const Parameters& par, "
-                       "[[maybe_unused]] Real h, Real (&values)[{0}][{0}])",
-                       2 * context.n()));
+  out.open(
+      fmt::format("inline void stage_matrix([[maybe_unused]] const Parameters& par, "
+                  "[[maybe_unused]] Real h, Real (&values)[{0}][{0}])",
+                  2 * context.n()));
   for (int i = 0; i < 2 * context.n(); ++i) {
     for (int j = 0; j < 2 * context.n(); ++j) {
       const auto it = c.find({i, j});
@@ -66,7 +68,8 @@ std::string moved_fields(const CppContext& context, const std::string& state) {
   return text;
 }
 
-constexpr const char* kSolved = R"(// M = dZ/dz of the step that moves z by dz: with S the Hessian at zbar = z + (I/2 + C) dz and
+constexpr const char* kSolved =
+    R"(// M = dZ/dz of the step that moves z by dz: with S the Hessian at zbar = z + (I/2 + C) dz and
 // A+ = I - h J S (I/2 + C), A- = I + h J S (I/2 - C), it is A+^-1 A-.  False if A+ is singular.
 inline bool tangent(const Parameters& par, Real h, const State& z, const State& dz,
                     Real (&m)[{size}][{size}]) {{
@@ -124,7 +127,8 @@ inline bool tangent(const Parameters& par, Real h, const State& z, const State& 
 
 )";
 
-constexpr const char* kSwept = R"(// M = dZ/dz of the sweeps themselves, each linearised: g and its derivative dg along z are carried
+constexpr const char* kSwept =
+    R"(// M = dZ/dz of the sweeps themselves, each linearised: g and its derivative dg along z are carried
 // through zbar = z + h (I/2 + C) J g and g = grad H(zbar).
 inline bool tangent(const Parameters& par, Real h, const State& z, const State&,
                     Real (&m)[{size}][{size}]) {{

@@ -52,7 +52,8 @@ void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
   out.line();
   write_struct(out, "State", context.state_groups, false, context.scalar);
   out.line();
-  out.line("// On failure the increment says how far the iteration was from its end; it is not finite");
+  out.line(
+      "// On failure the increment says how far the iteration was from its end; it is not finite");
   out.line("// where the step left the domain of H.");
   out.open("struct StepReport");
   out.line("bool converged = false;");

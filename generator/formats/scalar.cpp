@@ -75,12 +75,15 @@ std::string wide_literal(const Rational& value, int digits) {
   if (static_cast<long>(mpz_sizeinbase(mantissa.get_mpz_t(), 2)) < digits) {
     mantissa = nearest_multiple(size, --exponent);
   }
-  auto spell = [](const Integer& m, long e) { return "0x" + m.get_str(16) + fmt::format("p{}L", e); };
+  auto spell = [](const Integer& m, long e) {
+    return "0x" + m.get_str(16) + fmt::format("p{}L", e);
+  };
   const std::string sign = value < 0 ? "-" : "";
   if (digits <= 64) return sign + spell(mantissa, exponent);
   const Integer low = mantissa % (Integer(1) << 56);
   const Integer high = mantissa >> 56;
-  return fmt::format("{}(Real({}) + Real({}))", sign, spell(high, exponent + 56), spell(low, exponent));
+  return fmt::format("{}(Real({}) + Real({}))", sign, spell(high, exponent + 56),
+                     spell(low, exponent));
 }
 
 bool fits_exactly(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 2) <= 53; }
@@ -94,8 +97,8 @@ const ScalarType& find_scalar(std::string_view name) {
   for (const ScalarType& scalar : kScalars) {
     if (scalar.name == name) return scalar;
   }
-  throw UsageError(fmt::format(
-      "unknown scalar '{}'; there are float, double, long-double, quad", name));
+  throw UsageError(
+      fmt::format("unknown scalar '{}'; there are float, double, long-double, quad", name));
 }
 
 std::string literal(const Rational& value, const ScalarType& scalar) {
@@ -103,7 +106,8 @@ std::string literal(const Rational& value, const ScalarType& scalar) {
   if (scalar.digits > 53 && needs_a_wide_exponent(value)) return wide_literal(value, scalar.digits);
   auto spell = [&](double x) {
     // A long double literal is read with 64 bits: only the exact decimal, or hexadecimal, will do.
-    if (scalar.digits == 64 && parse_decimal(shortest_decimal(std::fabs(x))) != from_double(std::fabs(x))) {
+    if (scalar.digits == 64 &&
+        parse_decimal(shortest_decimal(std::fabs(x))) != from_double(std::fabs(x))) {
       return fmt::format("{:a}L", x);
     }
     return quad ? fmt::format("Real({})", shortest_decimal(x))
@@ -127,8 +131,10 @@ std::string literal(const Rational& value, const ScalarType& scalar) {
     const double nearest = to_double(value);
     float rounded = static_cast<float>(nearest);
     const Rational there = from_double(static_cast<double>(rounded));
-    for (const float other : {std::nextafter(rounded, -3.0e38F), std::nextafter(rounded, 3.0e38F)}) {
-      if (abs(from_double(static_cast<double>(other)) - value) < abs(there - value)) rounded = other;
+    for (const float other :
+         {std::nextafter(rounded, -3.0e38F), std::nextafter(rounded, 3.0e38F)}) {
+      if (abs(from_double(static_cast<double>(other)) - value) < abs(there - value))
+        rounded = other;
     }
     return shortest_float(rounded) + "f";
   }

@@ -98,9 +98,10 @@ class Evaluator {
   void add(const Node& node, const SumNode& sum, std::size_t depth, Rational& total) {
     if (depth == sum.ranges.size()) {
       if (++terms_ > most_constant_terms) {
-        throw ConstantError{{Severity::error, node.span,
-                             fmt::format("a constant sum of more than {} terms", most_constant_terms),
-                             "give its value"}};
+        throw ConstantError{
+            {Severity::error, node.span,
+             fmt::format("a constant sum of more than {} terms", most_constant_terms),
+             "give its value"}};
       }
       total += value(sum.body);
       return;

@@ -81,7 +81,8 @@ Mechanics derive(const Model& model, bool keep_sums) {
     const std::string& name = mechanics.variables[static_cast<std::size_t>(i)].name;
     table.symbol(name, kRankOfVariable + i);
   }
-  for (const Quantity& variable : mechanics.variables) symbols.push_back(&table.find(variable.name));
+  for (const Quantity& variable : mechanics.variables)
+    symbols.push_back(&table.find(variable.name));
 
   if (keep_sums && mechanics.degrees_of_freedom > kMostWrittenOut) {
     if (auto kernels = derive_kernels(model)) {

@@ -154,7 +154,7 @@ class KernelBuilder {
   struct Reference {
     const NameNode* name;
     AffineIndex subscript;
-    const Variable* variable;    // null for a parameter
+    const Variable* variable;  // null for a parameter
     const Parameter* parameter;
   };
 
@@ -178,8 +178,9 @@ class KernelBuilder {
       const Variable* variable = it == variables_.end() ? nullptr : it->second.first;
       const auto parameter = std::ranges::find(model_.parameters, name->name, &Parameter::name);
       if (!variable && parameter != model_.parameters.end() && parameter->folded) return false;
-      references.push_back({name, *subscript, variable,
-                            variable || parameter == model_.parameters.end() ? nullptr : &*parameter});
+      references.push_back(
+          {name, *subscript, variable,
+           variable || parameter == model_.parameters.end() ? nullptr : &*parameter});
       return true;
     }
     bool fine = true;
@@ -257,7 +258,8 @@ class KernelBuilder {
       if (i < best_first || i >= best_first + best_size) instance(term, {{range.index, i}});
     }
     if (best_size > 0) {
-      KernelRange inner{range.index, {.constant = best_first, .factors = {}},
+      KernelRange inner{range.index,
+                        {.constant = best_first, .factors = {}},
                         {.constant = best_first + best_size - 1, .factors = {}}};
       regular(term, {inner}, references);
     }
@@ -285,7 +287,8 @@ class KernelBuilder {
       const std::vector<std::string> elements = element_names(std::vector{*variable});
       for (std::size_t k = 0; k < elements.size(); ++k) {
         if (!names.contains(elements[k])) continue;
-        kernel.slots.push_back({elements[k], {.constant = position + static_cast<long>(k), .factors = {}},
+        kernel.slots.push_back({elements[k],
+                                {.constant = position + static_cast<long>(k), .factors = {}},
                                 position >= degrees_of_freedom(model_)});
       }
     }
@@ -308,9 +311,10 @@ class KernelBuilder {
       AffineIndex position = it->subscript;
       position.constant -= range.first;
       if (it->variable) position.constant += variables_.at(name.name).second;
-      const bool known = std::ranges::find(kernel.slots, symbol, &Slot::symbol) != kernel.slots.end() ||
-                         std::ranges::find(kernel.parameters, symbol, &ParameterSlot::symbol) !=
-                             kernel.parameters.end();
+      const bool known =
+          std::ranges::find(kernel.slots, symbol, &Slot::symbol) != kernel.slots.end() ||
+          std::ranges::find(kernel.parameters, symbol, &ParameterSlot::symbol) !=
+              kernel.parameters.end();
       if (!known && it->variable) {
         const bool momentum = variables_.at(name.name).second >= degrees_of_freedom(model_);
         kernel.slots.push_back({symbol, position, momentum});

@@ -54,7 +54,8 @@ class AtomDerivatives {
       const Polynomial slope = ring_.atom_derivative(polynomial_, atoms_[i]);
       const Expression outer = horner(slope);
       Row curvatures;
-      for (const std::size_t j : atoms_) curvatures.push_back(horner(ring_.atom_derivative(slope, j)));
+      for (const std::size_t j : atoms_)
+        curvatures.push_back(horner(ring_.atom_derivative(slope, j)));
       for (std::size_t a = 0; a < size; ++a) {
         if (inner_[i][a].is_zero()) continue;
         const Row bend = gradient(inner_[i][a], variables_);
@@ -149,9 +150,12 @@ enum class Writing { nested, horner, by_atoms };
 
 const char* to_text(Writing writing) {
   switch (writing) {
-    case Writing::nested: return "nested derivatives of H";
-    case Writing::horner: return "a polynomial by Horner's rule";
-    case Writing::by_atoms: return "a polynomial, its derivatives by Horner's rule";
+    case Writing::nested:
+      return "nested derivatives of H";
+    case Writing::horner:
+      return "a polynomial by Horner's rule";
+    case Writing::by_atoms:
+      return "a polynomial, its derivatives by Horner's rule";
   }
   return "";
 }
@@ -166,9 +170,12 @@ struct Candidate {
 Row slopes(const Candidate& candidate, const Expression& k) {
   const Row& y = candidate.chart->symbols;
   switch (candidate.writing) {
-    case Writing::nested: return gradient(k, y);
-    case Writing::horner: return gradient(AtomDerivatives(k, y).horner(), y);
-    case Writing::by_atoms: return AtomDerivatives(k, y).first();
+    case Writing::nested:
+      return gradient(k, y);
+    case Writing::horner:
+      return gradient(AtomDerivatives(k, y).horner(), y);
+    case Writing::by_atoms:
+      return AtomDerivatives(k, y).first();
   }
   return {};
 }
@@ -200,19 +207,18 @@ std::vector<Candidate> candidates(const Expression& energy, const Chart& chart,
   return result;
 }
 
-// The Hessian is needed approximately only: that of K itself, of a shorter K, or of H.  The better it
-// is, the fewer evaluations Newton's iteration takes from an extrapolated start to round-off.
+// The Hessian is needed approximately only: that of K itself, of a shorter K, or of H.  The better
+// it is, the fewer evaluations Newton's iteration takes from an extrapolated start to round-off.
 struct HessianChoice {
   int order = 2;
   double evaluations = 0;  // per step, as seen on the shipped models
 };
 
-// Operations of Newton's linear system.  With a Hessian that does not couple q and p, one half of the
-// unknowns is given by the other.
+// Operations of Newton's linear system.  With a Hessian that does not couple q and p, one half of
+// the unknowns is given by the other.
 long solve_cost(const SparseMatrix& hessian, int n) {
-  const bool separable = std::ranges::none_of(hessian, [n](const auto& entry) {
-    return entry.first.first < n && entry.first.second >= n;
-  });
+  const bool separable = std::ranges::none_of(
+      hessian, [n](const auto& entry) { return entry.first.first < n && entry.first.second >= n; });
   const long written_out = 3;
   const long m = separable && n <= written_out ? n : 2 * n;
   return m <= written_out ? 5 * m * m : m * m * m + 10 * m;
@@ -220,7 +226,8 @@ long solve_cost(const SparseMatrix& hessian, int n) {
 
 // Sets the Hessian, and the operations, to the choice that costs least per step.
 void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
-                    const Candidate& candidate, const Row& z, const std::set<std::string>& varying) {
+                    const Candidate& candidate, const Row& z,
+                    const std::set<std::string>& varying) {
   std::vector<HessianChoice> choices{{2, 4.0}, {function.order, 2.0}};
   if (function.order > 4) choices.push_back({4, 3.0});
   double least = 0;
@@ -229,9 +236,11 @@ void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
     SparseMatrix hessian = mechanics.hessian;
     if (choice.order > 2) {
       // Many second derivatives of a long K are never the cheapest: do not even look at them.
-      if (least > 0 && function.operations * static_cast<long>(z.size()) > 4 * kMostOperations) break;
+      if (least > 0 && function.operations * static_cast<long>(z.size()) > 4 * kMostOperations)
+        break;
       const auto count = std::min<std::ptrdiff_t>(choice.order, std::ssize(candidate.terms));
-      const Expression k = sum_of_powers({candidate.terms.begin(), candidate.terms.begin() + count});
+      const Expression k =
+          sum_of_powers({candidate.terms.begin(), candidate.terms.begin() + count});
       const Row first = slopes(candidate, k);
       hessian = PullBack(*candidate.chart, z).second(first, curvatures(candidate, k, first));
     }
@@ -295,19 +304,23 @@ GeneratingFunction generating_function(const Mechanics& mechanics, const SparseM
   std::string lower;
   for (int r = order - decrement; r > 2 && lower.empty(); r -= decrement) {
     if (const auto function = shortest_form(mechanics, c, r)) {
-      lower = fmt::format("--order {} takes {} operations an evaluation; ", r, function->operations);
+      lower =
+          fmt::format("--order {} takes {} operations an evaluation; ", r, function->operations);
     }
   }
-  throw UsageError(fmt::format(
-      "--order {}: the generating function of {} takes more than {} operations, which would keep the "
-      "compiler busy for more than ten seconds\nhelp: {}compositions and Gauss methods of this order cost "
-      "more stages but no long formulas, see `hamgen list schemes`",
-      order, mechanics.name, kMostOperations, lower));
+  throw UsageError(
+      fmt::format("--order {}: the generating function of {} takes more than {} operations, which "
+                  "would keep the "
+                  "compiler busy for more than ten seconds\nhelp: {}compositions and Gauss methods "
+                  "of this order cost "
+                  "more stages but no long formulas, see `hamgen list schemes`",
+                  order, mechanics.name, kMostOperations, lower));
 }
 
 std::string to_text(const GeneratingFunction& function) {
-  const std::string which =
-      function.hessian_order == function.order ? "" : fmt::format(" of order {}", function.hessian_order);
+  const std::string which = function.hessian_order == function.order
+                                ? ""
+                                : fmt::format(" of order {}", function.hessian_order);
   return fmt::format("K of order {} in place of H: {}; gradient and Hessian{}: {} operations\n",
                      function.order, function.form, which, function.operations);
 }

@@ -14,16 +14,16 @@ namespace hamgen {
 struct GeneratingFunction {
   int order = 0;
   std::vector<Expression> gradient;  // of K by z, 2n, in z, h and the parameters
-  // Second derivatives, i <= j: of the K of `hessian_order`, which is lower where that saves more than
-  // Newton's iteration loses by it.
+  // Second derivatives, i <= j: of the K of `hessian_order`, which is lower where that saves more
+  // than Newton's iteration loses by it.
   SparseMatrix hessian;
   int hessian_order = 0;
   std::string form;     // how K is written, for people
   long operations = 0;  // of gradient and Hessian together; a function counts 10
 };
 
-// The shortest of the forms K can be given.  Throws UsageError, with the alternatives, where that is
-// too long to be compiled in reasonable time.
+// The shortest of the forms K can be given.  Throws UsageError, with the alternatives, where that
+// is too long to be compiled in reasonable time.
 [[nodiscard]] GeneratingFunction generating_function(const Mechanics& mechanics,
                                                      const SparseMatrix& c, int order);
 

@@ -26,7 +26,8 @@ bool is_undefined(const Expression& e) {
   return false;
 }
 
-// M J with J = [[0, I], [-I, 0]]: its column j is -(column n + j of M), its column n + j is column j.
+// M J with J = [[0, I], [-I, 0]]: its column j is -(column n + j of M), its column n + j is column
+// j.
 SparseMatrix times_j(const SparseMatrix& m, int n) {
   SparseMatrix result;
   for (const auto& [place, value] : m) {
@@ -106,7 +107,9 @@ namespace {
 class SeriesSolver {
  public:
   SeriesSolver(const Expression& energy, const Chart& chart, PolynomialRing* ring)
-      : energy_(energy), chart_(chart), ring_(ring),
+      : energy_(energy),
+        chart_(chart),
+        ring_(ring),
         taylor_([this](const Expression& symbol, int k) { return displacement(symbol, k); }) {
     for (std::size_t a = 0; a < chart.symbols.size(); ++a) {
       place_[chart.symbols[a].name()] = static_cast<int>(a);

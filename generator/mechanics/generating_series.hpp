@@ -28,8 +28,8 @@ namespace hamgen {
 // terms cancel.  Which of the two is shorter depends on H.
 enum class SeriesForm { nested, expanded };
 
-// Terms of a polynomial, and operations of a gradient, beyond which no series is pursued.  A compiler
-// takes about a millisecond for an operation.
+// Terms of a polynomial, and operations of a gradient, beyond which no series is pursued.  A
+// compiler takes about a millisecond for an operation.
 inline constexpr std::size_t kMostTerms = 4000;
 inline constexpr long kMostOperations = 12000;
 

@@ -1,8 +1,8 @@
 // Indexed sums kept as sums: what large systems are made of.
 //
-// H = sum over kernels, sum over their index ranges, of `value` in the kernel's slots.  A slot is one
-// element of the state whose position depends on the indices, such as q[i+1]; derivatives are taken
-// by slot and scattered.
+// H = sum over kernels, sum over their index ranges, of `value` in the kernel's slots.  A slot is
+// one element of the state whose position depends on the indices, such as q[i+1]; derivatives are
+// taken by slot and scattered.
 #pragma once
 
 #include <map>
@@ -44,7 +44,7 @@ struct Kernel {
   std::vector<Slot> slots;
   std::vector<ParameterSlot> parameters;
   Expression value;
-  std::vector<Expression> gradient;                             // by slot
+  std::vector<Expression> gradient;                                   // by slot
   std::map<std::pair<std::size_t, std::size_t>, Expression> hessian;  // slots i <= j, nonzero
 };
 

@@ -64,21 +64,20 @@ bool uses_momenta(const Kernel& kernel) {
 
 std::string to_text(const Mechanics& mechanics) {
   const int n = mechanics.degrees_of_freedom;
-  std::string text = fmt::format("system {}, {} degree{} of freedom, {}\n", mechanics.name, n,
-                                 n == 1 ? "" : "s",
-                                 mechanics.is_separable() ? "separable" : "not separable");
+  std::string text =
+      fmt::format("system {}, {} degree{} of freedom, {}\n", mechanics.name, n, n == 1 ? "" : "s",
+                  mechanics.is_separable() ? "separable" : "not separable");
   if (mechanics.keeps_sums()) return text + kernels_text(mechanics);
   text += "H = " + to_text(mechanics.energy) + "\n";
   for (int i = 0; i < 2 * n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    text += fmt::format("dH/d{} = {}\n", mechanics.variables[k].name,
-                        to_text(mechanics.gradient[k]));
+    text +=
+        fmt::format("dH/d{} = {}\n", mechanics.variables[k].name, to_text(mechanics.gradient[k]));
   }
   for (const auto& [place, value] : mechanics.hessian) {
-    text += fmt::format("d2H/d{} d{} = {}\n",
-                        mechanics.variables[static_cast<std::size_t>(place.first)].name,
-                        mechanics.variables[static_cast<std::size_t>(place.second)].name,
-                        to_text(value));
+    text += fmt::format(
+        "d2H/d{} d{} = {}\n", mechanics.variables[static_cast<std::size_t>(place.first)].name,
+        mechanics.variables[static_cast<std::size_t>(place.second)].name, to_text(value));
   }
   for (const NamedExpression& invariant : mechanics.invariants) {
     text += fmt::format("invariant {} = {}\n", invariant.name, to_text(invariant.value));

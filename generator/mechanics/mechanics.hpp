@@ -19,7 +19,7 @@ struct Quantity {
   std::string name;  // "eps", "m[2]"
   std::string unit;
   std::string comment;
-  Rational value;    // default of a parameter
+  Rational value;  // default of a parameter
 };
 
 struct NamedExpression {
@@ -29,15 +29,15 @@ struct NamedExpression {
 
 struct Mechanics {
   std::string name;
-  std::string hamiltonian_text;        // as the user wrote it
-  int degrees_of_freedom = 0;          // n
-  std::vector<Quantity> variables;     // 2n: q1..qn, p1..pn
-  std::vector<Quantity> parameters;    // run-time parameters, in declaration order
+  std::string hamiltonian_text;      // as the user wrote it
+  int degrees_of_freedom = 0;        // n
+  std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
+  std::vector<Quantity> parameters;  // run-time parameters, in declaration order
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
   // written-out expressions below are empty.
   std::vector<Kernel> kernels;
-  Expression energy;                   // H(z), sums written out
-  std::vector<Expression> gradient;    // 2n
+  Expression energy;                                  // H(z), sums written out
+  std::vector<Expression> gradient;                   // 2n
   std::map<std::pair<int, int>, Expression> hessian;  // nonzero entries, i <= j
   std::vector<NamedExpression> invariants;
 
@@ -51,8 +51,8 @@ struct Mechanics {
 };
 
 // Ranks of symbols: they give every sum and product its order.
-inline constexpr int kRankOfStep = -2;       // h
-inline constexpr int kRankOfParameter = 0;   // + position
+inline constexpr int kRankOfStep = -2;          // h
+inline constexpr int kRankOfParameter = 0;      // + position
 inline constexpr int kRankOfVariable = 100000;  // + position in z
 inline constexpr int kRankOfTemporary = 1000000;
 

@@ -19,13 +19,16 @@ namespace {
 //
 //   dS/d(theta) = h Ht(zbar + (1/2 - C) J grad S),   S = 0 at theta = 0,   S = h K at theta = 1
 //
-// With S = sum of h^N P_N(zbar, theta) and R_N the coefficient of h^N of Ht on the right without H_N,
+// With S = sum of h^N P_N(zbar, theta) and R_N the coefficient of h^N of Ht on the right without
+// H_N,
 //
 //   H_N = K_N - integral of R_N over 0..1,   P_(N+1) = theta H_N + integral of R_N over 0..theta
 class ModifiedSolver {
  public:
   ModifiedSolver(const Mechanics& mechanics, const std::vector<SparseMatrix>& gauge)
-      : chart_(coordinate_chart(mechanics, gauge)), odd_(is_odd(gauge)), ring_(kMostTerms),
+      : chart_(coordinate_chart(mechanics, gauge)),
+        odd_(is_odd(gauge)),
+        ring_(kMostTerms),
         taylor_([this](const Expression& symbol, int k) { return displacement(symbol, k); }) {
     for (std::size_t i = 0; i < chart_.symbols.size(); ++i) {
       place_[chart_.symbols[i].name()] = static_cast<int>(i);

@@ -46,13 +46,19 @@ long operation_count(std::span<const Expression> values, const std::set<std::str
     if (parts == 0) return false;
     switch (node.kind()) {
       case Kind::sum:
-      case Kind::product: total += parts - 1 + (constant ? 1 : 0); break;
-      case Kind::power:
-        total += node.operands()[1].is_number() ? power_cost(node.operands()[1].number()) : 2 * kFunction;
+      case Kind::product:
+        total += parts - 1 + (constant ? 1 : 0);
         break;
-      case Kind::function: total += kFunction; break;
+      case Kind::power:
+        total += node.operands()[1].is_number() ? power_cost(node.operands()[1].number())
+                                                : 2 * kFunction;
+        break;
+      case Kind::function:
+        total += kFunction;
+        break;
       case Kind::number:
-      case Kind::symbol: break;
+      case Kind::symbol:
+        break;
     }
     return true;
   };

@@ -76,9 +76,12 @@ class FormBuilder {
       operands.push_back(*inner);
     }
     switch (e.kind()) {
-      case Kind::product: return Expression::product(std::move(operands));
-      case Kind::power: return Expression::power(operands[0], operands[1]);
-      default: return Expression::apply(e.name(), std::move(operands));
+      case Kind::product:
+        return Expression::product(std::move(operands));
+      case Kind::power:
+        return Expression::power(operands[0], operands[1]);
+      default:
+        return Expression::apply(e.name(), std::move(operands));
     }
   }
 

@@ -17,8 +17,10 @@ Expression TaylorSeries::coefficient(const Expression& e, int k) {
 
 Expression TaylorSeries::compute(const Expression& e, int k) {
   switch (e.kind()) {
-    case Kind::number: return {};
-    case Kind::symbol: return input_(e, k);
+    case Kind::number:
+      return {};
+    case Kind::symbol:
+      return input_(e, k);
     case Kind::sum: {
       std::vector<Expression> terms;
       for (const Expression& term : e.operands()) terms.push_back(coefficient(term, k));
@@ -29,9 +31,11 @@ Expression TaylorSeries::compute(const Expression& e, int k) {
           e.operands()[0], Expression::product({e.operands().begin() + 1, e.operands().end()}));
       return product(first, rest, k);
     }
-    case Kind::power: return power(e, k);
+    case Kind::power:
+      return power(e, k);
     case Kind::function: {
-      // From d f(x) = f'(x) dx:  k y_k = sum over j = 1..k of j x_j [f'(x)]_(k-j), for each argument.
+      // From d f(x) = f'(x) dx:  k y_k = sum over j = 1..k of j x_j [f'(x)]_(k-j), for each
+      // argument.
       std::vector<Expression> terms;
       for (std::size_t i = 0; i < e.operands().size(); ++i) {
         std::vector<Expression> inner;

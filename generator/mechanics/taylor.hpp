@@ -10,7 +10,8 @@
 namespace hamgen {
 
 // Replaces the symbols x of expressions by series x + x_1 h + x_2 h^2 + ... and gives the
-// coefficients of the results, each computed once: all of them to h^k cost O(k^2) operations a node.
+// coefficients of the results, each computed once: all of them to h^k cost O(k^2) operations a
+// node.
 class TaylorSeries {
  public:
   // x_k, k >= 1, of the symbol; zero for a symbol that stays as it is.

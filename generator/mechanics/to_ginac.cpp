@@ -31,8 +31,8 @@ TreeConverter::TreeConverter(const Model& model, SymbolTable& table)
       const std::string name = parameter.range
                                    ? element_name(parameter.name, parameter.range->first + k)
                                    : parameter.name;
-      const auto place = std::min<std::size_t>(static_cast<std::size_t>(k),
-                                               parameter.values.size() - 1);
+      const auto place =
+          std::min<std::size_t>(static_cast<std::size_t>(k), parameter.values.size() - 1);
       values[name] = evaluate_constant(parameter.values[place], model.source, values);
       if (parameter.folded) folded_[name] = values[name];
     }
@@ -141,14 +141,18 @@ GiNaC::ex TreeConverter::convert_binary(const BinaryNode& node, const Indices& i
   const GiNaC::ex left = convert(node.left, indices);
   const GiNaC::ex right = convert(node.right, indices);
   switch (node.operation) {
-    case BinaryOperator::add: return left + right;
-    case BinaryOperator::subtract: return left - right;
-    case BinaryOperator::multiply: return left * right;
+    case BinaryOperator::add:
+      return left + right;
+    case BinaryOperator::subtract:
+      return left - right;
+    case BinaryOperator::multiply:
+      return left * right;
     case BinaryOperator::divide:
       if (right.expand().is_zero()) fail(node.right->span, "division by zero");
       return left / right;
     case BinaryOperator::power: {
-      const bool negative = GiNaC::is_a<GiNaC::numeric>(right) && right.info(GiNaC::info_flags::negative);
+      const bool negative =
+          GiNaC::is_a<GiNaC::numeric>(right) && right.info(GiNaC::info_flags::negative);
       if (left.expand().is_zero() && (negative || right.is_zero())) {
         fail(node.left->span, negative ? "division by zero" : "0^0 is undefined");
       }

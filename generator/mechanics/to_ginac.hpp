@@ -42,7 +42,7 @@ class TreeConverter {
   const Model& model_;
   SymbolTable& table_;
   std::map<std::string, GiNaC::ex> definitions_;
-  std::map<std::string, std::pair<const Variable*, int>> variables_;   // first rank
+  std::map<std::string, std::pair<const Variable*, int>> variables_;  // first rank
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;
   std::map<std::string, Rational> folded_;
   Element element_;

@@ -26,7 +26,9 @@ struct PendingSolve {
 class Builder {
  public:
   explicit Builder(const SolvePlan& plan)
-      : plan_(plan), equations_(plan.equations), n_(plan.equations.mechanics.degrees_of_freedom),
+      : plan_(plan),
+        equations_(plan.equations),
+        n_(plan.equations.mechanics.degrees_of_freedom),
         lowering_(sections(plan)) {
     for (const Quantity& parameter : equations_.mechanics.parameters) {
       lowering_.declare(parameter.name, kCoefficients);
@@ -92,11 +94,11 @@ class Builder {
   }
 
   // Note [rounding without bias]
-  // What is small is summed first, and what rounding took from z comes with it: the step starts from
-  // z + carry, of which z is the rounded value.  If a correction below half a unit of the last place
-  // were added to a rounded gradient, or h dH/dp computed from a momentum p + h/2 dp on the same grid
-  // of floating-point numbers as p, the error would depend on the step and not on chance: a drift of
-  // the invariants that grows with the number of steps, not with its square root.
+  // What is small is summed first, and what rounding took from z comes with it: the step starts
+  // from z + carry, of which z is the rounded value.  If a correction below half a unit of the last
+  // place were added to a rounded gradient, or h dH/dp computed from a momentum p + h/2 dp on the
+  // same grid of floating-point numbers as p, the error would depend on the step and not on chance:
+  // a drift of the invariants that grows with the number of steps, not with its square root.
   Expression carry_symbol(int i) const {
     // What never changes is never rounded.
     if (gradient_[index(i < n_ ? i + n_ : i - n_)].is_zero()) return Expression(0);
@@ -128,7 +130,8 @@ class Builder {
   void need_gradient(int k) {
     if (known_gradient_[index(k)] || gradient_[index(k)].is_zero()) return;
     known_gradient_[index(k)] = true;
-    lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), straight());
+    lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)),
+                     straight());
   }
 
   // Stage symbols replaced by their present values.
@@ -162,8 +165,12 @@ class Builder {
 
   void add_block(const Block& block) {
     switch (block.kind) {
-      case BlockKind::assign: add_assignment(block.unknowns[0]); return;
-      case BlockKind::quadratic: add_quadratic(block.unknowns[0]); return;
+      case BlockKind::assign:
+        add_assignment(block.unknowns[0]);
+        return;
+      case BlockKind::quadratic:
+        add_quadratic(block.unknowns[0]);
+        return;
       case BlockKind::linear:
       case BlockKind::newton:
         if (block.simplified) {
@@ -172,7 +179,9 @@ class Builder {
           add_newton(block);
         }
         return;
-      case BlockKind::fixed_point: add_fixed_point(block); return;
+      case BlockKind::fixed_point:
+        add_fixed_point(block);
+        return;
     }
   }
 
@@ -377,7 +386,8 @@ class Builder {
       correct_gradient(k, Expression::sum(std::move(terms)), outside);
     }
     for (const int v : members) {
-      const Expression value = anew.contains(v) ? row(v, outside) : stage_value_[index(v)] + moved[v];
+      const Expression value =
+          anew.contains(v) ? row(v, outside) : stage_value_[index(v)] + moved[v];
       renew(stage_value_[index(v)], equations_.stage(v).name(), value, outside);
     }
     for (const int k : evaluated) {
@@ -484,7 +494,8 @@ class Builder {
     for (const int v : members) {
       solve.variables.push_back({stage_value_[index(v)].name(), {}, {}, {}});
       pending.cold.push_back(lowering_.want(equations_.mechanics.variable(v), before(stage_)));
-      if (solve.corrections.empty()) pending.correction.push_back(lowering_.want(corrections[v], where));
+      if (solve.corrections.empty())
+        pending.correction.push_back(lowering_.want(corrections[v], where));
     }
     solves_.push_back(std::move(pending));
 
@@ -495,8 +506,8 @@ class Builder {
       correct_gradient(k, Expression::sum(std::move(terms)), outside);
     }
     for (const int v : members) {
-      renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + corrections[v],
-            outside);
+      renew(stage_value_[index(v)], equations_.stage(v).name(),
+            stage_value_[index(v)] + corrections[v], outside);
     }
   }
 
@@ -504,8 +515,7 @@ class Builder {
   void correct_gradient(int k, const Expression& change, int section) {
     if (change.is_zero()) return;
     const Expression main = gradient_[index(k)];
-    const Expression symbol =
-        Expression::symbol("change(" + main.name() + ")", kRankOfTemporary);
+    const Expression symbol = Expression::symbol("change(" + main.name() + ")", kRankOfTemporary);
     define(symbol, change, section);
     correction_[index(k)] = {main, symbol};
     renew(gradient_[index(k)], main.name(), main + symbol, section);
@@ -626,7 +636,8 @@ class Builder {
   }
 
   // Algorithm 1 of the paper: predictor z + h J grad H(z), then K times zbar from the last Z and
-  // Z = z + h J grad H(zbar).  In terms of the gradient g: g = grad H(z), K times g = grad H(zbar(g)).
+  // Z = z + h J grad H(zbar).  In terms of the gradient g: g = grad H(z), K times g = grad
+  // H(zbar(g)).
   void add_sweeps() {
     open_solve();
     PendingSolve pending{.stage = stage_};
@@ -645,8 +656,8 @@ class Builder {
           lowering_.want(equations_.mechanics.gradient[index(k)], before(stage_)));
       pending.next.push_back(lowering_.want(equations_.stage_gradient(k), where));
     }
-    // After the loop the gradient is a value of its own: what the loop made of the one before it does
-    // not hold for it.
+    // After the loop the gradient is a value of its own: what the loop made of the one before it
+    // does not hold for it.
     for (Expression& component : gradient_) {
       if (component.is_zero()) continue;
       component = Expression::symbol(component.name() + "*", kRankOfTemporary);
@@ -762,7 +773,8 @@ Program build_program(const SolvePlan& plan) {
                                                                  : mechanics.gradient);
   }
   std::vector<Expression> invariants;
-  for (const NamedExpression& invariant : mechanics.invariants) invariants.push_back(invariant.value);
+  for (const NamedExpression& invariant : mechanics.invariants)
+    invariants.push_back(invariant.value);
   program.invariants = evaluate_together(invariants);
   return program;
 }
@@ -775,9 +787,14 @@ void add_cost(const Expression& e, Cost& total) {
   }
   switch (e.kind()) {
     case Kind::number:
-    case Kind::symbol: return;
-    case Kind::sum: total.additions += static_cast<int>(e.operands().size()) - 1; return;
-    case Kind::function: ++total.functions; return;
+    case Kind::symbol:
+      return;
+    case Kind::sum:
+      total.additions += static_cast<int>(e.operands().size()) - 1;
+      return;
+    case Kind::function:
+      ++total.functions;
+      return;
     case Kind::power:
       if (e.operands()[1] == Expression(-1)) {
         ++total.divisions;
@@ -791,7 +808,8 @@ void add_cost(const Expression& e, Cost& total) {
       int factors = 0;
       bool reciprocal = false;
       for (const Expression& operand : e.operands()) {
-        const bool divides = operand.kind() == Kind::power && operand.operands()[1] == Expression(-1);
+        const bool divides =
+            operand.kind() == Kind::power && operand.operands()[1] == Expression(-1);
         reciprocal = reciprocal || divides;
         if (!divides && operand != Expression(-1)) ++factors;
       }
@@ -834,7 +852,7 @@ std::string to_text(const Program& program) {
     print(text, stage.before, "  ");
     if (stage.solve) {
       const Solve& solve = *stage.solve;
-      text += solve.sweeps ? fmt::format("{} sweeps:\n", *solve.sweeps)
+      text += solve.sweeps                      ? fmt::format("{} sweeps:\n", *solve.sweeps)
               : solve.kind == BlockKind::linear ? std::string("solve:\n")
                                                 : std::string("iterate:\n");
       print(text, solve.body, "  ");

@@ -146,8 +146,8 @@ Expression Lowering::rewrite_operands(const Expression& e, int section) {
       for (const Expression& member : group) members.push_back(rewrite(member, where));
       members.insert(members.end(), carried.begin(), carried.end());
       carried.clear();
-      Expression combined = e.kind() == Kind::sum ? Expression::sum(members)
-                                                  : Expression::product(members);
+      Expression combined =
+          e.kind() == Kind::sum ? Expression::sum(members) : Expression::product(members);
       const bool last = where == groups.rbegin()->first;
       if (!last && combined.is_number()) {
         carried.push_back(combined);
@@ -164,8 +164,8 @@ Expression Lowering::rewrite_operands(const Expression& e, int section) {
         auto [coefficient, rest] = combined.split_coefficient();
         if (coefficient == -1) {
           const auto found = named_.find(rest);
-          operands.push_back(-(found != named_.end() ? found->second
-                                                     : temporary(rest, rest, where)));
+          operands.push_back(
+              -(found != named_.end() ? found->second : temporary(rest, rest, where)));
         } else {
           operands.push_back(temporary(combined, combined, where));
         }
@@ -180,8 +180,7 @@ Expression Lowering::rewrite_operands(const Expression& e, int section) {
 }
 
 // x^n by repeated squaring, x^(k/2) from one square root, negative powers from one reciprocal.
-Expression Lowering::rewrite_power(const Expression& base, const Rational& exponent,
-                                   int section) {
+Expression Lowering::rewrite_power(const Expression& base, const Rational& exponent, int section) {
   const Integer& over = exponent.get_num();
   const bool integer = exponent.get_den() == 1;
   const bool half = exponent.get_den() == 2;

@@ -18,7 +18,7 @@ struct Section {
 struct WantedValue {
   std::string name;
   Expression value;
-  int section = 0;       // where it is wanted; it moves up if it depends on less
+  int section = 0;  // where it is wanted; it moves up if it depends on less
   bool movable = true;
 };
 

@@ -11,45 +11,95 @@ namespace hamgen {
 namespace {
 
 // Keywords of C++20.
-constexpr std::string_view kKeywords[] = {
-    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break",
-    "case", "catch", "char", "char8_t", "char16_t", "char32_t", "class", "compl", "concept",
-    "const", "consteval", "constexpr", "constinit", "const_cast", "continue", "co_await",
-    "co_return", "co_yield", "decltype", "default", "delete", "do", "double", "dynamic_cast",
-    "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto",
-    "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq",
-    "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "register",
-    "reinterpret_cast", "requires", "return", "short", "signed", "sizeof", "static",
-    "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local",
-    "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
-    "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq"};
+constexpr std::string_view kKeywords[] = {"alignas",       "alignof",     "and",
+                                          "and_eq",        "asm",         "auto",
+                                          "bitand",        "bitor",       "bool",
+                                          "break",         "case",        "catch",
+                                          "char",          "char8_t",     "char16_t",
+                                          "char32_t",      "class",       "compl",
+                                          "concept",       "const",       "consteval",
+                                          "constexpr",     "constinit",   "const_cast",
+                                          "continue",      "co_await",    "co_return",
+                                          "co_yield",      "decltype",    "default",
+                                          "delete",        "do",          "double",
+                                          "dynamic_cast",  "else",        "enum",
+                                          "explicit",      "export",      "extern",
+                                          "false",         "float",       "for",
+                                          "friend",        "goto",        "if",
+                                          "inline",        "int",         "long",
+                                          "mutable",       "namespace",   "new",
+                                          "noexcept",      "not",         "not_eq",
+                                          "nullptr",       "operator",    "or",
+                                          "or_eq",         "private",     "protected",
+                                          "public",        "register",    "reinterpret_cast",
+                                          "requires",      "return",      "short",
+                                          "signed",        "sizeof",      "static",
+                                          "static_assert", "static_cast", "struct",
+                                          "switch",        "template",    "this",
+                                          "thread_local",  "throw",       "true",
+                                          "try",           "typedef",     "typeid",
+                                          "typename",      "union",       "unsigned",
+                                          "using",         "virtual",     "void",
+                                          "volatile",      "wchar_t",     "while",
+                                          "xor",           "xor_eq"};
 
 // Names the emitted functions use themselves.
-constexpr std::string_view kOurs[] = {
-    "std", "par", "k", "z", "dz", "h", "start", "report", "rule", "Real", "State", "Parameters",
-    "Coefficients", "StepReport", "Start", "Propagator", "energy", "step", "solve", "pi", "result",
-    "prepare", "main", "gradient", "magnitude", "add", "two_sum", "carry", "invariants", "eliminate", "invert",
-    "Verdict", "History", "NewtonRule", "FixedPointRule"};
+constexpr std::string_view kOurs[] = {"std",
+                                      "par",
+                                      "k",
+                                      "z",
+                                      "dz",
+                                      "h",
+                                      "start",
+                                      "report",
+                                      "rule",
+                                      "Real",
+                                      "State",
+                                      "Parameters",
+                                      "Coefficients",
+                                      "StepReport",
+                                      "Start",
+                                      "Propagator",
+                                      "energy",
+                                      "step",
+                                      "solve",
+                                      "pi",
+                                      "result",
+                                      "prepare",
+                                      "main",
+                                      "gradient",
+                                      "magnitude",
+                                      "add",
+                                      "two_sum",
+                                      "carry",
+                                      "invariants",
+                                      "eliminate",
+                                      "invert",
+                                      "Verdict",
+                                      "History",
+                                      "NewtonRule",
+                                      "FixedPointRule"};
 
 // rule_0, matrix_1: what the emitted functions number themselves.
 bool is_numbered(std::string_view name) {
   constexpr std::string_view kStems[] = {"rule_", "vector_", "matrix_", "product_", "inverse_"};
   return std::ranges::any_of(kStems, [&](std::string_view stem) {
     return name.starts_with(stem) && name.size() > stem.size() &&
-           std::ranges::all_of(name.substr(stem.size()), [](char c) { return '0' <= c && c <= '9'; });
+           std::ranges::all_of(name.substr(stem.size()),
+                               [](char c) { return '0' <= c && c <= '9'; });
   });
 }
 
-// Macros of the standard headers that a user's program may have included before ours.  A name with a
-// small letter is none of them.
+// Macros of the standard headers that a user's program may have included before ours.  A name with
+// a small letter is none of them.
 bool is_macro(std::string_view name) {
-  constexpr std::string_view kMacros[] = {"NULL",   "EOF",    "INFINITY", "NAN",     "HUGE_VAL",
-                                          "BUFSIZ", "stdin",  "stdout",   "stderr",  "errno",
-                                          "assert", "RAND_MAX", "SIGABRT", "SIGFPE", "SIGILL",
-                                          "SIGINT", "SIGSEGV", "SIGTERM", "MB_CUR_MAX"};
-  constexpr std::string_view kPrefixes[] = {"M_",    "DBL_",  "FLT_",  "LDBL_", "INT_", "UINT_",
-                                            "LONG_", "CHAR_", "SEEK_", "EXIT_", "FP_",  "SIG_",
-                                            "CLOCKS_"};
+  constexpr std::string_view kMacros[] = {"NULL",   "EOF",      "INFINITY", "NAN",       "HUGE_VAL",
+                                          "BUFSIZ", "stdin",    "stdout",   "stderr",    "errno",
+                                          "assert", "RAND_MAX", "SIGABRT",  "SIGFPE",    "SIGILL",
+                                          "SIGINT", "SIGSEGV",  "SIGTERM",  "MB_CUR_MAX"};
+  constexpr std::string_view kPrefixes[] = {"M_",    "DBL_",  "FLT_",   "LDBL_", "INT_",
+                                            "UINT_", "LONG_", "CHAR_",  "SEEK_", "EXIT_",
+                                            "FP_",   "SIG_",  "CLOCKS_"};
   return std::ranges::find(kMacros, name) != std::end(kMacros) ||
          (std::ranges::any_of(kPrefixes, [&](std::string_view p) { return name.starts_with(p); }) &&
           std::ranges::none_of(name, [](char c) { return 'a' <= c && c <= 'z'; }));

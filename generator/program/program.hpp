@@ -17,24 +17,24 @@ struct Statement {
 
 // A variable of a solver's loop.
 struct LoopVariable {
-  std::string name;      // "bar(q)", or "H(q)" for sweeps
-  Expression cold;       // its start value when nothing is known from earlier steps
-  Expression next;       // fixed point and sweeps: the new value
-  Expression correction; // Newton, size <= 3: what is added
+  std::string name;       // "bar(q)", or "H(q)" for sweeps
+  Expression cold;        // its start value when nothing is known from earlier steps
+  Expression next;        // fixed point and sweeps: the new value
+  Expression correction;  // Newton, size <= 3: what is added
 };
 
 // A loop, or for a linear system too large to write out a single solve.
 struct Solve {
   BlockKind kind = BlockKind::newton;
   LinearSolver linear_solver = LinearSolver::written_out;
-  std::optional<int> sweeps;             // a fixed number of sweeps instead of a stopping rule
+  std::optional<int> sweeps;  // a fixed number of sweeps instead of a stopping rule
   bool constant_matrix = false;
-  bool simplified = false;               // Newton with an approximate matrix: linear convergence
+  bool simplified = false;  // Newton with an approximate matrix: linear convergence
   std::vector<LoopVariable> variables;
-  std::vector<Statement> body;           // evaluated once per iteration
-  std::vector<Expression> residual;      // for a linear solve that is not written out: size m
+  std::vector<Statement> body;       // evaluated once per iteration
+  std::vector<Expression> residual;  // for a linear solve that is not written out: size m
   std::vector<std::vector<Expression>> matrix;  // m x m
-  std::vector<std::string> corrections;  // symbols of the solution -matrix^-1 residual
+  std::vector<std::string> corrections;         // symbols of the solution -matrix^-1 residual
 };
 
 struct Stage {
@@ -50,10 +50,10 @@ struct Evaluation {
 };
 
 struct Cost {
-  int additions = 0;        // + and -
+  int additions = 0;  // + and -
   int multiplications = 0;
   int divisions = 0;
-  int functions = 0;        // sqrt, sin, pow, ...
+  int functions = 0;  // sqrt, sin, pow, ...
   bool operator==(const Cost&) const = default;
 };
 
@@ -61,14 +61,15 @@ struct Program {
   SolvePlan plan;
   std::vector<Statement> coefficients;  // of h and parameters: once per run
   std::vector<Stage> stages;
-  std::vector<Expression> increments;   // Z_i - z_i, 2n; zero where nothing changes
-  Evaluation energy;                    // one result
-  Evaluation gradient;                  // 2n results
+  std::vector<Expression> increments;  // Z_i - z_i, 2n; zero where nothing changes
+  Evaluation energy;                   // one result
+  Evaluation gradient;                 // 2n results
   Evaluation invariants;
   // Of a splitting: n results each, dV/dq and dT/dp.
   Evaluation potential_gradient = {};
   Evaluation kinetic_gradient = {};
-  // Of an implicit Runge-Kutta method, and for tangent maps: the entries of the Hessian at `hessian_places`, i <= j.
+  // Of an implicit Runge-Kutta method, and for tangent maps: the entries of the Hessian at
+  // `hessian_places`, i <= j.
   Evaluation hessian = {};
   std::vector<std::pair<int, int>> hessian_places = {};
 };

@@ -1,5 +1,5 @@
-// THE LIST of schemes that have a name.  To add one, add it to the table of its kind; to add a kind,
-// add a file and its line in all_schemes.cpp.
+// THE LIST of schemes that have a name.  To add one, add it to the table of its kind; to add a
+// kind, add a file and its line in all_schemes.cpp.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ namespace hamgen {
 [[nodiscard]] const Scheme* find_scheme(std::string_view name);
 
 // The tables.
-[[nodiscard]] std::vector<Scheme> named_members();        // family.cpp
+[[nodiscard]] std::vector<Scheme> named_members();  // family.cpp
 [[nodiscard]] std::vector<Scheme> splittings();
-[[nodiscard]] std::vector<Scheme> compositions();         // of the implicit midpoint, to be replaced
+[[nodiscard]] std::vector<Scheme> compositions();  // of the implicit midpoint, to be replaced
 [[nodiscard]] std::vector<Scheme> gauss_methods();
 [[nodiscard]] std::vector<Scheme> runge_kutta_methods();
 

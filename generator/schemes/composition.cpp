@@ -1,9 +1,9 @@
 // Symmetric compositions of a symmetric step of order 2, and the same with the Stormer-Verlet step.
 //
-// A substep of size c h has the modified Hamiltonian c h H + (c h)^3 H3 + ..., so the composition has
-// order 4 if sum c = 1 and sum c^3 = 0, and so on: 1, 2, 4, 8, 16 conditions for the orders 2 to 10
-// (Hairer, Lubich, Wanner, V.3.2).  The tables hold the first half of the substeps; the one in the
-// middle makes the sum 1.
+// A substep of size c h has the modified Hamiltonian c h H + (c h)^3 H3 + ..., so the composition
+// has order 4 if sum c = 1 and sum c^3 = 0, and so on: 1, 2, 4, 8, 16 conditions for the orders 2
+// to 10 (Hairer, Lubich, Wanner, V.3.2).  The tables hold the first half of the substeps; the one
+// in the middle makes the sum 1.
 #include <fmt/format.h>
 
 #include "generator/schemes/all_schemes.hpp"
@@ -17,7 +17,8 @@ constexpr const char* kPolished = "; further digits by Newton's iteration on the
 
 Scheme composition(std::string name, int order, Coefficients half, std::string source) {
   Composition method{.base = {}, .substeps = palindrome(std::move(half))};
-  const std::string description = fmt::format("{} substeps of a symmetric member", method.substeps.size());
+  const std::string description =
+      fmt::format("{} substeps of a symmetric member", method.substeps.size());
   return {.name = std::move(name),
           .description = description,
           .order = order,

@@ -27,12 +27,13 @@ SparseMatrix block_matrix(const char* name, const GaugeBlock& block, int n) {
     return matrix;
   }
   if (entries.size() != 1 && entries.size() != size) {
-    throw UsageError(fmt::format("--{} has {} values; give 1, or {}: one per degree of freedom", name,
-                                 entries.size(), n));
+    throw UsageError(fmt::format("--{} has {} values; give 1, or {}: one per degree of freedom",
+                                 name, entries.size(), n));
   }
   for (std::size_t i = 0; i < size; ++i) {
     const Expression& value = entries.size() == 1 ? entries[0] : entries[i];
-    if (!value.is_zero()) matrix.emplace(std::pair(static_cast<int>(i), static_cast<int>(i)), value);
+    if (!value.is_zero())
+      matrix.emplace(std::pair(static_cast<int>(i), static_cast<int>(i)), value);
   }
   return matrix;
 }
@@ -151,20 +152,21 @@ std::vector<Scheme> named_members() {
     scheme.method = family_member(1, {{alpha}}, {{0}}, {{0}}).method;
     return scheme;
   };
-  return {member({.name = "implicit-midpoint",
-                  .description = "zbar = (z + Z)/2",
-                  .order = 2,
-                  .symmetric = true,
-                  .source = "Hairer, Lubich, Wanner, Geometric Numerical Integration (HLW), II.1.5"},
-                 Expression(Rational(1, 2))),
-          member({.name = "symplectic-euler-a",
-                  .description = "H at (q, P); explicit for separable H",
-                  .source = family + "; HLW I.1.2"},
-                 Expression(0)),
-          member({.name = "symplectic-euler-b",
-                  .description = "H at (Q, p); explicit for separable H",
-                  .source = family + "; HLW I.1.2"},
-                 Expression(1))};
+  return {
+      member({.name = "implicit-midpoint",
+              .description = "zbar = (z + Z)/2",
+              .order = 2,
+              .symmetric = true,
+              .source = "Hairer, Lubich, Wanner, Geometric Numerical Integration (HLW), II.1.5"},
+             Expression(Rational(1, 2))),
+      member({.name = "symplectic-euler-a",
+              .description = "H at (q, P); explicit for separable H",
+              .source = family + "; HLW I.1.2"},
+             Expression(0)),
+      member({.name = "symplectic-euler-b",
+              .description = "H at (Q, p); explicit for separable H",
+              .source = family + "; HLW I.1.2"},
+             Expression(1))};
 }
 
 std::optional<FamilyParameters> uniform_parameters(const Member& member) {

@@ -48,15 +48,17 @@ Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
   }
   if (std::holds_alternative<Splitting>(scheme.method)) {
     if (!mechanics.is_separable()) {
-      throw UsageError(fmt::format("--scheme {} needs a separable H = T(p) + V(q), and the H of {} "
-                                   "mixes coordinates and momenta\nhelp: --scheme {} takes any H",
-                                   scheme.name, mechanics.name, alternative(scheme)));
+      throw UsageError(
+          fmt::format("--scheme {} needs a separable H = T(p) + V(q), and the H of {} "
+                      "mixes coordinates and momenta\nhelp: --scheme {} takes any H",
+                      scheme.name, mechanics.name, alternative(scheme)));
     }
     if (scheme.needs.find("quadratic") != std::string::npos &&
         !is_quadratic_in_momenta(mechanics)) {
-      throw UsageError(fmt::format("--scheme {} needs a T(p) that is quadratic in p, and that of {} "
-                                   "is not\nhelp: --scheme blanes-moan-{} takes any separable H",
-                                   scheme.name, mechanics.name, scheme.order));
+      throw UsageError(
+          fmt::format("--scheme {} needs a T(p) that is quadratic in p, and that of {} "
+                      "is not\nhelp: --scheme blanes-moan-{} takes any separable H",
+                      scheme.name, mechanics.name, scheme.order));
     }
   }
   return scheme;
@@ -64,10 +66,11 @@ Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
 
 Scheme compose(const Scheme& composition, const Scheme& base) {
   if (!base.symmetric) {
-    throw UsageError(fmt::format("--scheme {} composes a symmetric member, and that of {} is not\n"
-                                 "help: alpha = 1/2 with beta and gamma zero or odd in h, such as "
-                                 "--beta h/7",
-                                 composition.name, base.description));
+    throw UsageError(
+        fmt::format("--scheme {} composes a symmetric member, and that of {} is not\n"
+                    "help: alpha = 1/2 with beta and gamma zero or odd in h, such as "
+                    "--beta h/7",
+                    composition.name, base.description));
   }
   Scheme scheme = composition;
   auto& method = std::get<Composition>(scheme.method);

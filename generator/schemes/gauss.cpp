@@ -28,13 +28,15 @@ Rational at(const Polynomial& p, const Rational& x) {
 
 Polynomial derivative(const Polynomial& p) {
   Polynomial result;
-  for (std::size_t k = 1; k < p.size(); ++k) result.push_back(p[k] * Rational(static_cast<long>(k)));
+  for (std::size_t k = 1; k < p.size(); ++k)
+    result.push_back(p[k] * Rational(static_cast<long>(k)));
   return result;
 }
 
 Polynomial integral(const Polynomial& p) {
   Polynomial result{Rational(0)};
-  for (std::size_t k = 0; k < p.size(); ++k) result.push_back(p[k] / Rational(static_cast<long>(k) + 1));
+  for (std::size_t k = 0; k < p.size(); ++k)
+    result.push_back(p[k] / Rational(static_cast<long>(k) + 1));
   return result;
 }
 
@@ -59,8 +61,8 @@ Polynomial legendre(int degree) {
   return now;
 }
 
-// Zeros from the largest down: Newton from above 1 converges downwards to the largest zero of what is
-// left when those known are divided out.
+// Zeros from the largest down: Newton from above 1 converges downwards to the largest zero of what
+// is left when those known are divided out.
 std::vector<Rational> zeros(const Polynomial& p) {
   const Polynomial slope = derivative(p);
   std::vector<Rational> found;

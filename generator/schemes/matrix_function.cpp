@@ -20,7 +20,8 @@ namespace mp = boost::multiprecision;
 using Real = mp::number<mp::cpp_bin_float<70>, mp::et_off>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
-// What the eigenvalues of a matrix in 70 digits agree to if they are equal, relative to the largest.
+// What the eigenvalues of a matrix in 70 digits agree to if they are equal, relative to the
+// largest.
 const Real kSame("1e-30");
 // Eigenvectors worse conditioned than this belong to a matrix that is not diagonalisable.
 const Real kWorst("1e12");
@@ -153,8 +154,8 @@ void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) 
     const Real rate = sqrt(abs(cluster.a));
     const Expression y = number(rate) * h();
     const Expression half_coth = kHalf / call(oscillates ? "tan" : "tanh", y * kHalf);
-    const Expression function = oscillates ? half_coth - Expression(1) / y
-                                           : Expression(1) / y - half_coth;
+    const Expression function =
+        oscillates ? half_coth - Expression(1) / y : Expression(1) / y - half_coth;
     result.terms.push_back({function, to_rational(Matrix(linear / rate))});
     if (oscillates) result.frequencies.push_back(to_rational(rate));
     return;

@@ -9,17 +9,19 @@ Scheme raise_order(Scheme scheme, int order) {
   if (order == scheme.order) return scheme;
   auto* member = std::get_if<Member>(&scheme.method);
   if (member == nullptr) {
-    throw UsageError(fmt::format("--order {}: {} has order {}, and only the members of the family can be "
-                                 "raised\nhelp: leave --scheme out, or name a member of the family",
-                                 order, scheme.name, scheme.order));
+    throw UsageError(
+        fmt::format("--order {}: {} has order {}, and only the members of the family can be "
+                    "raised\nhelp: leave --scheme out, or name a member of the family",
+                    order, scheme.name, scheme.order));
   }
   if (order < scheme.order || order > kHighestOrder) {
-    throw UsageError(fmt::format("--order {}: this member has order {}; it can be raised to at most {}",
-                                 order, scheme.order, kHighestOrder));
+    throw UsageError(
+        fmt::format("--order {}: this member has order {}; it can be raised to at most {}", order,
+                    scheme.order, kHighestOrder));
   }
   if (scheme.symmetric && order % 2 != 0) {
-    throw UsageError(fmt::format("--order {}: a symmetric member has an even order\nhelp: --order {}",
-                                 order, order + 1));
+    throw UsageError(fmt::format(
+        "--order {}: a symmetric member has an even order\nhelp: --order {}", order, order + 1));
   }
   member->generating_order = order;
   scheme.order = order;

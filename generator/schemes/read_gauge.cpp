@@ -118,7 +118,8 @@ Values read_reference(const Model& model,
   }
   const SceneValues values = scene_values(without_scenes, request);
   Values result;
-  const auto add = [&](const std::vector<std::string>& names, const std::vector<Rational>& numbers) {
+  const auto add = [&](const std::vector<std::string>& names,
+                       const std::vector<Rational>& numbers) {
     for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = numbers[i];
   };
   add(element_names(model.coordinates), values.q);

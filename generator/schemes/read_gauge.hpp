@@ -12,8 +12,8 @@
 namespace hamgen {
 
 // "1/2"; "a, b, c" or "[a, b, c]", one per degree of freedom; "[[a, b], [b, c]]", a matrix row by
-// row.  Entries are expressions in h, E0 and the model's parameters.  `option` is "alpha", "beta" or
-// "gamma".  Throws UsageError where the brackets make no matrix, ModelError for a wrong entry.
+// row.  Entries are expressions in h, E0 and the model's parameters.  `option` is "alpha", "beta"
+// or "gamma".  Throws UsageError where the brackets make no matrix, ModelError for a wrong entry.
 [[nodiscard]] GaugeBlock read_gauge_block(const Model& model, const std::string& option,
                                           const std::string& text);
 

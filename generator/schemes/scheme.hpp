@@ -55,7 +55,7 @@ struct Scheme {
   std::string name;         // "implicit-midpoint", or "member" for general parameters
   std::string description;  // "alpha = 1/2, beta = 0, gamma = 0"
   int order = 1;
-  bool symmetric = false;   // the step is its own adjoint; for a member, C(-h) = -C(h)
+  bool symmetric = false;  // the step is its own adjoint; for a member, C(-h) = -C(h)
   bool symplectic = true;
   std::string needs = "any H";  // or "separable H"
   std::string source = {};
@@ -79,7 +79,8 @@ struct GaugeBlock {
 [[nodiscard]] Scheme family_member(int degrees_of_freedom, const GaugeBlock& alpha,
                                    const GaugeBlock& beta, const GaugeBlock& gamma);
 
-// The parameters of a member that has the same ones for all degrees of freedom and no other entries.
+// The parameters of a member that has the same ones for all degrees of freedom and no other
+// entries.
 struct FamilyParameters {
   Expression alpha, beta, gamma;
 };
@@ -96,8 +97,9 @@ struct FamilyParameters {
 // The matrix (1/2 + C) J of zbar = z + h (I/2 + C) J grad H(zbar).
 [[nodiscard]] SparseMatrix stage_matrix(const Member& member);
 
-// The member with the generating function of that order in place of H.  Throws UsageError where there
-// is none: for a scheme that is no member, an odd order of a symmetric member, an order out of range.
+// The member with the generating function of that order in place of H.  Throws UsageError where
+// there is none: for a scheme that is no member, an odd order of a symmetric member, an order out
+// of range.
 inline constexpr int kHighestOrder = 10;
 [[nodiscard]] Scheme raise_order(Scheme scheme, int order);
 

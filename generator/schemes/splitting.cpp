@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kSeparable = "separable H";
 constexpr const char* kNystrom = "separable H, T quadratic in p";
-constexpr const char* kMoreDigits = "; further digits by Newton's iteration on the order conditions";
+constexpr const char* kMoreDigits =
+    "; further digits by Newton's iteration on the order conditions";
 
 bool is_palindrome(const Coefficients& values) {
   return std::equal(values.begin(), values.end(), values.rbegin());
@@ -69,8 +70,8 @@ std::vector<Scheme> laskar_robutel() {
       drift_first("saba-2", 2, {half - r3 / 6, r3 / 3, half - r3 / 6}, {half, half}, source),
       drift_first("saba-3", 2, {half - r15 / 10, r15 / 10, r15 / 10, half - r15 / 10},
                   {ratio(5, 18), ratio(4, 9), ratio(5, 18)}, source),
-      drift_first("saba-4", 2, {half - outer, outer - inner, Expression(2) * inner, outer - inner,
-                                half - outer},
+      drift_first("saba-4", 2,
+                  {half - outer, outer - inner, Expression(2) * inner, outer - inner, half - outer},
                   {ratio(1, 4) - r30 / 72, ratio(1, 4) + r30 / 72, ratio(1, 4) + r30 / 72,
                    ratio(1, 4) - r30 / 72},
                   source),
@@ -88,24 +89,26 @@ std::vector<Scheme> laskar_robutel() {
 
 // The triple jump with drift, kick, drift in place of kick, drift, kick.
 Scheme forest_ruth() {
-  const Expression c = Expression(1) / (Expression(2) - Expression::power(Expression(2), ratio(1, 3)));
+  const Expression c =
+      Expression(1) / (Expression(2) - Expression::power(Expression(2), ratio(1, 3)));
   const Coefficients kicks = palindrome({c});
   return drift_first("forest-ruth-4", 4, even_palindrome({c / 2}), kicks, "Forest, Ruth 1990");
 }
 
 Scheme mclachlan_4() {
   const Expression r19 = root(Expression(19));
-  return drift_first("mclachlan-4-abab", 4,
-                     even_palindrome({(Expression(14) - r19) / 108,
-                                      (Expression(20) - Expression(7) * r19) / 108}),
-                     palindrome({ratio(2, 5), ratio(-1, 10)}), "McLachlan 1995, 5 stages");
+  return drift_first(
+      "mclachlan-4-abab", 4,
+      even_palindrome({(Expression(14) - r19) / 108, (Expression(20) - Expression(7) * r19) / 108}),
+      palindrome({ratio(2, 5), ratio(-1, 10)}), "McLachlan 1995, 5 stages");
 }
 
 }  // namespace
 
 std::vector<Scheme> splittings() {
   std::vector<Scheme> list{
-      kick_first("stormer-verlet", 2, {ratio(1, 2), ratio(1, 2)}, {1}, "HLW I.1.4, kick drift kick"),
+      kick_first("stormer-verlet", 2, {ratio(1, 2), ratio(1, 2)}, {1},
+                 "HLW I.1.4, kick drift kick"),
       drift_first("position-verlet", 2, {ratio(1, 2), ratio(1, 2)}, {1},
                   "HLW I.1.4, drift kick drift"),
   };

@@ -49,7 +49,8 @@ class Tarjan {
       }
       const int node = frame.node;
       frames.pop_back();
-      if (!frames.empty()) low_[frames.back().node] = std::min(low_[frames.back().node], low_[node]);
+      if (!frames.empty())
+        low_[frames.back().node] = std::min(low_[frames.back().node], low_[node]);
       if (low_[node] == index_[node]) close(node);
     }
   }

@@ -18,8 +18,8 @@ bool is_constant(const Kernel& kernel, const Expression& e) {
 }
 
 bool has_constant_hessian(const Kernel& kernel) {
-  return std::ranges::all_of(
-      kernel.hessian, [&](const auto& entry) { return is_constant(kernel, entry.second); });
+  return std::ranges::all_of(kernel.hessian,
+                             [&](const auto& entry) { return is_constant(kernel, entry.second); });
 }
 
 bool has_diagonal_hessian(const Kernel& kernel) {
@@ -89,7 +89,8 @@ SolvePlan plan_arrays(const StepEquations& equations) {
   plan.arrays = arrays;
   if (member.beta.is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
   if (member.gamma.is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
-  plan.left_out.push_back(fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
+  plan.left_out.push_back(
+      fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
   if (arrays.bandwidth) {
     plan.left_out.push_back(fmt::format("Eigen: the matrix has bandwidth {}", *arrays.bandwidth));
   }

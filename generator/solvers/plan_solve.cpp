@@ -65,8 +65,8 @@ std::vector<int> needed_stages(const StepEquations& equations) {
 // Is d2H/dz_i dz_j free of the stage values in the set?
 bool is_free_of(const StepEquations& equations, int i, int j, const std::vector<int>& variables) {
   const std::set<std::string> present = symbols(equations.mechanics.second_derivative(i, j));
-  return std::ranges::none_of(
-      variables, [&](int v) { return present.contains(name_of(equations, v)); });
+  return std::ranges::none_of(variables,
+                              [&](int v) { return present.contains(name_of(equations, v)); });
 }
 
 // Is row i affine in zbar_j, alone?
@@ -114,8 +114,8 @@ bool is_quadratic(const StepEquations& equations, int i) {
   return true;
 }
 
-// The Hessian is that of a shorter K: rows that it takes for explicit are eliminated from the linear
-// system while that is written out.
+// The Hessian is that of a shorter K: rows that it takes for explicit are eliminated from the
+// linear system while that is written out.
 Block plan_simplified_newton(const StepEquations& equations, const std::vector<int>& component) {
   const Dependency couples = [&](int i, int j) { return equations.hessian_couples(i, j); };
   const int n = equations.mechanics.degrees_of_freedom;
@@ -154,7 +154,8 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   std::vector<int> momenta_first = component;
   std::ranges::stable_sort(momenta_first, {}, [&](int i) { return i < n; });
   std::vector<int> torn = tear(momenta_first, depends, may_self);
-  if (const std::vector<int> other = tear(component, depends, may_self); other.size() > torn.size()) {
+  if (const std::vector<int> other = tear(component, depends, may_self);
+      other.size() > torn.size()) {
     torn = other;
   }
   // An affine block keeps one unknown at least.
@@ -166,8 +167,8 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   block.constant_matrix = has_constant_matrix(equations, component);
   if (is_affine(equations, component)) {
     block.kind = BlockKind::linear;
-    // Written out, an oscillator's 2 x 2 system costs what its torn one does, and keeps what the torn
-    // momentum p - h/2 omega^2 qbar loses by cancellation: h omega units of rounding.
+    // Written out, an oscillator's 2 x 2 system costs what its torn one does, and keeps what the
+    // torn momentum p - h/2 omega^2 qbar loses by cancellation: h omega units of rounding.
     constexpr std::size_t kWrittenOut = 3;
     if (component.size() <= kWrittenOut) {
       block.unknowns = component;
@@ -186,8 +187,8 @@ int parse_sweeps(const std::string& solver) {
   int sweeps = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), sweeps);
   if (error != std::errc{} || end != digits.data() + digits.size() || sweeps < 0 || sweeps > 1000) {
-    throw UsageError(fmt::format("--solver {}: K in sweeps:K must be an integer from 0 to 1000",
-                                 solver));
+    throw UsageError(
+        fmt::format("--solver {}: K in sweeps:K must be an integer from 0 to 1000", solver));
   }
   return sweeps;
 }
@@ -197,15 +198,17 @@ std::string describe(const StepEquations& equations, const Block& block) {
   const std::string which = names_of(equations, block.unknowns);
   std::string text;
   switch (block.kind) {
-    case BlockKind::assign: return "assign " + which;
+    case BlockKind::assign:
+      return "assign " + which;
     case BlockKind::linear:
       text = fmt::format("linear solve of size {} for {}{}", size, which,
                          block.constant_matrix ? ", constant matrix hoisted" : "");
       break;
-    case BlockKind::quadratic: return "quadratic equation for " + which + ", root in closed form";
+    case BlockKind::quadratic:
+      return "quadratic equation for " + which + ", root in closed form";
     case BlockKind::newton:
-      text = fmt::format("{} of size {} on {}", block.simplified ? "simplified Newton" : "Newton", size,
-                         which);
+      text = fmt::format("{} of size {} on {}", block.simplified ? "simplified Newton" : "Newton",
+                         size, which);
       break;
     case BlockKind::fixed_point:
       text = fmt::format("fixed point of size {} on {}", size, which);
@@ -229,7 +232,8 @@ std::vector<std::string> what_was_left_out(const SolvePlan& plan) {
     if (!std::ranges::binary_search(needed, i)) cyclic.push_back(i);
   }
   if (!cyclic.empty()) {
-    list.push_back("stage values of " + names_of(equations, cyclic) + ": H does not depend on them");
+    list.push_back("stage values of " + names_of(equations, cyclic) +
+                   ": H does not depend on them");
   }
   std::vector<int> kept;
   for (int i = 0; i < 2 * n; ++i) {
@@ -264,7 +268,8 @@ std::string solver_line(const SolvePlan& plan) {
   }
   if (parts.empty()) return "explicit";
   if (parts.size() > 3) {
-    return fmt::format("{} independent or successive blocks, the first: {}", parts.size(), parts[0]);
+    return fmt::format("{} independent or successive blocks, the first: {}", parts.size(),
+                       parts[0]);
   }
   std::string text = parts[0];
   for (std::size_t i = 1; i < parts.size(); ++i) text += ", then " + parts[i];
@@ -274,8 +279,8 @@ std::string solver_line(const SolvePlan& plan) {
 }  // namespace
 
 bool SolvePlan::is_explicit() const {
-  return !sweeps && std::ranges::all_of(
-                        blocks, [](const Block& b) { return b.kind == BlockKind::assign; });
+  return !sweeps &&
+         std::ranges::all_of(blocks, [](const Block& b) { return b.kind == BlockKind::assign; });
 }
 
 LinearSolver linear_solver(const Block& block) {
@@ -292,8 +297,8 @@ SolvePlan plan_member(const StepEquations& equations, const std::string& solver)
   if (solver.starts_with("sweeps:")) {
     plan.sweeps = parse_sweeps(solver);
   } else if (!solver.empty() && solver != "newton" && solver != "fixed-point") {
-    throw UsageError(fmt::format("unknown solver '{}'; there are newton, fixed-point, sweeps:K",
-                                 solver));
+    throw UsageError(
+        fmt::format("unknown solver '{}'; there are newton, fixed-point, sweeps:K", solver));
   }
   const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
   // Sweeps take all stage values together: no blocks.

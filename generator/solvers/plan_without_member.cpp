@@ -19,8 +19,9 @@ void plan_splitting(SolvePlan& plan, const Splitting& splitting) {
                 count(splitting.drifts.size(), "drift");
   plan.left_out.emplace_back("equation solver: the step is explicit");
   if (splitting.kicks.size() != splitting.drifts.size()) {
-    plan.left_out.push_back(fmt::format("the first {} of a step: it uses the gradient of the last one",
-                                        splitting.kick_first ? "dV/dq" : "dT/dp"));
+    plan.left_out.push_back(
+        fmt::format("the first {} of a step: it uses the gradient of the last one",
+                    splitting.kick_first ? "dV/dq" : "dT/dp"));
   }
 }
 
@@ -35,21 +36,26 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& 
       2 * stages * static_cast<std::size_t>(plan.equations.mechanics.degrees_of_freedom);
   const bool newton = size <= kLargestElimination;
   if (solver == "newton" && !newton) {
-    throw UsageError(fmt::format("--solver newton: its system has size {}, and dense elimination is "
-                                 "for {} at most\nhelp: --solver fixed-point, or a method with "
-                                 "fewer stages",
-                                 size, kLargestElimination));
+    throw UsageError(
+        fmt::format("--solver newton: its system has size {}, and dense elimination is "
+                    "for {} at most\nhelp: --solver fixed-point, or a method with "
+                    "fewer stages",
+                    size, kLargestElimination));
   }
   if (!newton) {
     plan.left_out.push_back(fmt::format("Newton: the system of size {} is too large", size));
   }
-  plan.stage_solver = solver == "newton"                     ? StageSolver::newton
+  plan.stage_solver = solver == "newton"                   ? StageSolver::newton
                       : solver == "fixed-point" || !newton ? StageSolver::fixed_point
                                                            : StageSolver::both;
   const std::string name = fmt::format("simplified Newton of size {}", size);
   switch (*plan.stage_solver) {
-    case StageSolver::newton: plan.solver = name; break;
-    case StageSolver::fixed_point: plan.solver = fmt::format("fixed point of size {}", size); break;
+    case StageSolver::newton:
+      plan.solver = name;
+      break;
+    case StageSolver::fixed_point:
+      plan.solver = fmt::format("fixed point of size {}", size);
+      break;
     case StageSolver::both:
       plan.solver = fmt::format("fixed point of size {}, Newton where it contracts slowly", size);
       break;
@@ -64,12 +70,14 @@ SolvePlan plan_without_member(const StepEquations& equations, const std::string&
   const auto* tableau = std::get_if<RungeKutta>(&scheme.method);
   const bool implicit = tableau != nullptr && !tableau->is_explicit();
   if (!implicit && !solver.empty()) {
-    throw UsageError(fmt::format("--solver {}: {} is explicit and solves nothing\nhelp: leave "
-                                 "--solver out",
-                                 solver, scheme.name));
+    throw UsageError(
+        fmt::format("--solver {}: {} is explicit and solves nothing\nhelp: leave "
+                    "--solver out",
+                    solver, scheme.name));
   }
   if (implicit && !solver.empty() && solver != "newton" && solver != "fixed-point") {
-    throw UsageError(fmt::format("--solver {}: {} has newton and fixed-point", solver, scheme.name));
+    throw UsageError(
+        fmt::format("--solver {}: {} has newton and fixed-point", solver, scheme.name));
   }
   if (tableau != nullptr) plan_stages(plan, *tableau, solver);
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {

@@ -24,7 +24,8 @@ struct Block {
   std::vector<int> unknowns = {};
   std::vector<int> torn = {};
   bool constant_matrix = false;  // the matrix depends on h and parameters only
-  // Newton's matrix is approximate: the rows of the torn unknowns, too, are satisfied in the limit only.
+  // Newton's matrix is approximate: the rows of the torn unknowns, too, are satisfied in the limit
+  // only.
   bool simplified = false;
 };
 
@@ -37,7 +38,8 @@ enum class ArrayMethod {
   explicit_a,      // alpha = 0: q, then P, then Q
   explicit_b,      // alpha = 1
   gradient_only,   // a splitting or a Runge-Kutta method: no system to solve, or one without blocks
-  reduced_newton,  // kinetic energy sum m_i p_i^2/2 + linear: momenta torn out, sparse system of size n
+  reduced_newton,  // kinetic energy sum m_i p_i^2/2 + linear: momenta torn out, sparse system of
+                   // size n
   full_newton      // sparse system of size 2n
 };
 struct ArrayPlan {
@@ -57,10 +59,10 @@ enum class StageSolver {
 struct SolvePlan {
   StepEquations equations;
   std::vector<Block> blocks = {};
-  std::optional<int> sweeps = {};  // the paper's Algorithm 1 with this many corrector sweeps
+  std::optional<int> sweeps = {};        // the paper's Algorithm 1 with this many corrector sweeps
   std::optional<ArrayPlan> arrays = {};  // set if the sums stay loops; then there are no blocks
   std::optional<StageSolver> stage_solver = {};  // of an implicit Runge-Kutta method
-  std::string solver = {};         // one line for people: "Newton of size 1; p torn out"
+  std::string solver = {};  // one line for people: "Newton of size 1; p torn out"
   std::vector<std::string> left_out = {};
   [[nodiscard]] bool is_explicit() const;
 };

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "generator/verify/precise.hpp"
 #include "generator/verify/identities.hpp"
+#include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
 #include "generator/verify/words.hpp"
 
@@ -26,9 +26,9 @@ constexpr double kDigits = 1e-34;
 // What the series of the step differs by from that of the flow.
 struct OrderFound {
   int order = 0;
-  bool at_least = false;    // nothing was left over as far as was looked
-  double residual = 0.0;    // of the conditions that hold
-  std::string leading;      // words of the leading error with their coefficients
+  bool at_least = false;  // nothing was left over as far as was looked
+  double residual = 0.0;  // of the conditions that hold
+  std::string leading;    // words of the leading error with their coefficients
 };
 
 template <class Number>
@@ -81,7 +81,8 @@ Series<Number> exponential(char letter, const Number& a, int weight) {
   return series;
 }
 
-// Kicks are B, drifts A; the flow is exp(A + B).  In the formal series the first substep stands first.
+// Kicks are B, drifts A; the flow is exp(A + B).  In the formal series the first substep stands
+// first.
 template <class Number>
 OrderFound order_of_splitting(const std::vector<std::pair<char, Number>>& factors, int weight,
                               bool nystrom) {
@@ -89,7 +90,8 @@ OrderFound order_of_splitting(const std::vector<std::pair<char, Number>>& factor
   const auto words = words_up_to(letters, weight);
   Series<Number> step{{"", as(Rational(1), factors.front().second)}};
   Series<Number> flow;
-  for (const auto& [letter, a] : factors) step = product(step, exponential(letter, a, weight), words);
+  for (const auto& [letter, a] : factors)
+    step = product(step, exponential(letter, a, weight), words);
   for (const std::string& word : words) {
     flow.emplace(word, as(1 / factorial(word.size()), factors.front().second));
   }
@@ -154,7 +156,8 @@ std::vector<std::pair<char, Expression>> factors_of(const Splitting& splitting) 
   bool kicks = splitting.kick_first;
   while (kick < splitting.kicks.size() || drift < splitting.drifts.size()) {
     if (kicks && kick < splitting.kicks.size()) factors.emplace_back('B', splitting.kicks[kick++]);
-    if (!kicks && drift < splitting.drifts.size()) factors.emplace_back('A', splitting.drifts[drift++]);
+    if (!kicks && drift < splitting.drifts.size())
+      factors.emplace_back('A', splitting.drifts[drift++]);
     kicks = !kicks;
   }
   return factors;
@@ -191,8 +194,8 @@ Proof prove_composition(const Composition& composition, int order) {
   const Finding base = prove_step_symplectic(composition.base);
   Finding symplectic = base;
   if (base.verdict == Verdict::proved) {
-    symplectic.detail = fmt::format("each of the {} factors is: {}", composition.substeps.size(),
-                                    base.detail);
+    symplectic.detail =
+        fmt::format("each of the {} factors is: {}", composition.substeps.size(), base.detail);
   }
   const Finding base_symmetric = prove_symmetric(composition.base);
   const bool palindrome = is_palindrome(composition.substeps);
@@ -211,7 +214,7 @@ Proof prove_composition(const Composition& composition, int order) {
   }
   return {symplectic,
           {"symmetric", symmetric ? Verdict::proved : Verdict::refuted,
-           symmetric ? "the base is symmetric, the substeps the same from both ends"
+           symmetric    ? "the base is symmetric, the substeps the same from both ends"
            : palindrome ? "the base is not symmetric"
                         : "the substeps from the other end, its adjoint's, are others"},
           order_finding(found, exact, "k for the h^k term of the base's own vector field")};
@@ -255,13 +258,16 @@ Finding prove_shears(const Splitting& splitting) {
       }
     }
   }
-  std::string detail = fmt::format("F^T J F - J = 0 for each of the {} shears F, entry by entry, with "
-                                   "generic symmetric V'' and T''",
-                                   factors.size());
+  std::string detail = fmt::format(
+      "F^T J F - J = 0 for each of the {} shears F, entry by entry, with "
+      "generic symmetric V'' and T''",
+      factors.size());
   if (factors.size() <= 3) {
     Matrix m{{Expression(1), Expression(0)}, {Expression(0), Expression(1)}};
     for (std::size_t k = 0; k < factors.size(); ++k) {
-      auto own = [&](std::size_t, std::size_t) { return Expression::symbol(fmt::format("S{}", k)); };
+      auto own = [&](std::size_t, std::size_t) {
+        return Expression::symbol(fmt::format("S{}", k));
+      };
       const Matrix f = jacobian(factors[k].first, factors[k].second, 1, own);
       m = {{f[0][0] * m[0][0] + f[0][1] * m[1][0], f[0][0] * m[0][1] + f[0][1] * m[1][1]},
            {f[1][0] * m[0][0] + f[1][1] * m[1][0], f[1][0] * m[0][1] + f[1][1] * m[1][1]}};

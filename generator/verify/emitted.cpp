@@ -69,7 +69,8 @@ Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Pr
   std::vector<Identities> parts = loops ? kernel_identities(mechanics, hamiltonian)
                                         : straight_line_identities(mechanics, scheme, program);
   std::vector<Expression> invariants;
-  for (const NamedExpression& invariant : mechanics.invariants) invariants.push_back(invariant.value);
+  for (const NamedExpression& invariant : mechanics.invariants)
+    invariants.push_back(invariant.value);
   parts.push_back(identities_of(program.invariants, "invariant", invariants));
   Decision total{.verdict = Verdict::proved};
   for (const Identities& part : parts) {
@@ -83,20 +84,23 @@ Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Pr
     return {property, decision.verdict, decision.witness};
   }
   if (is_raised(scheme)) {
-    return {property, Verdict::not_decided,
-            "energy and gradient of H: " + to_text(total) +
-                "; the step takes K in place of H, whose derivatives are not derived a second time"};
+    return {
+        property, Verdict::not_decided,
+        "energy and gradient of H: " + to_text(total) +
+            "; the step takes K in place of H, whose derivatives are not derived a second time"};
   }
   if (!loops && scheme.is_member()) return {property, total.verdict, to_text(total)};
   // What stands around them is the same text for every model and is not read.
   if (!loops) {
     return {property, Verdict::tested,
-            to_text(total) + ": H, its derivatives and the step that is composed; the sequence of "
-                             "substeps or stages around them only by measuring"};
+            to_text(total) +
+                ": H, its derivatives and the step that is composed; the sequence of "
+                "substeps or stages around them only by measuring"};
   }
   return {property, Verdict::tested,
-          to_text(total) + ": the summands of all loops and their derivatives, and that they sum up "
-                           "to H; the solver around them only by measuring"};
+          to_text(total) +
+              ": the summands of all loops and their derivatives, and that they sum up "
+              "to H; the solver around them only by measuring"};
 }
 
 }  // namespace hamgen

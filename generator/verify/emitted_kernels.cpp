@@ -81,9 +81,10 @@ void add_kernel(const Kernel& kernel, std::vector<Identities>& parts) {
     }
   }
   parts.push_back(identities_of(evaluate_together({kernel.value}), "a summand", {kernel.value}));
-  parts.push_back(identities_of(evaluate_together(gradient), "slope of a summand", expected_gradient));
   parts.push_back(
-      identities_of(evaluate_together(hessian), "second derivative of a summand", expected_hessian));
+      identities_of(evaluate_together(gradient), "slope of a summand", expected_gradient));
+  parts.push_back(identities_of(evaluate_together(hessian), "second derivative of a summand",
+                                expected_hessian));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ Derivatives::Derivatives(const Mechanics& mechanics) {
   SymbolTable table;
   std::vector<GiNaC::ex> variables;
   for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
-    variables.push_back(table.symbol(mechanics.variables[i].name,
-                                     kRankOfVariable + static_cast<int>(i)));
+    variables.push_back(
+        table.symbol(mechanics.variables[i].name, kRankOfVariable + static_cast<int>(i)));
   }
   const GiNaC::ex energy = to_ginac(mechanics.energy, table);
   const int size = static_cast<int>(variables.size());
@@ -23,7 +23,7 @@ Derivatives::Derivatives(const Mechanics& mechanics) {
     const auto row = static_cast<std::size_t>(i);
     const GiNaC::ex slope = energy.diff(GiNaC::ex_to<GiNaC::symbol>(variables[row]));
     gradient_.push_back(is_zero_by_algebra(from_ginac(slope, table)) ? Expression(0)
-                                                                    : from_ginac(slope, table));
+                                                                     : from_ginac(slope, table));
     const std::set<std::string> present = symbols(gradient_.back());
     for (int j = i; j < size; ++j) {
       const auto column = static_cast<std::size_t>(j);
@@ -46,7 +46,9 @@ class ExpectedStep {
  public:
   ExpectedStep(const Mechanics& mechanics, const Derivatives& derivatives, const Member& member,
                const Program& program)
-      : mechanics_(mechanics), n_(mechanics.degrees_of_freedom), derivatives_(derivatives),
+      : mechanics_(mechanics),
+        n_(mechanics.degrees_of_freedom),
+        derivatives_(derivatives),
         program_(program) {
     add(program.coefficients);
     for (const Stage& stage : program.stages) {
@@ -155,10 +157,16 @@ class ExpectedStep {
         bar_[at(i)] = define("bar(" + name(i) + ")", row(i));
         return;
       }
-      case BlockKind::quadratic: quadratic(block.unknowns[0]); return;
+      case BlockKind::quadratic:
+        quadratic(block.unknowns[0]);
+        return;
       case BlockKind::linear:
-      case BlockKind::newton: newton(block); return;
-      case BlockKind::fixed_point: fixed_point(block); return;
+      case BlockKind::newton:
+        newton(block);
+        return;
+      case BlockKind::fixed_point:
+        fixed_point(block);
+        return;
     }
   }
 
@@ -298,8 +306,8 @@ class ExpectedStep {
       for (std::size_t j = 0; j < m; ++j) sum += slopes.at(v)[j] * delta[j];
       moved[v] = sum;
     }
-    // Rows of torn variables that need corrected gradients alone are computed anew, and then what is
-    // linear in these variables: the same to first order.
+    // Rows of torn variables that need corrected gradients alone are computed anew, and then what
+    // is linear in these variables: the same to first order.
     std::set<int> anew;
     for (const int t : block.torn) {
       const bool direct = !linear && std::ranges::all_of(weights_[t], [&](const auto& term) {
@@ -320,10 +328,12 @@ class ExpectedStep {
       gradient_[at(k)] = define("H(" + name(k) + ")*", *gradient_[at(k)] + change);
     }
     for (const int v : members) {
-      bar_[at(v)] = define("bar(" + name(v) + ")*", anew.contains(v) ? row(v) : bar_[at(v)] + moved[v]);
+      bar_[at(v)] =
+          define("bar(" + name(v) + ")*", anew.contains(v) ? row(v) : bar_[at(v)] + moved[v]);
     }
     for (const int k : evaluated) {
-      if (is_anew(k)) gradient_[at(k)] = define("H(" + name(k) + ")*", at_stage(derivatives_.first(k)));
+      if (is_anew(k))
+        gradient_[at(k)] = define("H(" + name(k) + ")*", at_stage(derivatives_.first(k)));
     }
   }
 
@@ -417,7 +427,8 @@ class ExpectedStep {
   std::map<int, std::vector<std::pair<int, Expression>>> weights_;
   std::vector<Expression> bar_;
   std::vector<std::optional<Expression>> gradient_;
-  std::map<int, std::pair<Expression, Expression>> change_;  // before the last increment, and what it adds
+  std::map<int, std::pair<Expression, Expression>>
+      change_;  // before the last increment, and what it adds
   std::map<std::pair<int, int>, Expression> second_;
   std::vector<const Solve*> solves_;
   std::size_t next_solve_ = 0;

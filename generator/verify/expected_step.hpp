@@ -17,7 +17,9 @@ namespace hamgen {
 class Derivatives {
  public:
   explicit Derivatives(const Mechanics& mechanics);
-  [[nodiscard]] const Expression& first(int i) const { return gradient_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Expression& first(int i) const {
+    return gradient_[static_cast<std::size_t>(i)];
+  }
   [[nodiscard]] Expression second(int i, int j) const;
 
  private:

@@ -44,12 +44,17 @@ struct SquareRoots {
     std::vector<Expression> operands;
     for (const Expression& operand : e.operands()) operands.push_back(replace(operand));
     switch (e.kind()) {
-      case Kind::sum: return Expression::sum(std::move(operands));
-      case Kind::product: return Expression::product(std::move(operands));
-      case Kind::power: return Expression::power(operands[0], operands[1]);
-      case Kind::function: return Expression::apply(e.name(), std::move(operands));
+      case Kind::sum:
+        return Expression::sum(std::move(operands));
+      case Kind::product:
+        return Expression::product(std::move(operands));
+      case Kind::power:
+        return Expression::power(operands[0], operands[1]);
+      case Kind::function:
+        return Expression::apply(e.name(), std::move(operands));
       case Kind::number:
-      case Kind::symbol: break;
+      case Kind::symbol:
+        break;
     }
     return e;
   }
@@ -203,9 +208,8 @@ class Decider {
       collect_symbols(s.value, free);
       definitions.emplace(s.name, s.value);
     }
-    std::erase_if(free, [&](const std::string& name) {
-      return name == "pi" || definitions.contains(name);
-    });
+    std::erase_if(
+        free, [&](const std::string& name) { return name == "pi" || definitions.contains(name); });
     for (int point = first; point < last; ++point) {
       std::mt19937_64 source(static_cast<std::uint64_t>(point) + 1);
       // A point may lie outside the domain of H: then another is taken.

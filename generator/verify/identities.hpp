@@ -12,7 +12,7 @@
 namespace hamgen {
 
 struct Claim {
-  std::string what;    // "increment of q"
+  std::string what;  // "increment of q"
   Expression emitted;
   Expression expected;
 };
@@ -21,7 +21,7 @@ struct Claim {
 // expected side is named "=x" if it is what the definition x of the emitted side should be; such
 // pairs are proved first and then count as one symbol, which keeps the expressions small.
 struct Identities {
-  std::vector<Statement> emitted;   // definitions, in the order in which they are computed
+  std::vector<Statement> emitted;  // definitions, in the order in which they are computed
   std::vector<Statement> expected;
   std::vector<Claim> claims;
 };

@@ -46,12 +46,14 @@ Finding conserved(const std::string& name, const GiNaC::ex& invariant, const Mec
   const std::string property = name + " conserved by the step";
   const auto form = quadratic_form(invariant, mechanics, table);
   if (!form) {
-    return {property, Verdict::not_decided, "neither linear nor quadratic: conserved up to the order"};
+    return {property, Verdict::not_decided,
+            "neither linear nor quadratic: conserved up to the order"};
   }
   const auto size = static_cast<unsigned>(mechanics.variables.size());
   GiNaC::matrix c(size, size);
   for (const auto& [place, value] : member.c) {
-    c(static_cast<unsigned>(place.first), static_cast<unsigned>(place.second)) = to_ginac(value, table);
+    c(static_cast<unsigned>(place.first), static_cast<unsigned>(place.second)) =
+        to_ginac(value, table);
   }
   const GiNaC::matrix residual = c.transpose().mul(*form).add(form->mul(c));
   for (unsigned i = 0; i < size; ++i) {

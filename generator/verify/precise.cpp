@@ -139,10 +139,15 @@ Precise PreciseValues::value(const Expression& e) {
         result = operands[0];
         for (std::size_t i = 1; i < operands.size(); ++i) result = result * operands[i];
         break;
-      case Kind::power: result = power_of(operands[0], operands[1]); break;
-      case Kind::function: result = function_of(e.name(), operands); break;
+      case Kind::power:
+        result = power_of(operands[0], operands[1]);
+        break;
+      case Kind::function:
+        result = function_of(e.name(), operands);
+        break;
       case Kind::number:
-      case Kind::symbol: internal_error("handled above");
+      case Kind::symbol:
+        internal_error("handled above");
     }
   }
   done_.emplace(e.identity(), std::pair(e, result));

@@ -23,8 +23,8 @@ using Precise = cln::cl_F;
 // A number from 1/4 to 7/4, the same in every process.
 [[nodiscard]] Precise random_precise(std::mt19937_64& source);
 
-// The values of expressions at one point: of free symbols, and of definitions computed when they are
-// first asked for.  Empty where an expression is not defined or not real.
+// The values of expressions at one point: of free symbols, and of definitions computed when they
+// are first asked for.  Empty where an expression is not defined or not real.
 class PreciseValues {
  public:
   PreciseValues(std::map<std::string, Precise> free, const Substitution& definitions)

@@ -17,7 +17,7 @@ enum class Verdict { proved, tested, refuted, not_decided };
 struct Finding {
   std::string property;  // "symplectic"
   Verdict verdict = Verdict::not_decided;
-  std::string detail;    // how, or the failing entry with its value, or why it is open
+  std::string detail;  // how, or the failing entry with its value, or why it is open
 };
 
 using Proof = std::vector<Finding>;
@@ -34,16 +34,16 @@ using Proof = std::vector<Finding>;
 [[nodiscard]] Finding prove_step_symplectic(const Member& member);
 [[nodiscard]] Finding prove_symmetric(const Member& member);
 [[nodiscard]] Finding prove_order(const Member& member);
-// Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal series,
-// which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
+// Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal
+// series, which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
 [[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);
 [[nodiscard]] Finding prove_shears(const Splitting& splitting);
 [[nodiscard]] Proof prove_composition(const Composition& composition, int order);
 [[nodiscard]] Proof prove_tableau(const RungeKutta& tableau, int order);
 // {I, H} = 0, and whether the scheme conserves I exactly.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Member& member);
-// The instructions of the program, substituted back into expressions, are the step's equations, their
-// derivatives, their solution and H.
+// The instructions of the program, substituted back into expressions, are the step's equations,
+// their derivatives, their solution and H.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
                                     const Program& program, const Expression& hamiltonian);
 

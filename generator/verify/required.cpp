@@ -20,10 +20,9 @@ const Finding* find(const Proof& proof, std::string_view property) {
 }
 
 [[noreturn]] void fail(const std::string& word, const Finding* finding) {
-  throw ProofError(finding == nullptr
-                       ? fmt::format("--require {}: not decided", word)
-                       : fmt::format("--require {}: {}: {}", word, to_text(finding->verdict),
-                                     finding->detail));
+  throw ProofError(finding == nullptr ? fmt::format("--require {}: not decided", word)
+                                      : fmt::format("--require {}: {}: {}", word,
+                                                    to_text(finding->verdict), finding->detail));
 }
 
 void require_order(const Proof& proof, const std::string& word) {
@@ -37,8 +36,8 @@ void require_order(const Proof& proof, const std::string& word) {
     if (!finding.property.starts_with("order ")) continue;
     const bool known = finding.verdict == Verdict::proved || finding.verdict == Verdict::tested;
     if (known && std::stoi(finding.property.substr(6)) >= wanted) return;
-    throw ProofError(fmt::format("--require {}: {} is {}", word, finding.property,
-                                 to_text(finding.verdict)));
+    throw ProofError(
+        fmt::format("--require {}: {} is {}", word, finding.property, to_text(finding.verdict)));
   }
   fail(word, nullptr);
 }

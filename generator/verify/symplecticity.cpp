@@ -27,7 +27,8 @@ GiNaC::matrix canonical_j(unsigned n) {
 
 Finding prove_gauge(const Member& member) {
   const int n = member.degrees_of_freedom;
-  // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign turned.
+  // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign
+  // turned.
   SparseMatrix residual;
   for (const auto& [place, value] : member.c) {
     const auto [row, column] = place;
@@ -57,7 +58,9 @@ Finding prove_step_symplectic(const Member& member) {
   GiNaC::matrix s(size, size);
   GiNaC::matrix c(size, size);
   const GiNaC::ex half = GiNaC::numeric(1, 2);
-  auto place = [&](unsigned i) { return static_cast<int>(i) < m ? static_cast<int>(i) : n - m + static_cast<int>(i); };
+  auto place = [&](unsigned i) {
+    return static_cast<int>(i) < m ? static_cast<int>(i) : n - m + static_cast<int>(i);
+  };
   for (unsigned i = 0; i < size; ++i) {
     for (unsigned j = 0; j < size; ++j) {
       s(i, j) = table.symbol(fmt::format("S{}_{}", std::min(i, j) + 1, std::max(i, j) + 1), 0);
@@ -88,10 +91,11 @@ Finding prove_step_symplectic(const Member& member) {
                         size * size)};
   }
   const Finding gauge = prove_gauge(member);
-  return {"symplectic", gauge.verdict,
-          fmt::format("A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J, and {}; checked entry by "
-                      "entry on the first {} of {} degrees of freedom",
-                      gauge.detail, m, n)};
+  return {
+      "symplectic", gauge.verdict,
+      fmt::format("A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J, and {}; checked entry by "
+                  "entry on the first {} of {} degrees of freedom",
+                  gauge.detail, m, n)};
 }
 
 Finding prove_symmetric(const Member& member) {
@@ -111,9 +115,10 @@ Finding prove_symmetric(const Member& member) {
 Finding prove_order(const Member& member) {
   if (member.generating_order > 0) {
     return {fmt::format("order {}", member.generating_order), Verdict::proved,
-            fmt::format("K solves the Hamilton-Jacobi equation of the generating function, term by term "
-                        "to h^{}",
-                        member.generating_order - 1)};
+            fmt::format(
+                "K solves the Hamilton-Jacobi equation of the generating function, term by term "
+                "to h^{}",
+                member.generating_order - 1)};
   }
   for (const auto& [place, value] : member.c) {
     const std::optional<Expression> at_zero = at_zero_step(value);

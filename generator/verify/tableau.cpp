@@ -154,7 +154,8 @@ bool is_gauss(const Numbers& t) {
     // C(s): sum_j a_ij c_j^(k-1) = c_i^k / k.
     for (int k = 1; k <= s; ++k) {
       Precise sum = -(power_of_node(t.c[i], k) / precise(k));
-      for (std::size_t j = 0; j < t.c.size(); ++j) sum = sum + t.a[i][j] * power_of_node(t.c[j], k - 1);
+      for (std::size_t j = 0; j < t.c.size(); ++j)
+        sum = sum + t.a[i][j] * power_of_node(t.c[j], k - 1);
       if (size_of_precise(sum) > kTableauDigits) return false;
     }
   }
@@ -177,10 +178,11 @@ Finding symplectic_tableau(const Numbers& t, bool gauss) {
   if (gauss) {
     // m_ij = b_i a_ij + b_j a_ji - b_i b_j: sum_ij c_i^(k-1) m_ij c_j^(l-1) = (1/(k+l)) (1/k + 1/l)
     // - 1/(k l) = 0 for k, l <= s by B(2s) and C(s), and the Vandermonde matrix is regular.
-    return {"symplectic", Verdict::proved,
-            "collocation at the zeros of the shifted Legendre polynomial P_s: the integrals of P_s x^k "
-            "vanish exactly for k < s, and B(2s) and C(s) give b_i a_ij + b_j a_ji = b_i b_j; for "
-            "exactly solved stages"};
+    return {
+        "symplectic", Verdict::proved,
+        "collocation at the zeros of the shifted Legendre polynomial P_s: the integrals of P_s x^k "
+        "vanish exactly for k < s, and B(2s) and C(s) give b_i a_ij + b_j a_ji = b_i b_j; for "
+        "exactly solved stages"};
   }
   return {"symplectic", t.exact ? Verdict::proved : Verdict::tested,
           t.exact ? "b_i a_ij + b_j a_ji = b_i b_j; for exactly solved stages"
@@ -205,10 +207,11 @@ Finding symmetric_tableau(const Numbers& t, bool gauss) {
 
 Finding order_of_gauss(const Numbers& t) {
   const int s = static_cast<int>(t.b.size());
-  return {fmt::format("order {}", 2 * s), Verdict::proved,
-          fmt::format("B({0}), C({1}) and D({1}) of collocation at the zeros of P_{1}; leading error "
-                      "h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ..., f = J grad H",
-                      2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)))};
+  return {
+      fmt::format("order {}", 2 * s), Verdict::proved,
+      fmt::format("B({0}), C({1}) and D({1}) of collocation at the zeros of P_{1}; leading error "
+                  "h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ..., f = J grad H",
+                  2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)))};
 }
 
 // The trees of an order and their conditions; more than order 7 is never asked for.
@@ -217,7 +220,8 @@ Finding order_by_trees(const Numbers& t, int claimed) {
   const std::vector<Precise> defect = defects(t, trees);
   for (std::size_t k = 0; k < trees.size(); ++k) {
     if (size_of_precise(defect[k]) <= kTableauDigits) continue;
-    return {fmt::format("order {}", trees[k].order - 1), t.exact ? Verdict::proved : Verdict::tested,
+    return {fmt::format("order {}", trees[k].order - 1),
+            t.exact ? Verdict::proved : Verdict::tested,
             fmt::format("all {} order conditions before; leading error: the tree {} with relative "
                         "error {:.4g}, f = J grad H",
                         k, trees[k].text, to_double(defect[k]))};

@@ -69,10 +69,14 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
 
 std::string to_text(Verdict verdict) {
   switch (verdict) {
-    case Verdict::proved: return "proved";
-    case Verdict::tested: return "tested";
-    case Verdict::refuted: return "refuted";
-    case Verdict::not_decided: return "not decided";
+    case Verdict::proved:
+      return "proved";
+    case Verdict::tested:
+      return "tested";
+    case Verdict::refuted:
+      return "refuted";
+    case Verdict::not_decided:
+      return "not decided";
   }
   return "";
 }

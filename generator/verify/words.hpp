@@ -1,8 +1,8 @@
 // Formal series of a composed step: noncommutative power series, truncated by weight.
 //
 // A step exp(X) exp(Y) ... of flows X, Y, ... is a series in words; so is the flow it approximates.
-// The order is the weight up to which all words agree, and the words that do not agree first are the
-// leading error.
+// The order is the weight up to which all words agree, and the words that do not agree first are
+// the leading error.
 #pragma once
 
 #include <functional>
@@ -67,8 +67,8 @@ template <class Number>
 }
 
 // Modulo [B, [B, [B, A]]] = 0, which holds if A is the flow of a quadratic T(p) and B that of V(q):
-// BBBA becomes 3 BBAB - 3 BABB + ABBB until no word holds it.  Its overlaps with itself are trivial,
-// so that the result does not depend on the order.
+// BBBA becomes 3 BBAB - 3 BABB + ABBB until no word holds it.  Its overlaps with itself are
+// trivial, so that the result does not depend on the order.
 template <class Number>
 [[nodiscard]] Series<Number> without_bbba(Series<Number> series, const Number& three) {
   Series<Number> result;
@@ -86,7 +86,9 @@ template <class Number>
       add(result, word, value);
       continue;
     }
-    auto with = [&](const char* middle) { return word.substr(0, at) + middle + word.substr(at + 4); };
+    auto with = [&](const char* middle) {
+      return word.substr(0, at) + middle + word.substr(at + 4);
+    };
     add(series, with("BBAB"), three * value);
     add(series, with("BABB"), -(three * value));
     add(series, with("ABBB"), value);

@@ -1,4 +1,6 @@
 // Exact numbers and the literals they become.
+#include "generator/algebra/exact.hpp"
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -7,7 +9,6 @@
 #include <limits>
 #include <random>
 
-#include "generator/algebra/exact.hpp"
 #include "generator/formats/scalar.hpp"
 
 namespace hamgen {

@@ -1,10 +1,10 @@
 // Expressions in one canonical form.
+#include "generator/algebra/expression.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
-
-#include "generator/algebra/expression.hpp"
 
 namespace hamgen {
 namespace {
@@ -96,12 +96,13 @@ TEST(Expression, NumbersAreExact) {
 }
 
 TEST(Expression, ComparesInATotalOrder) {
-  const std::vector<Expression> some{Expression(0), Expression(-1), fraction(1, 2), x, y, x * y, x + y,
-                                     power(x, 2), power(x, -1), cosine(x), cosine(y), x * 2, -x};
+  const std::vector<Expression> some{
+      Expression(0), Expression(-1), fraction(1, 2), x,         y,     x * y, x + y,
+      power(x, 2),   power(x, -1),   cosine(x),      cosine(y), x * 2, -x};
   for (const Expression& a : some) {
     for (const Expression& b : some) {
       EXPECT_EQ(a == b, (a <=> b) == 0) << to_text(a) << ", " << to_text(b);
-      EXPECT_EQ(a < b, b > a) << to_text(a) << ", " << to_text(b);
+      EXPECT_EQ(a<b, b> a) << to_text(a) << ", " << to_text(b);
       for (const Expression& c : some) {
         if (a < b && b < c) {
           EXPECT_LT(a, c);

@@ -1,9 +1,9 @@
 // There and back across the border with GiNaC.
+#include "generator/algebra/from_ginac.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "generator/algebra/from_ginac.hpp"
 
 namespace hamgen {
 namespace {
@@ -23,8 +23,8 @@ TEST_F(Border, AnExpressionComesBackAsItWas) {
   const Expression half(Rational(1, 2));
   for (const Expression& e :
        {x, Expression(0), Expression(Rational(-7, 3)), x + y, x - y, x * y * 3,
-        Expression::power(x, Expression(-2)), square_root(x * x + y * y), x / y, half * x - half * y,
-        Expression::apply("cos", {x - y}), Expression::apply("exp", {-x}),
+        Expression::power(x, Expression(-2)), square_root(x * x + y * y), x / y,
+        half * x - half * y, Expression::apply("cos", {x - y}), Expression::apply("exp", {-x}),
         Expression::apply("tanh", {x * 2}), Expression::power(x, y),
         Expression::apply("atan2", {y, x}), Expression::symbol("pi") * x}) {
     EXPECT_EQ(round_trip(e), e) << to_text(e) << " became " << to_text(round_trip(e));
@@ -41,7 +41,9 @@ TEST_F(Border, HugeAndTinyNumbersCrossExactly) {
 
 TEST_F(Border, DerivativesAreThoseOfTheTextbook) {
   const GiNaC::symbol& s = table.find("x");
-  auto derivative = [&](const Expression& e) { return from_ginac(to_ginac(e, table).diff(s), table); };
+  auto derivative = [&](const Expression& e) {
+    return from_ginac(to_ginac(e, table).diff(s), table);
+  };
   EXPECT_EQ(derivative(Expression::power(x, Expression(3))), Expression(3) * x * x);
   EXPECT_EQ(derivative(Expression::apply("cos", {x * y})),
             -(y * Expression::apply("sin", {x * y})));

@@ -16,8 +16,10 @@ int count(const std::string& text, const std::string& part) {
 // The body of the loop of the emitted step.
 std::string loop(const std::string& hamiltonian, const Request& request = {}) {
   const std::string header =
-      generate(make_source("small.ham", "system small\ncoordinate q1, q2\nmomentum p1, p2\n" + hamiltonian),
-               request)[0].text;
+      generate(make_source("small.ham",
+                           "system small\ncoordinate q1, q2\nmomentum p1, p2\n" + hamiltonian),
+               request)[0]
+          .text;
   const auto begin = header.find("for (int iteration");
   return header.substr(begin, header.find("const Real size", begin) - begin);
 }
@@ -44,8 +46,8 @@ TEST(Lowering, SinesOfOneAngleAreComputedOnce) {
 }
 
 TEST(Lowering, WhatDependsOnParametersAloneLeavesTheLoop) {
-  const std::string body =
-      loop("parameter a = 2\nparameter b = 3\nH = (p1^2 + p2^2)/2 - sqrt(a^3 + b)/exp(b)*cos(q1*q2)\n");
+  const std::string body = loop(
+      "parameter a = 2\nparameter b = 3\nH = (p1^2 + p2^2)/2 - sqrt(a^3 + b)/exp(b)*cos(q1*q2)\n");
   EXPECT_EQ(count(body, "par.a"), 0) << body;
   EXPECT_EQ(count(body, "std::exp("), 0) << body;
   EXPECT_EQ(count(body, "std::sqrt("), 0) << body;

@@ -36,18 +36,20 @@ TEST(LocallyExactGauge, ARunTakesItAtItsOwnParameters) {
 
 TEST(LocallyExactGauge, AStepAtAPoleIsRefusedWithTheFrequency) {
   for (const char* h : {"2*pi", "-2*pi", "6.29", "20*pi"}) {
-    const Result result = hamgen({"run", kHarmonic, "--gauge", "locally-exact", std::string("--h=") + h});
+    const Result result =
+        hamgen({"run", kHarmonic, "--gauge", "locally-exact", std::string("--h=") + h});
     EXPECT_EQ(result.status, 2) << result.err;
     EXPECT_TRUE(contains(result.err, "the gauge has a pole at h = 6")) << result.err;
     EXPECT_TRUE(contains(result.err, "w = 1 of the linear part")) << result.err;
   }
-  EXPECT_EQ(hamgen({"run", kHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"}).status,
-            0);
+  EXPECT_EQ(
+      hamgen({"run", kHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"}).status,
+      0);
 }
 
 TEST(LocallyExactGauge, TheStiffChainIsAThousandTimesMoreExactThanByTheMidpointRule) {
-  // h w = 0.125, t = 5.  The reference is the same member with a step 64 times smaller: its error is
-  // 4096 times smaller than the one that is measured.
+  // h w = 0.125, t = 5.  The reference is the same member with a step 64 times smaller: its error
+  // is 4096 times smaller than the one that is measured.
   const auto at_the_end = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), kStiff);
     const json state = run_json(arguments)["state"];
@@ -63,13 +65,14 @@ TEST(LocallyExactGauge, TheStiffChainIsAThousandTimesMoreExactThanByTheMidpointR
   const std::vector<double> exact =
       at_the_end({"--gauge", "locally-exact", "--h", "1/25600", "--steps", "128000"});
   const double midpoint = distance(at_the_end({"--h", "1/400", "--steps", "2000"}), exact);
-  const double gauged = distance(
-      at_the_end({"--gauge", "locally-exact", "--h", "1/400", "--steps", "2000"}), exact);
+  const double gauged =
+      distance(at_the_end({"--gauge", "locally-exact", "--h", "1/400", "--steps", "2000"}), exact);
   EXPECT_GT(midpoint, 1000 * gauged) << midpoint << " " << gauged;
 }
 
 TEST(LocallyExactGauge, TheCommandInTheHeaderNamesTheReference) {
-  const Result result = hamgen({"generate", kHarmonic, "--gauge", "locally-exact", "--reference", "w=3,q=1"});
+  const Result result =
+      hamgen({"generate", kHarmonic, "--gauge", "locally-exact", "--reference", "w=3,q=1"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "--gauge locally-exact --reference w=3 --reference q=1\n"))
       << result.out.substr(0, 400);

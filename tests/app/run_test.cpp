@@ -56,19 +56,20 @@ TEST(Run, TakesTheParametersOfTheSchemeAtRunTime) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
   const json fixed = run_json({model, "--alpha", "3/8", "--beta=-h/500", "--gamma=-h/16"});
-  const json free = run_json({model, "--alpha", "alpha", "--beta", "beta*h", "--gamma", "gamma*h",
-                              "--set", "alpha=0.375", "--set", "beta=-0.002", "--set", "gamma=-1/16"});
+  const json free =
+      run_json({model, "--alpha", "alpha", "--beta", "beta*h", "--gamma", "gamma*h", "--set",
+                "alpha=0.375", "--set", "beta=-0.002", "--set", "gamma=-1/16"});
   // The same member; its constants are rounded in another order, by 1e-16, which t = 100 near the
   // separatrix stretches by about 1e3.
   EXPECT_NEAR(free["state"]["q"][0].get<double>(), fixed["state"]["q"][0].get<double>(), 1e-11);
   const json unset = run_json({model, "--alpha", "alpha", "--beta", "beta*h"});
-  EXPECT_NEAR(unset["state"]["q"][0].get<double>(), run_json({model})["state"]["q"][0].get<double>(),
-              1e-11);
+  EXPECT_NEAR(unset["state"]["q"][0].get<double>(),
+              run_json({model})["state"]["q"][0].get<double>(), 1e-11);
   // A coordinate of that name is no parameter.
-  const std::string other = scratch.write(
-      "other.ham", "system other\ncoordinate beta\nmomentum p\nH = p^2/2 + beta^4\n");
-  const Result refused = hamgen({"run", other, "--beta", "beta", "--initial", "beta=1,p=0", "--h",
-                                 "0.1", "--steps", "10"});
+  const std::string other =
+      scratch.write("other.ham", "system other\ncoordinate beta\nmomentum p\nH = p^2/2 + beta^4\n");
+  const Result refused = hamgen(
+      {"run", other, "--beta", "beta", "--initial", "beta=1,p=0", "--h", "0.1", "--steps", "10"});
   EXPECT_EQ(refused.status, 3) << refused.err;
 }
 

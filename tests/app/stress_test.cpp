@@ -53,9 +53,10 @@ TEST(Stress, EveryFailureIsAnOutcomeWithAName) {
 
 TEST(Stress, AnEscapeIsNotAFailureOfTheStep) {
   const Scratch scratch;
-  const std::string path = scratch.write(
-      "hill.ham", "system hill\ncoordinate q\nmomentum p\nH = p^2/2 - q^2/2\n"
-                  "scene s {\n  q = 1\n  h = 0.1\n  steps = 10\n}\n");
+  const std::string path =
+      scratch.write("hill.ham",
+                    "system hill\ncoordinate q\nmomentum p\nH = p^2/2 - q^2/2\n"
+                    "scene s {\n  q = 1\n  h = 0.1\n  steps = 10\n}\n");
   const Json cells = cells_of({path, "--vary", "h=1:2:2", "--steps", "1000"});
   for (const Json& cell : cells) EXPECT_EQ(cell.at("outcome"), "escaped") << cell;
 }

@@ -51,8 +51,8 @@ TEST(Tune, FindsThePairThatIsKnownInClosedFormForThePendulum) {
   // What it costs is said.
   EXPECT_GT(pair["state_error"].get<double>(), midpoint["state_error"].get<double>());
   EXPECT_TRUE(midpoint["stable_below"].is_null());
-  // Bounded while 1 + h beta > 0 and 1 - h gamma eps cos q > 0: h^2 < 12/max(E, -eps cos q), that is
-  // 12/0.03 where q passes pi; E = 0.02997 is what the orbit reaches.
+  // Bounded while 1 + h beta > 0 and 1 - h gamma eps cos q > 0: h^2 < 12/max(E, -eps cos q), that
+  // is 12/0.03 where q passes pi; E = 0.02997 is what the orbit reaches.
   EXPECT_NEAR(pair["stable_below"].get<double>(), std::sqrt(12 / energy), 1e-3);
   EXPECT_TRUE(result["worth_while"].get<bool>());
   EXPECT_TRUE(contains(result["command"].get<std::string>(), "'--beta=-0.00249783787"));
@@ -75,8 +75,7 @@ TEST(Tune, SaysThatItIsWorthNothingWhereTheGainIsSmall) {
     const Result result =
         hamgen({"tune", kHenonHeiles, "--time", "100", "--samples", "200", "--gauge-form", form});
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_TRUE(contains(result.out, "worth nothing here: the energy spread "))
-        << result.out;
+    EXPECT_TRUE(contains(result.out, "worth nothing here: the energy spread ")) << result.out;
   }
   const Result harmonic = hamgen({"tune", kHarmonic, "--time", "20", "--samples", "50"});
   EXPECT_TRUE(contains(harmonic.out, "nothing to tune: the midpoint rule keeps this energy"))

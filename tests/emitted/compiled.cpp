@@ -17,8 +17,8 @@ runtime::ProcessResult run(std::vector<std::string> command) {
 }  // namespace
 
 std::vector<std::string> strict_flags() {
-  return {"-std=c++20", "-Wall",    "-Wextra",            "-Wpedantic", "-Wconversion",
-          "-Wshadow",   "-Wdouble-promotion", "-Werror"};
+  return {"-std=c++20",         "-Wall",  "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
+          "-Wdouble-promotion", "-Werror"};
 }
 
 std::vector<std::string> compilers() {
@@ -61,8 +61,8 @@ std::string run_program(const std::string& text) {
 
 std::vector<std::filesystem::path> shipped_models() {
   std::vector<std::filesystem::path> models;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(HAMGEN_SOURCE_DIR) / "hamiltonians")) {
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(HAMGEN_SOURCE_DIR) / "hamiltonians")) {
     if (entry.path().extension() == ".ham") models.push_back(entry.path());
   }
   std::ranges::sort(models);

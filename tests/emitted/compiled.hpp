@@ -16,8 +16,8 @@ namespace hamgen::emitted_test {
 // The compilers there are, of g++ and clang++.
 [[nodiscard]] std::vector<std::string> compilers();
 
-// Compiles the text (as one translation unit, by default without making code) and returns the messages; empty if it is
-// clean.
+// Compiles the text (as one translation unit, by default without making code) and returns the
+// messages; empty if it is clean.
 [[nodiscard]] std::string messages(const std::string& compiler, const std::string& text,
                                    const std::vector<std::string>& flags = strict_flags(),
                                    const std::string& action = "-fsyntax-only");

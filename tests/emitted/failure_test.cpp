@@ -22,16 +22,23 @@ std::string program(const std::string& header_text, const std::string& state, co
          "bool same(const model::State& a, const model::State& b) {\n"
          "  return std::memcmp(&a, &b, sizeof a) == 0;\n}\n"
          "bool finite(const model::State& z) {\n"
-         "  for (const model::Real x : {" + [&] {
+         "  for (const model::Real x : {" +
+         [&] {
            std::string list;
-           for (const char* name : {"q", "p"}) list += (list.empty() ? "z." : ", z.") + std::string(name);
+           for (const char* name : {"q", "p"})
+             list += (list.empty() ? "z." : ", z.") + std::string(name);
            return list;
-         }() + "}) if (!(x - x == 0)) return false;\n  return true;\n}\n"
+         }() +
+         "}) if (!(x - x == 0)) return false;\n  return true;\n}\n"
          "int main() {\n"
          "  const model::Parameters par;\n"
-         "  for (const double size : {" + h + "}) {\n"
+         "  for (const double size : {" +
+         h +
+         "}) {\n"
          "  const model::Real h = static_cast<model::Real>(size);\n"
-         "  const model::State start = " + state + ";\n"
+         "  const model::State start = " +
+         state +
+         ";\n"
          "  bool failed = false;\n"
          "  model::State z = start;\n"
          "  for (int i = 0; i < 1000 && !failed; ++i) {\n"
@@ -46,13 +53,15 @@ std::string program(const std::string& header_text, const std::string& state, co
          "  for (int i = 0; i < 1000 && !run_failed; ++i) {\n"
          "    const model::State before = run.state();\n"
          "    run_failed = !run.step().converged;\n"
-         "    if (run_failed && !same(before, run.state())) std::puts(\"the propagator changed it\");\n"
+         "    if (run_failed && !same(before, run.state())) std::puts(\"the propagator changed "
+         "it\");\n"
          "    if (!finite(run.state())) { std::puts(\"propagator not finite\"); break; }\n"
          "  }\n"
          "  const int outcome = (failed ? 1 : 2) | (run_failed ? 1 : 2);\n"
-         "  if ((outcome & " + (expected == Expected::failure   ? "2"
-                                : expected == Expected::success ? "1"
-                                                                : "0") +
+         "  if ((outcome & " +
+         (expected == Expected::failure   ? "2"
+          : expected == Expected::success ? "1"
+                                          : "0") +
          ") != 0) std::puts(\"not the expected outcome\");\n  }\n}\n";
 }
 
@@ -73,8 +82,10 @@ TEST(Failure, OfACollapseLeavesTheStateAsItWas) {
 
 TEST(Failure, OfAnOverflowLeavesTheStateAsItWas) {
   const std::string escape = "coordinate q\nmomentum p\nH = p^2/2 - q^4\n";
-  for (const Request& request : {Request{.alpha = "0"}, Request{.alpha = "1"}, Request{.solver = "sweeps:3"}}) {
-    EXPECT_EQ(run_program(program(header(escape, request), "{1, 1}", "0.1", Expected::failure)), "");
+  for (const Request& request :
+       {Request{.alpha = "0"}, Request{.alpha = "1"}, Request{.solver = "sweeps:3"}}) {
+    EXPECT_EQ(run_program(program(header(escape, request), "{1, 1}", "0.1", Expected::failure)),
+              "");
   }
   // An implicit equation may have other solutions that stay.
   for (const Request& request : {Request{}, Request{.solver = "fixed-point"},
@@ -87,25 +98,31 @@ TEST(Failure, OfTheClosedFormRootLeavesTheStateAsItWas) {
   // The quadratic of alpha = 0 has no real root for large h q (p^2 + 1).
   const std::string product = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
   for (const char* alpha : {"0", "1"}) {
-    EXPECT_EQ(run_program(program(header(product, {.alpha = alpha}), "{1, -3}", "10.0", Expected::failure)), "")
+    EXPECT_EQ(run_program(
+                  program(header(product, {.alpha = alpha}), "{1, -3}", "10.0", Expected::failure)),
+              "")
         << alpha;
   }
 }
 
 TEST(Failure, AnAbsurdStepNeverGivesAStateThatIsNotFinite) {
   const std::string steps = "1e3, -1e3, 1e30, 1e160, 1e300, -1e300, 1e-320, 0.0";
-  for (const Request& request : {Request{}, Request{.alpha = "0"}, Request{.solver = "fixed-point"}}) {
-    EXPECT_EQ(run_program(program(header(pendulum, request), "{3, 0.5}", steps, Expected::either)), "");
+  for (const Request& request :
+       {Request{}, Request{.alpha = "0"}, Request{.solver = "fixed-point"}}) {
+    EXPECT_EQ(run_program(program(header(pendulum, request), "{3, 0.5}", steps, Expected::either)),
+              "");
   }
 }
 
 TEST(Failure, AnInitialStateThatIsNotFiniteFailsAtOnce) {
-  EXPECT_EQ(run_program(without_pragma(header(pendulum, {})) +
-                        "#include <cstdio>\n#include <initializer_list>\nint main() {\n  const double inf = 1.0e308 * 10;\n"
-                        "  for (model::State z : {model::State{inf, 0}, model::State{0, inf}, "
-                        "model::State{0 * inf, 0}}) {\n"
-                        "    if (model::step({}, 0.1, z).converged) std::puts(\"converged\");\n  }\n}\n"),
-            "");
+  EXPECT_EQ(
+      run_program(without_pragma(header(pendulum, {})) +
+                  "#include <cstdio>\n#include <initializer_list>\nint main() {\n  const double "
+                  "inf = 1.0e308 * 10;\n"
+                  "  for (model::State z : {model::State{inf, 0}, model::State{0, inf}, "
+                  "model::State{0 * inf, 0}}) {\n"
+                  "    if (model::step({}, 0.1, z).converged) std::puts(\"converged\");\n  }\n}\n"),
+      "");
 }
 
 TEST(Failure, ASoundStepDoesNotFail) {

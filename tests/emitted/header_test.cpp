@@ -49,8 +49,9 @@ std::string unit(const std::vector<std::filesystem::path>& models, const std::st
 }
 
 std::vector<std::filesystem::path> models_for_every_scalar() {
-  const std::set<std::string> names{"pendulum",          "kepler",  "double_pendulum", "fput",
-                                    "driven_oscillator", "product", "phi4",            "magnetic"};
+  const std::set<std::string> names{
+      "pendulum", "kepler", "double_pendulum", "fput", "driven_oscillator",
+      "product",  "phi4",   "magnetic"};
   std::vector<std::filesystem::path> models;
   for (const auto& model : shipped_models()) {
     if (names.contains(model.stem().string())) models.push_back(model);
@@ -68,9 +69,10 @@ class EmittedHeader : public ::testing::TestWithParam<const char*> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Compilers, EmittedHeader, ::testing::Values("g++", "clang++"), [](const auto& instance) {
-  return std::string(instance.param) == "g++" ? "gcc" : "clang";
-});
+INSTANTIATE_TEST_SUITE_P(Compilers, EmittedHeader, ::testing::Values("g++", "clang++"),
+                         [](const auto& instance) {
+                           return std::string(instance.param) == "g++" ? "gcc" : "clang";
+                         });
 
 TEST_P(EmittedHeader, OfEveryShippedModelAndMemberCompilesWithoutAWarning) {
   ASSERT_GT(shipped_models().size(), 10u);
@@ -110,8 +112,8 @@ TEST(OptimisedHeader, CompilesWithoutAWarning) {
       const std::string space = "shipped_" + name + "::" + variant.name + "_double";
       uses += "int use_" + std::to_string(number++) + "(" + space + "::State& z) {\n  " + space +
               "::Propagator run(" + space + "::Parameters{}, 0.1, z);\n" +
-              "  const int n = run.advance(3).iterations;\n  z = run.state();\n  return n + (" + space +
-              "::energy({}, z) > 0);\n}\n";
+              "  const int n = run.advance(3).iterations;\n  z = run.state();\n  return n + (" +
+              space + "::energy({}, z) > 0);\n}\n";
     }
   }
   ASSERT_GT(number, 20);

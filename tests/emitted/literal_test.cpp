@@ -65,7 +65,8 @@ TEST(Literals, AreCorrectlyRoundedInEveryScalar) {
         "-2.4978136594e-3", "16777217.000000001", "1.00000005960464477539062501"}) {
     values.push_back(text[0] == '-' ? Rational(-*parse_decimal(text + 1)) : *parse_decimal(text));
   }
-  for (const Rational& value : {Rational(1, 3), Rational(-2, 7), Rational(22, 7), Rational(1, 12)}) {
+  for (const Rational& value :
+       {Rational(1, 3), Rational(-2, 7), Rational(22, 7), Rational(1, 12)}) {
     values.push_back(value);
   }
   std::istringstream lines(run_program(printer(values)));

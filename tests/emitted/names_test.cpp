@@ -9,16 +9,18 @@ namespace hamgen::emitted_test {
 namespace {
 
 const std::vector<std::string> hostile = {
-    "double",  "h_",      "z",        "par",     "dz",       "State",    "Real",       "I",
-    "int",     "class",   "std",      "k",       "x",        "n",        "i",          "report",
-    "start",   "length",  "size",     "scale",   "verdict",  "iteration", "carry_",    "z_",
-    "step",    "solve",   "energy",   "prepare", "add",      "gradient", "Parameters", "Propagator",
-    "History", "Start",   "Verdict",  "t1",      "c1",       "q_bar",    "H_q",        "delta_q",
-    "R_q",     "q_new",   "values",   "sum",     "E1",       "Coefficients", "namespace", "M_PI",
-    "and",     "E",       "NAN",      "errno",   "main",     "template", "hessian",    "masses",
-    "hamgen_run", "create", "state",  "steps",   "known",    "magnitude", "unknowns",  "advance",
-    "lambda",  "gamma",   "beta",     "alpha",   "float128", "EOF",      "y0",         "j1",
-    "predicted", "best", "value", "increment", "rule_0", "d_p_d_q", "entry_1", "put", "drift_"};
+    "double",     "h_",       "z",          "par",          "dz",        "State",     "Real",
+    "I",          "int",      "class",      "std",          "k",         "x",         "n",
+    "i",          "report",   "start",      "length",       "size",      "scale",     "verdict",
+    "iteration",  "carry_",   "z_",         "step",         "solve",     "energy",    "prepare",
+    "add",        "gradient", "Parameters", "Propagator",   "History",   "Start",     "Verdict",
+    "t1",         "c1",       "q_bar",      "H_q",          "delta_q",   "R_q",       "q_new",
+    "values",     "sum",      "E1",         "Coefficients", "namespace", "M_PI",      "and",
+    "E",          "NAN",      "errno",      "main",         "template",  "hessian",   "masses",
+    "hamgen_run", "create",   "state",      "steps",        "known",     "magnitude", "unknowns",
+    "advance",    "lambda",   "gamma",      "beta",         "alpha",     "float128",  "EOF",
+    "y0",         "j1",       "predicted",  "best",         "value",     "increment", "rule_0",
+    "d_p_d_q",    "entry_1",  "put",        "drift_"};
 
 // A model that the language accepts, or nothing if it refuses the name.
 std::string header(const std::string& text, const Request& request, const std::string& space) {
@@ -35,7 +37,8 @@ std::string header(const std::string& text, const Request& request, const std::s
 std::vector<std::string> accepted_names() {
   std::vector<std::string> names;
   for (const std::string& name : hostile) {
-    if (!header("system hostile\ncoordinate " + name + "\nmomentum p_\nH = p_^2\n", {}, "x").empty()) {
+    if (!header("system hostile\ncoordinate " + name + "\nmomentum p_\nH = p_^2\n", {}, "x")
+             .empty()) {
       names.push_back(name);
     }
   }
@@ -48,12 +51,14 @@ std::string written_out(const Request& request) {
   std::string units;
   for (std::size_t i = 0; i < names.size(); i += 2) {
     auto name = [&](std::size_t k) { return names[(i + k) % names.size()]; };
-    const std::string q1 = name(0), q2 = name(1), p1 = name(2), p2 = name(3), a = name(4), b = name(5);
+    const std::string q1 = name(0), q2 = name(1), p1 = name(2), p2 = name(3), a = name(4),
+                      b = name(5);
     units += "#line 1 \"" + q1 + "_" + q2 + "_" + p1 + "_" + p2 + "_" + a + "_" + b + ".hpp\"\n";
-    units += header("system hostile\ncoordinate " + q1 + ", " + q2 + "\nmomentum " + p1 + ", " + p2 +
-                        "\nparameter " + a + " = 2\nparameter " + b + " = 3\nH = " + p1 + "^2*(1 + " +
-                        q2 + "^2) + " + a + "*" + p2 + "^2 - " + b + "*cos(" + q1 + " - " + q2 + ")\n",
-                    request, "n" + std::to_string(i));
+    units +=
+        header("system hostile\ncoordinate " + q1 + ", " + q2 + "\nmomentum " + p1 + ", " + p2 +
+                   "\nparameter " + a + " = 2\nparameter " + b + " = 3\nH = " + p1 + "^2*(1 + " +
+                   q2 + "^2) + " + a + "*" + p2 + "^2 - " + b + "*cos(" + q1 + " - " + q2 + ")\n",
+               request, "n" + std::to_string(i));
   }
   return units;
 }
@@ -67,8 +72,8 @@ std::string in_loops(const Request& request) {
     const std::string next = q + "[" + i + "+1] - " + q + "[" + i + "]";
     units += "#line 1 \"" + q + "_" + p + "_" + a + "_" + i + ".hpp\"\n";
     units += header("system hostile\ncoordinate " + q + "[1..40] periodic\nmomentum " + p +
-                        "[1..40]\nparameter " + a + " = 2\nH = sum(" + i + " = 1..40, " + p + "[" + i +
-                        "]^2/2 - " + a + "*cos(" + next + "))\n",
+                        "[1..40]\nparameter " + a + " = 2\nH = sum(" + i + " = 1..40, " + p + "[" +
+                        i + "]^2/2 - " + a + "*cos(" + next + "))\n",
                     request, "n" + std::to_string(k));
   }
   return units;
@@ -89,9 +94,7 @@ TEST(HostileNames, GiveCodeThatCompilesForSweepsAndForAFixedPoint) {
   EXPECT_EQ(messages("g++", written_out({.solver = "fixed-point"})), "");
 }
 
-TEST(HostileNames, GiveCodeThatCompilesForLoops) {
-  EXPECT_EQ(messages("g++", in_loops({})), "");
-}
+TEST(HostileNames, GiveCodeThatCompilesForLoops) { EXPECT_EQ(messages("g++", in_loops({})), ""); }
 
 TEST(HostileNames, GiveCodeThatCompilesForExplicitLoops) {
   EXPECT_EQ(messages("g++", in_loops({.alpha = "0"})), "");
@@ -99,8 +102,8 @@ TEST(HostileNames, GiveCodeThatCompilesForExplicitLoops) {
 
 TEST(HostileNames, OfTheSystemGiveNamespacesThatCompile) {
   for (const char* name : {"double", "std", "namespace", "State", "Real", "h", "hamgen", "main"}) {
-    const std::string text = "system " + std::string(name) +
-                             "\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+    const std::string text =
+        "system " + std::string(name) + "\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
     std::string code;
     try {
       code = generate(make_source("hostile.ham", text), {}).at(0).text;
@@ -112,16 +115,19 @@ TEST(HostileNames, OfTheSystemGiveNamespacesThatCompile) {
 }
 
 TEST(HostileNames, OfCoordinatesInPluginsCompile) {
-  for (const std::string name : {"state", "run", "plugin", "create", "parameters", "z", "par", "values"}) {
-    const std::string text = "system hostile\ncoordinate " + name + "\nmomentum p\nparameter " + name +
-                             "0 = 1\nH = p^2/2 - " + name + "0*cos(" + name + ")\ninvariant energy2 = p^2\n";
+  for (const std::string name :
+       {"state", "run", "plugin", "create", "parameters", "z", "par", "values"}) {
+    const std::string text = "system hostile\ncoordinate " + name + "\nmomentum p\nparameter " +
+                             name + "0 = 1\nH = p^2/2 - " + name + "0*cos(" + name +
+                             ")\ninvariant energy2 = p^2\n";
     std::string code;
     try {
       code = generate_plugin(make_source("hostile.ham", text), {}).text;
     } catch (const ModelError&) {
       continue;
     }
-    const std::string interface = read(std::filesystem::path(HAMGEN_SOURCE_DIR) / "runtime/plugin.h");
+    const std::string interface =
+        read(std::filesystem::path(HAMGEN_SOURCE_DIR) / "runtime/plugin.h");
     const std::string include = "#include \"plugin.h\"\n";
     if (const auto at = code.find(include); at != std::string::npos) {
       code.replace(at, include.size(), interface);
@@ -137,7 +143,9 @@ TEST(HostileNames, ACommentOrUnitOfTheUsersStaysAComment) {
       "H = p^2/2 - g*cos(q)   # trailing \\\n";
   std::string code;
   try {
-    code = generate(make_source("dir\\\n/ho*/stile.ham", text), {.command = "a \\\n#error b"}).at(0).text;
+    code = generate(make_source("dir\\\n/ho*/stile.ham", text), {.command = "a \\\n#error b"})
+               .at(0)
+               .text;
   } catch (const ModelError& error) {
     GTEST_SKIP() << "refused: " << error.what();
   }

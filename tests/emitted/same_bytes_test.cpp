@@ -16,8 +16,9 @@ std::string emitted_by_a_fresh_process(const std::filesystem::path& model,
   const runtime::TemporaryDirectory directory = runtime::private_directory();
   std::vector<std::string> command{"env"};
   command.insert(command.end(), environment.begin(), environment.end());
-  command.insert(command.end(), {HAMGEN_EXECUTABLE, "generate", model.string(), "-o",
-                                 directory.path().string(), "--alpha", "3/10", "--beta", "h/7,h/8"});
+  command.insert(command.end(),
+                 {HAMGEN_EXECUTABLE, "generate", model.string(), "-o", directory.path().string(),
+                  "--alpha", "3/10", "--beta", "h/7,h/8"});
   const runtime::ProcessResult result = runtime::run_process({.command = command});
   EXPECT_TRUE(result.succeeded()) << result.output;
   const std::string text = read(directory.path() / (model.stem().string() + ".hpp"));
@@ -52,7 +53,8 @@ TEST(SameBytes, ComeFromTwentyFreshProcessesUnderTwoLocales) {
           i % 2 == 0 ? std::vector<std::string>{"LC_ALL=C"} : other;
       // The environment moves the stack.
       environment.push_back("PADDING=" + std::string(static_cast<std::size_t>(i * 37), 'x'));
-      ASSERT_EQ(emitted_by_a_fresh_process(folder / name, environment), first) << name << ", run " << i;
+      ASSERT_EQ(emitted_by_a_fresh_process(folder / name, environment), first)
+          << name << ", run " << i;
     }
   }
 }
@@ -66,13 +68,15 @@ struct DecimalComma : std::numpunct<char> {
 TEST(SameBytes, ComeUnderACxxLocaleWithADecimalComma) {
   std::vector<std::string> before;
   for (const auto& model : shipped_models()) {
-    before.push_back(generate(read_source(model.string()), {.beta = "0.125*h", .scalar = "quad"})[0].text);
+    before.push_back(
+        generate(read_source(model.string()), {.beta = "0.125*h", .scalar = "quad"})[0].text);
   }
   const std::locale kept =
       std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
   std::vector<std::string> after;
   for (const auto& model : shipped_models()) {
-    after.push_back(generate(read_source(model.string()), {.beta = "0.125*h", .scalar = "quad"})[0].text);
+    after.push_back(
+        generate(read_source(model.string()), {.beta = "0.125*h", .scalar = "quad"})[0].text);
   }
   std::locale::global(kept);
   EXPECT_EQ(before, after);

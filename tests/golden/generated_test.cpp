@@ -8,5 +8,6 @@
 TEST(Generated, headers_are_what_the_generator_writes) {
   const std::string command = std::string("HAMGEN='") + HAMGEN_EXECUTABLE + "' '" +
                               HAMGEN_SOURCE_DIR + "/scripts/update-generated' --check";
-  EXPECT_EQ(std::system(command.c_str()), 0) << "read the difference, then scripts/update-generated";
+  EXPECT_EQ(std::system(command.c_str()), 0)
+      << "read the difference, then scripts/update-generated";
 }

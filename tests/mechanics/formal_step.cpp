@@ -78,7 +78,8 @@ Mechanics shipped(const std::string& name) {
 }
 
 Scheme scheme_of(const Mechanics& mechanics, const Gauge& gauge) {
-  const Model model = read_model(make_source("gauge.ham", "system g\ncoordinate q\nmomentum p\nH = p\n"));
+  const Model model =
+      read_model(make_source("gauge.ham", "system g\ncoordinate q\nmomentum p\nH = p\n"));
   const auto value = [&](const std::string& text) {
     return GaugeBlock{
         .entries = {scheme_parameter(model, "alpha", read_expression("alpha", text, {"h"}))}};
@@ -89,7 +90,8 @@ Scheme scheme_of(const Mechanics& mechanics, const Gauge& gauge) {
 
 FormalStep::FormalStep(const Mechanics& mechanics, const Member& member,
                        const std::vector<Expression>& slopes)
-    : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)), parameters_(defaults(mechanics)),
+    : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)),
+      parameters_(defaults(mechanics)),
       slopes_(slopes, names(mechanics)),
       matrix_(values(stage_matrix(member)), names(mechanics)) {
   for (const auto& [place, value] : stage_matrix(member)) places_.push_back(place);
@@ -130,8 +132,8 @@ Vector flow(const Mechanics& mechanics, const Vector& start, long double t, int 
   return sum(fine, 1 / 15.0L, sum(fine, -1, coarse));
 }
 
-std::vector<double> observed_orders(const FormalStep& step, const Vector& start, long double t, int n,
-                                    const Vector& exact) {
+std::vector<double> observed_orders(const FormalStep& step, const Vector& start, long double t,
+                                    int n, const Vector& exact) {
   std::vector<double> orders;
   long double before = 0;
   for (const int factor : {1, 2, 4}) {

@@ -24,7 +24,8 @@ struct Gauge {
 // Z = z + h J grad K(zbar, h) with the stage value iterated to round-off.
 class FormalStep {
  public:
-  FormalStep(const Mechanics& mechanics, const Member& member, const std::vector<Expression>& slopes);
+  FormalStep(const Mechanics& mechanics, const Member& member,
+             const std::vector<Expression>& slopes);
   [[nodiscard]] Vector after(int steps, const Vector& start, long double h) const;
 
  private:

@@ -19,7 +19,8 @@ bool same(const Expression& a, const Expression& b) {
   return ring.expand(a - b).empty();
 }
 
-std::vector<Expression> series(const Mechanics& m, const SparseMatrix& c, int count, SeriesForm form) {
+std::vector<Expression> series(const Mechanics& m, const SparseMatrix& c, int count,
+                               SeriesForm form) {
   const auto gauge = gauge_series(c, count);
   return generating_series(m.energy, coordinate_chart(m, gauge), gauge, count, form);
 }
@@ -45,11 +46,13 @@ TEST(GeneratingSeries, IsTheSameInBothForms) {
        {pendulum, std::string("coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n"),
         std::string("coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + x^2*y - y^3/3\n")}) {
     const Mechanics m = mechanics_of(text);
-    for (const Gauge& gauge : {Gauge{}, Gauge{"3/10", "1/5", "-1/10"}, Gauge{"1/2", "h/5", "2*h"}}) {
+    for (const Gauge& gauge :
+         {Gauge{}, Gauge{"3/10", "1/5", "-1/10"}, Gauge{"1/2", "h/5", "2*h"}}) {
       const SparseMatrix c = scheme_of(m, gauge).member().c;
       const auto nested = series(m, c, 5, SeriesForm::nested);
       const auto expanded = series(m, c, 5, SeriesForm::expanded);
-      for (std::size_t k = 0; k < nested.size(); ++k) EXPECT_TRUE(same(nested[k], expanded[k])) << k;
+      for (std::size_t k = 0; k < nested.size(); ++k)
+        EXPECT_TRUE(same(nested[k], expanded[k])) << k;
     }
   }
 }
@@ -90,13 +93,19 @@ struct Problem {
 
 // A2, A8, B1 and B2 of the literature's test problems, at large steps.
 const Problem a2{"pendulum", pendulum, {2, 0}, 4, 8};
-const Problem a8{"product", "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n", {0, -3}, 0.5L, 8};
-const Problem b1{"henon_heiles",
-                 "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3\n",
-                 {0.1L, 0.2L, 0.3L, -0.1L}, 4, 8};
+const Problem a8{
+    "product", "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n", {0, -3}, 0.5L, 8};
+const Problem b1{
+    "henon_heiles",
+    "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3\n",
+    {0.1L, 0.2L, 0.3L, -0.1L},
+    4,
+    8};
 const Problem b2{"kepler",
                  "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)\n",
-                 {0.8L, 0, 0, 1.2247448713915890491L}, 1, 10};
+                 {0.8L, 0, 0, 1.2247448713915890491L},
+                 1,
+                 10};
 
 void expect_order(const Problem& problem, const Gauge& gauge, int order, double tolerance) {
   const Mechanics m = mechanics_of(problem.text);

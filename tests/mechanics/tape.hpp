@@ -45,7 +45,8 @@ class Tape {
   };
 
   std::size_t add(const Expression& node, std::vector<std::size_t> operands) {
-    operations_.push_back({node, std::move(operands), node.is_number() ? number(node.number()) : 0});
+    operations_.push_back(
+        {node, std::move(operands), node.is_number() ? number(node.number()) : 0});
     return operations_.size() - 1;
   }
 
@@ -61,8 +62,10 @@ class Tape {
     const auto value = [&](std::size_t i) { return x[operation.operands[i]]; };
     long double result = 0;
     switch (operation.node.kind()) {
-      case Kind::number: return operation.constant;
-      case Kind::symbol: break;
+      case Kind::number:
+        return operation.constant;
+      case Kind::symbol:
+        break;
       case Kind::sum:
         for (const std::size_t i : operation.operands) result += x[i];
         return result;
@@ -70,7 +73,8 @@ class Tape {
         result = 1;
         for (const std::size_t i : operation.operands) result *= x[i];
         return result;
-      case Kind::power: return std::pow(value(0), value(1));
+      case Kind::power:
+        return std::pow(value(0), value(1));
       case Kind::function:
         if (operation.node.name() == "sin") return std::sin(value(0));
         if (operation.node.name() == "cos") return std::cos(value(0));

@@ -12,9 +12,12 @@ const Expression x = Expression::symbol("x", 1);
 const Expression y = Expression::symbol("y", 2);
 const Expression two(2);
 
-Expression f(const char* name, const Expression& argument) { return Expression::apply(name, {argument}); }
+Expression f(const char* name, const Expression& argument) {
+  return Expression::apply(name, {argument});
+}
 
-// x + h, y + h y: with h inserted, the sum of the series to h^12 is the function at the moved point.
+// x + h, y + h y: with h inserted, the sum of the series to h^12 is the function at the moved
+// point.
 TEST(Taylor, SeriesOfEveryKindOfNodeSumToTheFunctionAtTheDisplacedPoint) {
   const std::vector<Expression> functions = {
       x * x * x * y,
@@ -59,17 +62,19 @@ TEST(Derivative, SharedNodesAreDifferentiatedOnce) {
 }
 
 TEST(Derivative, AgreesWithDifferences) {
-  const Expression e = Expression::apply("atan2", {x, y}) * Expression::power(y, x) +
-                       f("sin", x * x) / y;
+  const Expression e =
+      Expression::apply("atan2", {x, y}) * Expression::power(y, x) + f("sin", x * x) / y;
   const std::vector<Expression> variables = {x, y};
   const Vector slopes = Tape(gradient(e, variables), {"x", "y"})({0.5L, 1.5L});
   const Tape value({e}, {"x", "y"});
   const long double h = 1e-5L;
   // Central differences: h^2/6 times third derivatives of order 10.
-  EXPECT_NEAR(static_cast<double>((value({0.5L + h, 1.5L})[0] - value({0.5L - h, 1.5L})[0]) / (2 * h)),
-              static_cast<double>(slopes[0]), 1e-9);
-  EXPECT_NEAR(static_cast<double>((value({0.5L, 1.5L + h})[0] - value({0.5L, 1.5L - h})[0]) / (2 * h)),
-              static_cast<double>(slopes[1]), 1e-9);
+  EXPECT_NEAR(
+      static_cast<double>((value({0.5L + h, 1.5L})[0] - value({0.5L - h, 1.5L})[0]) / (2 * h)),
+      static_cast<double>(slopes[0]), 1e-9);
+  EXPECT_NEAR(
+      static_cast<double>((value({0.5L, 1.5L + h})[0] - value({0.5L, 1.5L - h})[0]) / (2 * h)),
+      static_cast<double>(slopes[1]), 1e-9);
 }
 
 }  // namespace

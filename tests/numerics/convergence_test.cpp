@@ -20,15 +20,17 @@ long double worst_step(const Emitted& emitted, long double h, int steps) {
   for (int i = 0; i < steps; ++i) {
     const Vector before = state(run);
     if (run.advance(1, false).status != runtime::Status::done) return HUGE_VALL;
-    worst = std::max(worst, distance(state(run), dense_step<long double>(pendulum_energy, midpoint, h,
-                                                                         before)));
+    worst = std::max(
+        worst, distance(state(run), dense_step<long double>(pendulum_energy, midpoint, h, before)));
   }
   return worst;
 }
 
 class Convergence : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, Convergence, ::testing::Values("newton", "fixed-point"),
-                         [](const auto& instance) { return instance.index == 0 ? "newton" : "fixed_point"; });
+                         [](const auto& instance) {
+                           return instance.index == 0 ? "newton" : "fixed_point";
+                         });
 
 TEST_P(Convergence, IsToRoundOffAtEveryStep) {
   const Emitted emitted(pendulum, {.solver = GetParam()});

@@ -1,5 +1,6 @@
-// The step by hand: no generator, no GiNaC, no tearing.  H is a C++ function of jets (value, gradient
-// and Hessian by automatic differentiation), and the 2n equations are solved by plain dense Newton.
+// The step by hand: no generator, no GiNaC, no tearing.  H is a C++ function of jets (value,
+// gradient and Hessian by automatic differentiation), and the 2n equations are solved by plain
+// dense Newton.
 #pragma once
 
 #include <array>
@@ -170,10 +171,10 @@ std::vector<Real> dense_step(const Hamiltonian& hamiltonian, const Parameters3<R
       for (std::size_t k = 0; k < n; ++k) {
         const Real by_q = jet.dd[row * 2 * n + k];
         const Real by_p = jet.dd[row * 2 * n + n + k];
-        // d qbar_k / dQ_k = alpha, d qbar_k / dP_k = -gamma; d pbar_k / dQ_k = -beta, / dP_k = 1 - alpha.
+        // d qbar_k / dQ_k = alpha, d qbar_k / dP_k = -gamma; d pbar_k / dQ_k = -beta, / dP_k = 1 -
+        // alpha.
         matrix[i][k] = (i == k) - sign * h * (by_q * c.alpha[k] - by_p * c.beta[k]);
-        matrix[i][n + k] =
-            (i == n + k) - sign * h * (by_p * (1 - c.alpha[k]) - by_q * c.gamma[k]);
+        matrix[i][n + k] = (i == n + k) - sign * h * (by_p * (1 - c.alpha[k]) - by_q * c.gamma[k]);
       }
     }
     const std::vector<Real> correction = solve_dense(matrix, residual);

@@ -14,15 +14,17 @@ Emitted::Emitted(const std::string& text, const Request& request)
     : Emitted(make_source("small.ham", "system small\n" + text), request) {}
 
 Emitted Emitted::shipped(const std::string& name, const Request& request) {
-  return Emitted(
-      read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham"), request);
+  return Emitted(read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham"),
+                 request);
 }
 
 Emitted::Emitted(const SourceText& text, const Request& request)
     : source_(generate_plugin(text, request)) {
-  const runtime::PluginSource plugin{
-      .text = source_.text, .uses_eigen = source_.needs_eigen, .uses_quadmath = source_.needs_quadmath};
-  library_ = runtime::load_plugin(plugin, runtime::find_compiler(), {}, runtime::open_cache()).library;
+  const runtime::PluginSource plugin{.text = source_.text,
+                                     .uses_eigen = source_.needs_eigen,
+                                     .uses_quadmath = source_.needs_quadmath};
+  library_ =
+      runtime::load_plugin(plugin, runtime::find_compiler(), {}, runtime::open_cache()).library;
   for (const Quantity& parameter : derive(source_.model).parameters) {
     defaults_.push_back(static_cast<long double>(to_double(parameter.value)));
   }
@@ -43,8 +45,8 @@ Vector Emitted::after(long long steps, const Vector& state, long double h,
   runtime::Integrator run = start(state, h, parameters);
   const runtime::Report report = run.advance(steps, false);
   if (report.status != runtime::Status::done || report.steps_done != steps) {
-    throw std::runtime_error("stopped after " + std::to_string(report.steps_done) + " steps: " +
-                             std::string(to_text(report.status)));
+    throw std::runtime_error("stopped after " + std::to_string(report.steps_done) +
+                             " steps: " + std::string(to_text(report.status)));
   }
   return numerics_test::state(run);
 }

@@ -53,14 +53,12 @@ TEST(Gauge, StepsWithFullMatricesAreTheStepsByHand) {
   constexpr int steps = 32;
   for (int i = 0; i < steps; ++i) by_hand = iterated_step(kCoupled, c, h, by_hand);
   const Vector emitted = Emitted(kCoupledText, request).after(steps, start, h);
-  // Both solve the step to a few units of 2^-64 of values below 1; the flow over t = 2 multiplies an
-  // error by exp(2 |J H''|), below 100: 32 steps * 4 units * 100 = 12800 units.
+  // Both solve the step to a few units of 2^-64 of values below 1; the flow over t = 2 multiplies
+  // an error by exp(2 |J H''|), below 100: 32 steps * 4 units * 100 = 12800 units.
   EXPECT_LT(distance(emitted, by_hand), 12800 * 0x1p-64L);
   // The matrix matters: without its entries off the diagonals the result is another one.
-  const Request diagonal{.alpha = "1/2 + 1/8, 1/2",
-                         .beta = "1/4, -1/8",
-                         .gamma = "1/16, h",
-                         .scalar = "long-double"};
+  const Request diagonal{
+      .alpha = "1/2 + 1/8, 1/2", .beta = "1/4, -1/8", .gamma = "1/16, h", .scalar = "long-double"};
   EXPECT_GT(distance(Emitted(kCoupledText, diagonal).after(steps, start, h), by_hand), 1e-4L);
 }
 
@@ -68,8 +66,8 @@ TEST(Gauge, FullMatricesThatAreOddInHHaveOrderTwoAndOthersOrderOne) {
   const Vector start = {0.5L, 0.25L, -0.125L, 0.375L};
   const Vector exact =
       Emitted(kCoupledText, {.scalar = "long-double"}).after(1 << 14, start, 0x1p-13L);
-  for (const auto& [beta, order] : {std::pair{"[[h, 2*h], [2*h, -h]]", 2.0},
-                                    std::pair{"[[0, 1/4], [1/4, 0]]", 1.0}}) {
+  for (const auto& [beta, order] :
+       {std::pair{"[[h, 2*h], [2*h, -h]]", 2.0}, std::pair{"[[0, 1/4], [1/4, 0]]", 1.0}}) {
     const Emitted member(kCoupledText, {.beta = beta, .scalar = "long-double"});
     std::vector<long double> errors;
     for (int k = 5; k <= 8; ++k) {
@@ -98,16 +96,16 @@ std::vector<Linear> linear_systems() {
          return Vector{cosh(t) * z[0] + sinh(t) * z[1], sinh(t) * z[0] + cosh(t) * z[1]};
        }},
       {"coordinate q\nmomentum p\nH = p^2/2\n",
-       [](const Vector& z, long double t) { return Vector{z[0] + t * z[1], z[1]}; }},
+       [](const Vector& z, long double t) {
+         return Vector{z[0] + t * z[1], z[1]};
+       }},
       // A free centre of mass and an oscillation with w^2 = 2.
       {"coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + (x - y)^2/2\n",
        [](const Vector& z, long double t) {
          const long double w = std::sqrt(2.0L);
          const long double s = (z[0] + z[1]) / 2 + t * (z[2] + z[3]) / 2;
-         const long double d =
-             cos(w * t) * (z[0] - z[1]) / 2 + sin(w * t) / w * (z[2] - z[3]) / 2;
-         const long double v =
-             -w * sin(w * t) * (z[0] - z[1]) / 2 + cos(w * t) * (z[2] - z[3]) / 2;
+         const long double d = cos(w * t) * (z[0] - z[1]) / 2 + sin(w * t) / w * (z[2] - z[3]) / 2;
+         const long double v = -w * sin(w * t) * (z[0] - z[1]) / 2 + cos(w * t) * (z[2] - z[3]) / 2;
          const long double mean = (z[2] + z[3]) / 2;
          return Vector{s + d, s - d, mean + v, mean - v};
        }},
@@ -115,8 +113,8 @@ std::vector<Linear> linear_systems() {
       {"coordinate x, y\nmomentum px, py\nH = px^2/2 + x*py\n",
        [](const Vector& z, long double t) {
          const auto [x, y, p, k] = std::array{z[0], z[1], z[2], z[3]};
-         return Vector{x + p * t - k * t * t / 2,
-                       y + x * t + p * t * t / 2 - k * t * t * t / 6, p - k * t, k};
+         return Vector{x + p * t - k * t * t / 2, y + x * t + p * t * t / 2 - k * t * t * t / 6,
+                       p - k * t, k};
        }},
       // Eigenvalues +-1 +- i: q grows in a spiral, p shrinks in one.
       {"coordinate x, y\nmomentum px, py\nH = x*px + y*py + x*py - y*px\n",

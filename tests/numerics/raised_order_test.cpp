@@ -47,8 +47,8 @@ TEST_P(HenonHeiles, KeepsItsEnergy) {
   EXPECT_LE(worst_energy(emitted, {0.1L, 0.2L, 0.3L, -0.1L}, 0.1L, 10000), GetParam().most);
 }
 
-// Newton with the Hessian of H, its linear system reduced to the positions: the step is still solved
-// to round-off, as the exact conservation of angular momentum shows.
+// Newton with the Hessian of H, its linear system reduced to the positions: the step is still
+// solved to round-off, as the exact conservation of angular momentum shows.
 TEST(Kepler, KeepsItsAngularMomentumAtOrderEight) {
   const Emitted emitted = Emitted::shipped("kepler", {.order = 8});
   EXPECT_NE(emitted.source().solver.find("simplified Newton"), std::string::npos);

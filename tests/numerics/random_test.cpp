@@ -53,27 +53,38 @@ class Draw {
     const Formula x = variable();
     const Formula y = variable();
     auto with = [&](const std::string& text, std::function<J(const J&, const J&)> f) {
-      return Formula{text, [f, a = x.value, b = y.value](const Variables& z) { return f(a(z), b(z)); }};
+      return Formula{text,
+                     [f, a = x.value, b = y.value](const Variables& z) { return f(a(z), b(z)); }};
     };
     const std::string& s = x.text;
     const std::string& t = y.text;
     switch (integer(0, 8)) {
-      case 0: return x;
-      case 1: return with(s + "^2", [](const J& a, const J&) { return a * a; });
-      case 2: return with("sin(" + s + ")", [](const J& a, const J&) { return sin(a); });
-      case 3: return with("cos(" + s + " - " + t + ")", [](const J& a, const J& b) { return cos(a - b); });
-      case 4: return with("exp(" + s + "/3)", [](const J& a, const J&) { return exp((1.0L / 3) * a); });
-      case 5: return with("atan(" + s + "*" + t + ")", [](const J& a, const J& b) { return atan(a * b); });
+      case 0:
+        return x;
+      case 1:
+        return with(s + "^2", [](const J& a, const J&) { return a * a; });
+      case 2:
+        return with("sin(" + s + ")", [](const J& a, const J&) { return sin(a); });
+      case 3:
+        return with("cos(" + s + " - " + t + ")",
+                    [](const J& a, const J& b) { return cos(a - b); });
+      case 4:
+        return with("exp(" + s + "/3)", [](const J& a, const J&) { return exp((1.0L / 3) * a); });
+      case 5:
+        return with("atan(" + s + "*" + t + ")",
+                    [](const J& a, const J& b) { return atan(a * b); });
       case 6:
         return with("(1 + " + s + "^2)^(3/2)", [](const J& a, const J&) {
           const J u = 1.0L + a * a;
           return u * sqrt(u);
         });
       case 7:
-        return with("1/(2 + " + s + "^2 + " + t + "^2)",
-                    [](const J& a, const J& b) { return (1.0L + 0.0L * a) / (2.0L + (a * a + b * b)); });
+        return with("1/(2 + " + s + "^2 + " + t + "^2)", [](const J& a, const J& b) {
+          return (1.0L + 0.0L * a) / (2.0L + (a * a + b * b));
+        });
       default:
-        return with("sqrt(1 + " + s + "^2)", [](const J& a, const J&) { return sqrt(1.0L + a * a); });
+        return with("sqrt(1 + " + s + "^2)",
+                    [](const J& a, const J&) { return sqrt(1.0L + a * a); });
     }
   }
   Formula product() {
@@ -93,9 +104,10 @@ class Draw {
   std::size_t n_;
 };
 
-void expect_the_step_by_hand(const std::string& text, const std::function<J(const Variables&)>& hamiltonian,
-                             std::size_t n, const Request& request,
-                             const Parameters3<long double>& member, const Vector& start) {
+void expect_the_step_by_hand(const std::string& text,
+                             const std::function<J(const Variables&)>& hamiltonian, std::size_t n,
+                             const Request& request, const Parameters3<long double>& member,
+                             const Vector& start) {
   const long double h = 0.0625L;
   const Emitted emitted(text, request);
   Vector z = start;

@@ -1,4 +1,5 @@
-// Emitted steps against a step by hand, in long double: other derivatives, no tearing, dense Newton.
+// Emitted steps against a step by hand, in long double: other derivatives, no tearing, dense
+// Newton.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/dense_step.hpp"
@@ -24,16 +25,14 @@ J magnetic(const Variables& z) {
   return 0.5L * (square(z[2] + 0.5L * z[1]) + square(z[3] - 0.5L * z[0])) +
          0.01L * ((1.0L + 0.0L * r) / r);
 }
-J product(const Variables& z) {
-  return 0.5L * ((1.0L + square(z[0])) * (1.0L + square(z[1])));
-}
+J product(const Variables& z) { return 0.5L * ((1.0L + square(z[0])) * (1.0L + square(z[1]))); }
 J henon_heiles(const Variables& z) {
-  return 0.5L * (square(z[0]) + square(z[1]) + square(z[2]) + square(z[3])) +
-         square(z[0]) * z[1] - (1.0L / 3.0L) * (z[1] * square(z[1]));
+  return 0.5L * (square(z[0]) + square(z[1]) + square(z[2]) + square(z[3])) + square(z[0]) * z[1] -
+         (1.0L / 3.0L) * (z[1] * square(z[1]));
 }
 J toda(const Variables& z) {
-  return 0.5L * (square(z[3]) + square(z[4]) + square(z[5])) + exp(z[0] - z[1]) +
-         exp(z[1] - z[2]) + exp(z[2] - z[0]);
+  return 0.5L * (square(z[3]) + square(z[4]) + square(z[5])) + exp(z[0] - z[1]) + exp(z[1] - z[2]) +
+         exp(z[2] - z[0]);
 }
 J affine(const Variables& z) { return z[2] * sin(z[1]) + z[3] * cos(z[0]) + sin(z[0] * z[1]); }
 // Six degrees of freedom, all coupled, not separable: a system that is not written out.
@@ -169,8 +168,8 @@ TEST_P(ReferenceStep, IsWhatEveryMemberGives) {
     SCOPED_TRACE(member.name);
     const Problem here = problem();
     const Emitted emitted(here.text, request_for(member, here.start.size() / 2));
-    // 32 steps over t = 2: each adds about one unit in the last place, 1.1e-16 for values about 1 and
-    // at most 5 here, and the flow stretches differences by less than a hundred.
+    // 32 steps over t = 2: each adds about one unit in the last place, 1.1e-16 for values about 1
+    // and at most 5 here, and the flow stretches differences by less than a hundred.
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-14L);
   }
 }
@@ -210,7 +209,8 @@ TEST_P(ReferenceStep, OfAlgorithm1IsWhatSweepsGive) {
       const Emitted emitted(here.text, request);
       Vector z = here.start;
       for (int i = 0; i < kSteps; ++i) {
-        z = algorithm_1<long double>(here.hamiltonian, values_for(member, n, kStep), kStep, z, kappa);
+        z = algorithm_1<long double>(here.hamiltonian, values_for(member, n, kStep), kStep, z,
+                                     kappa);
       }
       EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), z), 2e-17L);
     }

@@ -15,8 +15,8 @@ struct Reference {
   std::string model;
   Vector start;
   long double t;
-  Vector end;               // 18 digits, 113-bit arithmetic, an extrapolation integrator
-  long double h;            // of the midpoint rule; the member of order 1 takes a tenth of it
+  Vector end;     // 18 digits, 113-bit arithmetic, an extrapolation integrator
+  long double h;  // of the midpoint rule; the member of order 1 takes a tenth of it
 };
 
 const long double half_pi = std::numbers::pi_v<long double> / 2;
@@ -24,32 +24,33 @@ const long double half_pi = std::numbers::pi_v<long double> / 2;
 // Sources: A2, Jimenez-Perez and others 2015; A8, Tao, PRE 94 (2016) 043303; B1, Henon and Heiles,
 // AJ 69 (1964) 73; B6, the double pendulum with unit masses and lengths.
 std::vector<Reference> references() {
-  return {{"pendulum", {0.8L, 0}, 100, {-0.487705690688532389L, 0.105840517980004865L}, 0.25L},
-          {"pendulum", {2.5L, 0}, 100, {-1.29772507248023753L, 0.253475889400307744L}, 0.25L},
-          {"pendulum", {3.1L, 0}, 100, {2.29712982881406863L, 0.141774928393845888L}, 0.1L},
-          {"product", {0, -3}, 1, {-2.54721840378759952L, 0.579148281369033415L}, 0.005L},
-          {"product", {0, -3}, 10, {-0.690609507457253471L, -2.40223831310082726L}, 0.002L},
-          {"henon_heiles",
-           {0, 0.1L, std::sqrt(2.0L / 12 - 0.01L + 0.002L / 3), 0},
-           100,
-           {0.087110463499681048L, 0.33362404166901964L, 0.259401763088530516L, 0.0133018927609798237L},
-           0.02L},
-          {"henon_heiles",
-           {0, 0.1L, std::sqrt(2.0L / 6 - 0.01L + 0.002L / 3), 0},
-           100,
-           {-0.529151960964035324L, -0.12307872732645366L, -0.0556781518691067881L,
-            0.320569296738868618L},
-           0.01L},
-          {"double_pendulum",
-           {half_pi, half_pi, 0, 0},
-           1,
-           {1.09477582373490677L, 1.52962312350390186L, -1.94251566969835726L, -1.01067882822914934L},
-           0.02L},
-          {"double_pendulum",
-           {half_pi, half_pi, 0, 0},
-           10,
-           {1.67912279738244996L, 0.993117806437875829L, -1.11768305603422726L, -0.589228697120611509L},
-           0.005L}};
+  return {
+      {"pendulum", {0.8L, 0}, 100, {-0.487705690688532389L, 0.105840517980004865L}, 0.25L},
+      {"pendulum", {2.5L, 0}, 100, {-1.29772507248023753L, 0.253475889400307744L}, 0.25L},
+      {"pendulum", {3.1L, 0}, 100, {2.29712982881406863L, 0.141774928393845888L}, 0.1L},
+      {"product", {0, -3}, 1, {-2.54721840378759952L, 0.579148281369033415L}, 0.005L},
+      {"product", {0, -3}, 10, {-0.690609507457253471L, -2.40223831310082726L}, 0.002L},
+      {"henon_heiles",
+       {0, 0.1L, std::sqrt(2.0L / 12 - 0.01L + 0.002L / 3), 0},
+       100,
+       {0.087110463499681048L, 0.33362404166901964L, 0.259401763088530516L, 0.0133018927609798237L},
+       0.02L},
+      {"henon_heiles",
+       {0, 0.1L, std::sqrt(2.0L / 6 - 0.01L + 0.002L / 3), 0},
+       100,
+       {-0.529151960964035324L, -0.12307872732645366L, -0.0556781518691067881L,
+        0.320569296738868618L},
+       0.01L},
+      {"double_pendulum",
+       {half_pi, half_pi, 0, 0},
+       1,
+       {1.09477582373490677L, 1.52962312350390186L, -1.94251566969835726L, -1.01067882822914934L},
+       0.02L},
+      {"double_pendulum",
+       {half_pi, half_pi, 0, 0},
+       10,
+       {1.67912279738244996L, 0.993117806437875829L, -1.11768305603422726L, -0.589228697120611509L},
+       0.005L}};
 }
 
 std::vector<double> orders(const Reference& reference, const Request& request, long double h) {
@@ -57,7 +58,8 @@ std::vector<double> orders(const Reference& reference, const Request& request, l
   std::vector<long double> errors;
   for (int halved = 0; halved < 3; ++halved, h /= 2) {
     const long long steps = std::llround(reference.t / h);
-    errors.push_back(distance(emitted.after(steps, reference.start, reference.t / steps), reference.end));
+    errors.push_back(
+        distance(emitted.after(steps, reference.start, reference.t / steps), reference.end));
   }
   return observed_orders(errors);
 }
@@ -84,8 +86,8 @@ TEST(Pendulum, HasTheEnergySpreadOfThePaper) {
   const auto energy = midpoint.start({3.1L, 0}, 0.1L).advance(100000, true).energy;
   EXPECT_NEAR(energy->max - energy->min, 1.4987e-6, 0.01 * 1.4987e-6);
 
-  const Emitted tuned = Emitted::shipped(
-      "pendulum", {.beta = "-2.4978136594e-3*h", .gamma = "-8.33321735568e-2*h"});
+  const Emitted tuned =
+      Emitted::shipped("pendulum", {.beta = "-2.4978136594e-3*h", .gamma = "-8.33321735568e-2*h"});
   const auto better = tuned.start({3.1L, 0}, 0.1L).advance(100000, true).energy;
   EXPECT_LT(better->max - better->min, 1.3e-12);
 }
@@ -124,16 +126,19 @@ TEST(Scalars, AgreeToTheirRoundOff) {
   const Vector start{0.4L, 0, 0, 2};
   const Vector quad = Emitted::shipped("kepler", {.scalar = "quad"}).after(500, start, 0.0078125L);
   EXPECT_LT(distance(Emitted::shipped("kepler", {}).after(500, start, 0.0078125L), quad), 1e-13L);
-  EXPECT_LT(distance(Emitted::shipped("kepler", {.scalar = "long-double"}).after(500, start, 0.0078125L),
-                     quad),
-            1e-16L);
-  EXPECT_LT(distance(Emitted::shipped("kepler", {.scalar = "float"}).after(500, start, 0.0078125L), quad),
-            1e-3L);
+  EXPECT_LT(
+      distance(Emitted::shipped("kepler", {.scalar = "long-double"}).after(500, start, 0.0078125L),
+               quad),
+      1e-16L);
+  EXPECT_LT(
+      distance(Emitted::shipped("kepler", {.scalar = "float"}).after(500, start, 0.0078125L), quad),
+      1e-3L);
 }
 
 TEST(Fold, ChangesNothingButRoundOff) {
   const Vector plain = Emitted::shipped("pendulum", {}).after(1000, {3.1L, 0}, 0.1L);
-  const Vector folded = Emitted::shipped("pendulum", {.fold = {"eps"}}).after(1000, {3.1L, 0}, 0.1L);
+  const Vector folded =
+      Emitted::shipped("pendulum", {.fold = {"eps"}}).after(1000, {3.1L, 0}, 0.1L);
   // Near the separatrix differences grow by about a thousand within t = 100.
   EXPECT_LT(distance(plain, folded), 1e-11L);
 }
@@ -146,8 +151,10 @@ TEST(Sweeps, LeaveTheDefectOfSymplecticityOfTheirNumber) {
     if (kappa == 0) request.solver = "newton";
     const Emitted emitted = Emitted::shipped("pendulum", request);
     const long double d = 0x1p-16L;
-    const Vector a = emitted.after(1, {half_pi + d, 0.1L}, h), b = emitted.after(1, {half_pi - d, 0.1L}, h);
-    const Vector c = emitted.after(1, {half_pi, 0.1L + d}, h), e = emitted.after(1, {half_pi, 0.1L - d}, h);
+    const Vector a = emitted.after(1, {half_pi + d, 0.1L}, h),
+                 b = emitted.after(1, {half_pi - d, 0.1L}, h);
+    const Vector c = emitted.after(1, {half_pi, 0.1L + d}, h),
+                 e = emitted.after(1, {half_pi, 0.1L - d}, h);
     return ((a[0] - b[0]) * (c[1] - e[1]) - (a[1] - b[1]) * (c[0] - e[0])) / (4 * d * d) - 1;
   };
   // Differences leave d^2/6 times third derivatives, eps h and less: 1e-12.
@@ -161,15 +168,17 @@ TEST(Sweeps, LeaveTheDefectOfSymplecticityOfTheirNumber) {
 }
 
 TEST(Loops, AgreeWithTheWrittenOutSystem) {
-  for (const Request& request : {Request{.alpha = "0"},
-                                 Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}}) {
+  for (const Request& request :
+       {Request{.alpha = "0"}, Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}}) {
     const std::string text =
         "coordinate q[1..64] with q[0] = 0, q[65] = 0\nmomentum p[1..64]\nparameter a = 1/4\n"
-        "H = sum(i = 1..64, p[i]^2/2) + sum(i = 0..64, (q[i+1] - q[i])^2/2 + a*(q[i+1] - q[i])^3/3)\n";
+        "H = sum(i = 1..64, p[i]^2/2) + sum(i = 0..64, (q[i+1] - q[i])^2/2 + a*(q[i+1] - "
+        "q[i])^3/3)\n";
     Request written_out = request;
     written_out.solver = "fixed-point";
     Vector start(128);
-    for (int i = 0; i < 64; ++i) start[static_cast<std::size_t>(i)] = std::sin(half_pi * 2 * (i + 1) / 65);
+    for (int i = 0; i < 64; ++i)
+      start[static_cast<std::size_t>(i)] = std::sin(half_pi * 2 * (i + 1) / 65);
     EXPECT_LT(distance(Emitted(text, request).after(100, start, 0.1L),
                        Emitted(text, written_out).after(100, start, 0.1L)),
               1e-12L)
@@ -196,7 +205,8 @@ const std::vector<Sum>& sums() {
        [](const Variables& z) {
          J h = 0.0L * z[0];
          for (std::size_t i = 0; i < 26; ++i) {
-           h = h + 0.5L * (square(z[26 + i]) * (1.0L + 0.25L * square(z[i]))) + 1.0L * (1.0L + -cos(z[(i + 1) % 26] - z[i]));
+           h = h + 0.5L * (square(z[26 + i]) * (1.0L + 0.25L * square(z[i]))) +
+               1.0L * (1.0L + -cos(z[(i + 1) % 26] - z[i]));
          }
          return h;
        }},
@@ -224,7 +234,8 @@ const std::vector<Sum>& sums() {
        }},
       {"two arrays, a mass, a linear term",
        "coordinate x[0..12], y[0..12]\nmomentum px[0..12], py[0..12]\nparameter m = 2\n"
-       "H = sum(i = 0..12, (px[i]^2 + py[i]^2)/(2*m) + px[i]/8 + x[i]^4/4 + y[i]^2*x[i]/4 + y[i]^4)\n",
+       "H = sum(i = 0..12, (px[i]^2 + py[i]^2)/(2*m) + px[i]/8 + x[i]^4/4 + y[i]^2*x[i]/4 + "
+       "y[i]^4)\n",
        [](const Variables& z) {
          J h = 0.0L * z[0];
          for (std::size_t i = 0; i < 13; ++i) {
@@ -252,7 +263,8 @@ TEST(Loops, AreWhatTheStepByHandIs) {
       c = {Vector(n, 0.3L), Vector(n, 0.125L), Vector(n, -0.0625L)};
     }
     Vector z;
-    for (std::size_t i = 0; i < 2 * n; ++i) z.push_back(0.3L * std::sin(1.7L * static_cast<long double>(i)));
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      z.push_back(0.3L * std::sin(1.7L * static_cast<long double>(i)));
     for (long double& value : z) value = static_cast<double>(value);
     try {
       const Emitted loops(sum.text, request);

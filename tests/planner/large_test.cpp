@@ -6,16 +6,17 @@
 namespace hamgen::planner_test {
 namespace {
 
-std::string chain(int n, const std::string& potential = "(q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^3/12") {
+std::string chain(int n,
+                  const std::string& potential = "(q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^3/12") {
   return "size N = " + std::to_string(n) +
          "\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
-         "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, " + potential + ")\n";
+         "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, " +
+         potential + ")\n";
 }
 
 TEST(LargePlan, TheTextOfALongSumDoesNotGrowWithItsLength) {
-  for (const Request& request :
-       {Request{}, Request{.alpha = "0"}, Request{.alpha = "1"},
-        Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}}) {
+  for (const Request& request : {Request{}, Request{.alpha = "0"}, Request{.alpha = "1"},
+                                 Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}}) {
     const Outcome forty = outcome(chain(40), request);
     const Outcome thousand = outcome(chain(1000), request);
     EXPECT_TRUE(contains(forty.plan, "stay loops")) << forty.plan;

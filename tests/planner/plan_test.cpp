@@ -138,8 +138,8 @@ TEST(Plan, TheMidpointRuleTearsOutMomentaOfAQuadraticKineticEnergy) {
   EXPECT_TRUE(contains(pendulum.header, "Real value[1]")) << "one unknown";
   EXPECT_FALSE(contains(pendulum.solve, "R_p")) << pendulum.solve;
 
-  const Outcome kepler = outcome(
-      two + "parameter m = 2\nH = (p1^2 + p2^2)/(2*m) - 1/sqrt(q1^2 + q2^2)\n", midpoint);
+  const Outcome kepler =
+      outcome(two + "parameter m = 2\nH = (p1^2 + p2^2)/(2*m) - 1/sqrt(q1^2 + q2^2)\n", midpoint);
   EXPECT_TRUE(contains(kepler.plan, "Newton of size 2 on q1, q2; p1, p2 torn out\n"))
       << kepler.plan;
   expect_newton(kepler);
@@ -188,7 +188,8 @@ TEST(Plan, TheConstantMatrixOfSeveralCoupledOscillatorsIsHoistedToo) {
 
 TEST(Plan, ZeroAndConstantHamiltoniansChangeNothing) {
   for (const char* h : {"H = 0\n", "H = 7\n", "H = q*p - p*q\n", "H = (q - q)*cos(p)\n"}) {
-    for (const Request& request : {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .beta = "1"}}) {
+    for (const Request& request :
+         {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .beta = "1"}}) {
       const Outcome small = outcome(one + h, request);
       EXPECT_TRUE(contains(small.plan, "solver: explicit\n")) << small.plan;
       EXPECT_TRUE(contains(small.plan, "updates of q, p: constant\n")) << small.plan;
@@ -200,7 +201,8 @@ TEST(Plan, ZeroAndConstantHamiltoniansChangeNothing) {
 }
 
 TEST(Plan, LinearHamiltoniansArePlainAssignments) {
-  for (const Request& request : {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .beta = "1"}}) {
+  for (const Request& request :
+       {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .beta = "1"}}) {
     const Outcome drift = outcome(one + "H = p\n", request);
     EXPECT_TRUE(contains(drift.plan, "solver: explicit\n")) << drift.plan;
     EXPECT_TRUE(contains(drift.solve, "dz.q = h + carry.q;")) << drift.solve;
@@ -220,7 +222,8 @@ TEST(Plan, FreeMotionNeedsNoSolverUnlessBetaCouplesTheMomentaToTheCoordinates) {
   EXPECT_TRUE(contains(coupled.plan, "linear solve of size 1 for p1, constant matrix hoisted\n"));
   expect_no_solver(coupled);
 
-  for (const Request& request : {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .gamma = "1"}}) {
+  for (const Request& request :
+       {midpoint, euler_a, euler_b, Request{.alpha = "3/10", .gamma = "1"}}) {
     const Outcome free = outcome(two + "H = p1^2/2\n", request);
     EXPECT_TRUE(contains(free.plan, "solver: explicit\n")) << free.plan;
     EXPECT_TRUE(contains(free.solve, "dz.q1 = carry.q1 + h * p1;")) << free.solve;
@@ -231,14 +234,15 @@ TEST(Plan, FreeMotionNeedsNoSolverUnlessBetaCouplesTheMomentaToTheCoordinates) {
 
 TEST(Plan, IndependentSystemsAreIndependentBlocks) {
   const Outcome small = outcome(two + "H = p1^2/2 - cos(q1) + p2^2/2 - cos(q2)\n", midpoint);
-  EXPECT_EQ(small.plan,
-            "solver: Newton of size 1 on q1; p1 torn out, then Newton of size 1 on q2; p2 torn out\n"
-            "Newton of size 1 on q1; p1 torn out\n"
-            "Newton of size 1 on q2; p2 torn out\n"
-            "left out:\n"
-            "  beta terms: beta = 0\n"
-            "  gamma terms: gamma = 0\n"
-            "  2 of the unknowns: torn out\n");
+  EXPECT_EQ(
+      small.plan,
+      "solver: Newton of size 1 on q1; p1 torn out, then Newton of size 1 on q2; p2 torn out\n"
+      "Newton of size 1 on q1; p1 torn out\n"
+      "Newton of size 1 on q2; p2 torn out\n"
+      "left out:\n"
+      "  beta terms: beta = 0\n"
+      "  gamma terms: gamma = 0\n"
+      "  2 of the unknowns: torn out\n");
   expect_newton(small, 2);
   // Negative control: a coupling joins them.
   const Outcome coupled =
@@ -289,11 +293,11 @@ TEST(Plan, ZeroBetaAndGammaAreAbsentAndOthersArePresent) {
     Request request;
     bool beta, gamma;
   };
-  for (const Case& c : {Case{{.alpha = "1/2"}, false, false},
-                        Case{{.alpha = "1/2", .beta = "b*h"}, true, false},
-                        Case{{.alpha = "1/2", .gamma = "c*h"}, false, true},
-                        Case{{.alpha = "1/2", .beta = "b*h", .gamma = "c*h"}, true, true},
-                        Case{{.alpha = "1/2", .beta = "b - b", .gamma = "0*c"}, false, false}}) {
+  for (const Case& c :
+       {Case{{.alpha = "1/2"}, false, false}, Case{{.alpha = "1/2", .beta = "b*h"}, true, false},
+        Case{{.alpha = "1/2", .gamma = "c*h"}, false, true},
+        Case{{.alpha = "1/2", .beta = "b*h", .gamma = "c*h"}, true, true},
+        Case{{.alpha = "1/2", .beta = "b - b", .gamma = "0*c"}, false, false}}) {
     const Outcome small = outcome(text, c.request);
     EXPECT_EQ(contains(small.plan, "beta terms: beta = 0"), !c.beta) << small.plan;
     EXPECT_EQ(contains(small.plan, "gamma terms: gamma = 0"), !c.gamma) << small.plan;

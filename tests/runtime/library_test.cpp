@@ -48,8 +48,9 @@ TEST(Library, RefusesWhatIsNotAPluginOfThisVersion) {
   const std::string versions = "it has version " + std::to_string(HAMGEN_PLUGIN_VERSION + 1) +
                                " of the plugin interface, this program has " +
                                std::to_string(HAMGEN_PLUGIN_VERSION);
-  EXPECT_NE(failure_of_changed("{HAMGEN_PLUGIN_VERSION,", "{HAMGEN_PLUGIN_VERSION + 1,").find(versions),
-            std::string::npos);
+  EXPECT_NE(
+      failure_of_changed("{HAMGEN_PLUGIN_VERSION,", "{HAMGEN_PLUGIN_VERSION + 1,").find(versions),
+      std::string::npos);
   EXPECT_NE(failure_of_changed("advance, get_state, energy,", "nullptr, get_state, energy,")
                 .find("its table of functions is incomplete"),
             std::string::npos);

@@ -30,8 +30,8 @@ std::string output_of(const std::string& text) {
   const std::filesystem::path source = directory.path() / "program.cpp";
   const std::filesystem::path program = directory.path() / "program";
   std::ofstream(source) << text;
-  const auto compiled = run({"g++", "-std=gnu++20", "-O0", source.string(), "-o", program.string(),
-                             "-lquadmath"});
+  const auto compiled =
+      run({"g++", "-std=gnu++20", "-O0", source.string(), "-o", program.string(), "-lquadmath"});
   if (!compiled.succeeded()) throw std::runtime_error("does not compile:\n" + compiled.output);
   const auto ran = run({program.string()});
   if (!ran.succeeded()) throw std::runtime_error("does not run:\n" + ran.output);
@@ -43,8 +43,8 @@ std::string warnings_of(const std::string& compiler, const std::string& text) {
   const std::filesystem::path source = directory.path() / "unit.cpp";
   std::ofstream(source) << text;
   const auto result =
-      run({compiler, "-fsyntax-only", "-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
-           "-Wshadow", "-Wdouble-promotion", "-Werror", source.string()});
+      run({compiler, "-fsyntax-only", "-std=c++20", "-Wall", "-Wextra", "-Wpedantic",
+           "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror", source.string()});
   return result.succeeded() && result.output.empty() ? "" : "failed:\n" + result.output;
 }
 

@@ -7,7 +7,8 @@
 
 namespace hamgen::schemes_test {
 
-inline const std::string kPendulum = "system pendulum\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+inline const std::string kPendulum =
+    "system pendulum\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
 // Not separable, and not a polynomial.
 inline const std::string kMixed =
     "system mixed\ncoordinate q\nmomentum p\nH = p^2*(1 + q^2/4)/2 - cos(q) + q*p/5\n";

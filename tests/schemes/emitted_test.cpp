@@ -26,14 +26,18 @@ struct Observed {
 };
 
 // Errors in quad at time 1 against gauss-16 with a small step, from (q, p) = (0.8, 0.3).
-std::map<std::string, Observed> observe(const std::string& model, const std::vector<Scheme>& schemes) {
+std::map<std::string, Observed> observe(const std::string& model,
+                                        const std::vector<Scheme>& schemes) {
   std::string text = header(model, {.scheme = "gauss-16", .scalar = "quad"}, "reference");
   std::string calls;
   for (const Scheme& scheme : schemes) {
     text += header(model, {.scheme = scheme.name, .scalar = "quad"}, space(scheme.name));
     calls += "  observe<" + space(scheme.name) + "::Propagator, " + space(scheme.name) +
              "::State, " + space(scheme.name) + "::Parameters>(\"" + scheme.name + "\", " +
-             std::to_string(scheme.order >= 12 ? 6 : scheme.order >= 6 ? 8 : 32) + ");\n";
+             std::to_string(scheme.order >= 12  ? 6
+                            : scheme.order >= 6 ? 8
+                                                : 32) +
+             ");\n";
   }
   text += R"(
 #include <cmath>
@@ -68,7 +72,8 @@ int main() {
   start.q = Quad(8) / 10;
   start.p = Quad(3) / 10;
   exact = after<reference::Propagator, reference::State, reference::Parameters>(Quad(1) / 40, 40, start);
-)" + calls + "}\n";
+)" + calls +
+          "}\n";
   std::istringstream lines(output_of(text));
   std::map<std::string, Observed> result;
   for (std::string name; lines >> name;) {
@@ -92,8 +97,8 @@ void check(const std::string& model, bool splittings) {
   for (const Scheme& scheme : schemes) {
     const Observed& o = seen.at(scheme.name);
     EXPECT_NEAR(std::log2(o.coarse / o.fine), scheme.order, 0.35) << scheme.name << " " << o.coarse;
-    // Quad rounds to 1e-34, and a few hundred substeps add up; a step that is not symmetric misses by
-    // its own error.
+    // Quad rounds to 1e-34, and a few hundred substeps add up; a step that is not symmetric misses
+    // by its own error.
     if (scheme.symmetric) {
       EXPECT_LT(o.back, 1e-30) << scheme.name;
     } else {
@@ -106,7 +111,8 @@ TEST(Emitted, SplittingsHaveTheirOrderAndReturnIfSymmetric) { check(kPendulum, t
 
 TEST(Emitted, SchemesForAnyHamiltonianHaveTheirOrderAndReturnIfSymmetric) { check(kMixed, false); }
 
-// H = p^2/2 + sqrt(q) drives q below 0, where H is not real: each scheme fails, and the state stays.
+// H = p^2/2 + sqrt(q) drives q below 0, where H is not real: each scheme fails, and the state
+// stays.
 TEST(Emitted, FailureLeavesTheStateAsItWasBeforeTheStep) {
   const std::string model = "system fall\ncoordinate q\nmomentum p\nH = p^2/2 + sqrt(q)\n";
   std::string text;
@@ -153,11 +159,13 @@ void falls(const char* name, Step step) {
   if (!single) std::printf("%s: step did not fail\n", name);
 }
 int main() {
-)" + calls + "}\n";
+)" + calls +
+          "}\n";
   EXPECT_EQ(output_of(text), "");
 }
 
-// omega h = 50: the fixed point diverges, Newton takes over, and the energy of the stiff spring stays.
+// omega h = 50: the fixed point diverges, Newton takes over, and the energy of the stiff spring
+// stays.
 TEST(Emitted, GaussSolvesStiffProblemsByNewton) {
   const std::string model =
       "system stiff\ncoordinate q\nmomentum p\nH = p^2/2 + 125000*q^2 + q^4/4\n";
@@ -182,8 +190,7 @@ TEST(Emitted, GaussSolvesStiffProblemsByNewton) {
 
 // A figure of the paper, and the same scheme with the coefficients of Laskar and Robutel.
 TEST(Emitted, Saba2AsPrintedAndAsPublishedHaveTheirEnergySpread) {
-  const std::string model =
-      "system pendulum\ncoordinate q\nmomentum p\nH = p^2/2 - 0.03*cos(q)\n";
+  const std::string model = "system pendulum\ncoordinate q\nmomentum p\nH = p^2/2 - 0.03*cos(q)\n";
   std::string text = "#include <cstdio>\n";
   std::string calls;
   for (const std::string name : {"saba-2-printed", "saba-2"}) {
@@ -222,15 +229,17 @@ TEST(Emitted, LoopsTakeTheStepsThatWrittenOutCodeTakes) {
     const std::string one = "one_" + std::to_string(number);
     const std::string all = "all_" + std::to_string(number++);
     text += header(kPendulum, request, one) + header(many, request, all);
-    calls += "  {\n    " + one + "::State a;\n    a.q = 0.8;\n    a.p = 0.3;\n    " + all +
-             "::State b;\n    for (int i = 0; i < 30; ++i) b.q[i] = 0.8, b.p[i] = 0.3;\n    " + one +
-             "::Propagator first({}, 0.1, a);\n    " + all + "::Propagator second({}, 0.1, b);\n" +
-             R"(    if (!first.advance(100).converged || !second.advance(100).converged) std::puts("failed");
+    calls +=
+        "  {\n    " + one + "::State a;\n    a.q = 0.8;\n    a.p = 0.3;\n    " + all +
+        "::State b;\n    for (int i = 0; i < 30; ++i) b.q[i] = 0.8, b.p[i] = 0.3;\n    " + one +
+        "::Propagator first({}, 0.1, a);\n    " + all + "::Propagator second({}, 0.1, b);\n" +
+        R"(    if (!first.advance(100).converged || !second.advance(100).converged) std::puts("failed");
     for (int i = 0; i < 30; ++i) {
       const double dq = first.state().q - second.state().q[i];
       const double dp = first.state().p - second.state().p[i];
-      if (!(dq * dq + dp * dp < 1e-26)) std::printf("scheme )" + std::to_string(number - 1) +
-             R"(: %g %g\n", dq, dp);
+      if (!(dq * dq + dp * dp < 1e-26)) std::printf("scheme )" +
+        std::to_string(number - 1) +
+        R"(: %g %g\n", dq, dp);
     }
   }
 )";
@@ -262,7 +271,8 @@ TEST_P(Strictly, EmittedSchemesCompileWithoutAWarning) {
     text += header(model, request, "strict_" + std::to_string(number++));
   };
   for (const std::string& model : {kPendulum, kMixed, loops}) {
-    for (const char* name : {"yoshida-4", "gauss-2", "gauss-6", "rk4"}) add(model, {.scheme = name});
+    for (const char* name : {"yoshida-4", "gauss-2", "gauss-6", "rk4"})
+      add(model, {.scheme = name});
     add(model, {.scheme = "gauss-4", .solver = "fixed-point"});
     if (model != loops) add(model, {.scheme = "gauss-4", .solver = "newton"});
     if (model == kMixed) continue;

@@ -66,8 +66,8 @@ TEST(GaugeBlocks, ABlockThatIsNotSymmetricIsRefusedWithTheReason) {
     Request request;
     (option == std::string("beta") ? request.beta : request.gamma) = "[[h, a], [a^2, h]]";
     EXPECT_EQ(refusal(request),
-              std::string("--") + option + ": entry (1, 2) is a, but entry (2, 1) is a^2\nhelp: the " +
-                  option +
+              std::string("--") + option +
+                  ": entry (1, 2) is a, but entry (2, 1) is a^2\nhelp: the " + option +
                   " block must be symmetric: C has to lie in sp(2n), C J + J C^T = 0, or the step "
                   "is not symplectic");
   }
@@ -81,8 +81,7 @@ TEST(GaugeBlocks, BracketsThatMakeNoMatrixAreRefused) {
             std::string::npos);
   EXPECT_NE(refusal({.beta = "[[h], [h]]"}).find("has 1 entries in a row"), std::string::npos);
   EXPECT_NE(refusal({.beta = "[[h, 0], h]"}).find("'h' is not a list"), std::string::npos);
-  EXPECT_NE(refusal({.beta = "[[h, 0], [0, h]"}).find("'[0, h' is not a list"),
-            std::string::npos);
+  EXPECT_NE(refusal({.beta = "[[h, 0], [0, h]"}).find("'[0, h' is not a list"), std::string::npos);
   EXPECT_NE(refusal({.beta = "[h, h, h]"}).find("has 3 values; give 1, or 2"), std::string::npos);
   EXPECT_NE(refusal({.beta = "[[h, x], [x, 0]]"}).find("unknown name 'x'"), std::string::npos);
 }

@@ -43,9 +43,10 @@ TEST(LocallyExact, TheGaugeOfAnOscillatorIsWrittenAsAFunctionOfH) {
 
 TEST(LocallyExact, CoefficientsAreEvaluatedOnceARunAndTheHeaderSaysWhereTheyHold) {
   const std::string header = generate(model(kOscillator), locally_exact({{"w", "5"}}))[0].text;
-  EXPECT_NE(header.find("at the origin, w = 5; poles at multiples of h = 1.257: order 2, symmetric, "
-                        "symplectic"),
-            std::string::npos)
+  EXPECT_NE(
+      header.find("at the origin, w = 5; poles at multiples of h = 1.257: order 2, symmetric, "
+                  "symplectic"),
+      std::string::npos)
       << header;
   EXPECT_NE(header.find(" = 1.0 / std::tan(2.5 * h);"), std::string::npos) << header;
   EXPECT_EQ(header.find("std::tan", header.find("std::tan") + 1), std::string::npos);

@@ -47,11 +47,12 @@ std::vector<std::string> names() {
   return list;
 }
 
-INSTANTIATE_TEST_SUITE_P(List, NamedSchemes, ::testing::ValuesIn(names()), [](const auto& instance) {
-  std::string name = instance.param;
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(List, NamedSchemes, ::testing::ValuesIn(names()),
+                         [](const auto& instance) {
+                           std::string name = instance.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 TEST_P(NamedSchemes, HasExactlyTheOrderItClaims) {
   EXPECT_EQ(order_seen(scheme(), scheme().order + 1), scheme().order);
@@ -59,8 +60,8 @@ TEST_P(NamedSchemes, HasExactlyTheOrderItClaims) {
 
 void change(Expression& e, const Rational& by) { e = Expression(Rational(numeric_value(e) + by)); }
 
-// Element i and its mirror image are changed, and the middle so that the sum stays: what no condition
-// but that of the order itself can notice.
+// Element i and its mirror image are changed, and the middle so that the sum stays: what no
+// condition but that of the order itself can notice.
 void change_symmetrically(std::vector<Expression>& c, std::size_t i, const Rational& by) {
   const std::size_t last = c.size() - 1;
   change(c[i], by);
@@ -80,9 +81,7 @@ TEST_P(NamedSchemes, LosesItsOrderByAWrongDigitInAnyCoefficient) {
   };
   if (const auto* composition = std::get_if<Composition>(&good.method)) {
     for (std::size_t i = 0; i < composition->substeps.size() / 2; ++i) {
-      mutate([&](Method& m) {
-        change_symmetrically(std::get<Composition>(m).substeps, i, by);
-      });
+      mutate([&](Method& m) { change_symmetrically(std::get<Composition>(m).substeps, i, by); });
     }
   } else if (const auto* splitting = std::get_if<Splitting>(&good.method)) {
     // Splittings of order 2 have no condition beyond symmetry and the sums.
@@ -120,8 +119,8 @@ TEST_P(NamedSchemes, LosesItsOrderByAWrongDigitInAnyCoefficient) {
   EXPECT_TRUE(good.is_member() || !wrong.empty());
 }
 
-// Laskar and Robutel: with a potential of size eps the step errs by O(eps h^(2n+1)) + O(eps^2 h^3).  The
-// terms of the second kind are eps times smaller; those of the first vanish up to h^(2n).
+// Laskar and Robutel: with a potential of size eps the step errs by O(eps h^(2n+1)) + O(eps^2 h^3).
+// The terms of the second kind are eps times smaller; those of the first vanish up to h^(2n).
 int order_in_potential(const std::string& name) {
   const Problem problem = separable_problem(false, Quad(1) / 1000000000000);
   const int most = 11;

@@ -1,5 +1,5 @@
-// The proof that the emitted code is the mathematics: it holds for what is emitted, and notices what
-// is not.
+// The proof that the emitted code is the mathematics: it holds for what is emitted, and notices
+// what is not.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 struct Case {
   std::string name;
-  std::string text;    // of the model, without its first line
+  std::string text;  // of the model, without its first line
   std::string solver;
   Expression alpha, beta, gamma;
 };
@@ -31,7 +31,9 @@ struct Case {
 Expression half() { return Expression(Rational(1, 2)); }
 Expression number(long over, long under) { return Expression(Rational(over, under)); }
 
-Scheme scheme_of(const Case& c, int n) { return family_member(n, {{c.alpha}}, {{c.beta}}, {{c.gamma}}); }
+Scheme scheme_of(const Case& c, int n) {
+  return family_member(n, {{c.alpha}}, {{c.beta}}, {{c.gamma}});
+}
 
 Mechanics mechanics_of(const Case& c) {
   return derive(read_model(make_source("case.ham", "system case\n" + c.text)));
@@ -41,12 +43,14 @@ Program program_of(const Mechanics& mechanics, const Scheme& scheme, const std::
   return build_program(plan_solve(discretise(mechanics, scheme), solver));
 }
 
-const std::string kPendulum = "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
+const std::string kPendulum =
+    "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
 const std::string kHenonHeiles =
     "coordinate q1, q2\nmomentum p1, p2\n"
     "H = (p1^2 + p2^2)/2 + (q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3\ninvariant Q = q1*p2\n";
 const std::string kKepler =
-    "coordinate x, y\nmomentum px, py\nparameter mu = 1\nH = (px^2 + py^2)/2 - mu/sqrt(x^2 + y^2)\n";
+    "coordinate x, y\nmomentum px, py\nparameter mu = 1\nH = (px^2 + py^2)/2 - mu/sqrt(x^2 + "
+    "y^2)\n";
 const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
 const std::string kSpring = "coordinate q\nmomentum p\nparameter w = 2\nH = p^2/2 + w^2*q^2/2\n";
 const std::string kMagnetic =
@@ -112,11 +116,16 @@ using Change = std::function<std::vector<Expression>(const Expression&)>;
 
 Expression rebuilt(const Expression& e, std::vector<Expression> operands) {
   switch (e.kind()) {
-    case Kind::sum: return Expression::sum(std::move(operands));
-    case Kind::product: return Expression::product(std::move(operands));
-    case Kind::power: return Expression::power(operands[0], operands[1]);
-    case Kind::function: return Expression::apply(e.name(), std::move(operands));
-    default: return e;
+    case Kind::sum:
+      return Expression::sum(std::move(operands));
+    case Kind::product:
+      return Expression::product(std::move(operands));
+    case Kind::power:
+      return Expression::power(operands[0], operands[1]);
+    case Kind::function:
+      return Expression::apply(e.name(), std::move(operands));
+    default:
+      return e;
   }
 }
 
@@ -144,7 +153,8 @@ std::string exchanged(std::string name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == 'q') {
       name[i] = 'p';
-    } else if (name[i] == 'p' && i + 1 < name.size() && (name[i + 1] == 'x' || name[i + 1] == 'y')) {
+    } else if (name[i] == 'p' && i + 1 < name.size() &&
+               (name[i + 1] == 'x' || name[i + 1] == 'y')) {
       name.erase(i, 1);
     } else if (name[i] == 'x' || name[i] == 'y') {
       name.insert(i++, "p");
@@ -183,7 +193,8 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
        [known](const Expression& e) {
          if (e.kind() != Kind::symbol) return List{};
          const std::string other = exchanged(e.name());
-         return other != e.name() && known.contains(other) ? List{Expression::symbol(other)} : List{};
+         return other != e.name() && known.contains(other) ? List{Expression::symbol(other)}
+                                                           : List{};
        }},
       {"another function",
        [](const Expression& e) {
@@ -193,7 +204,7 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
   };
 }
 
-// The program's results in double at one point: an oracle that shares nothing with the proof.  Empty
+// The program's results in double at one point: an oracle that shares nothing with the proof. Empty
 // if a value is used before it is computed.
 class Interpreter {
  public:
@@ -243,12 +254,18 @@ class Interpreter {
     std::vector<double> x;
     for (const Expression& operand : e.operands()) x.push_back(value(operand));
     switch (e.kind()) {
-      case Kind::number: return e.number().get_d();
-      case Kind::symbol: return symbol(e.name());
-      case Kind::sum: return std::accumulate(x.begin(), x.end(), 0.0);
-      case Kind::product: return std::accumulate(x.begin(), x.end(), 1.0, std::multiplies<>());
-      case Kind::power: return std::pow(x[0], x[1]);
-      case Kind::function: return e.name() == "sin" ? std::sin(x[0]) : std::cos(x[0]);
+      case Kind::number:
+        return e.number().get_d();
+      case Kind::symbol:
+        return symbol(e.name());
+      case Kind::sum:
+        return std::accumulate(x.begin(), x.end(), 0.0);
+      case Kind::product:
+        return std::accumulate(x.begin(), x.end(), 1.0, std::multiplies<>());
+      case Kind::power:
+        return std::pow(x[0], x[1]);
+      case Kind::function:
+        return e.name() == "sin" ? std::sin(x[0]) : std::cos(x[0]);
     }
     return 0;
   }
@@ -262,7 +279,8 @@ bool computes_the_same(const Program& a, const Program& b) {
   const auto of_b = Interpreter()(b);
   if (!of_a || !of_b) return false;
   for (std::size_t i = 0; i < of_a->size(); ++i) {
-    // Rounding errors stay below 1e-12; a mutation moves a value by at least 1e-3 of one of its terms.
+    // Rounding errors stay below 1e-12; a mutation moves a value by at least 1e-3 of one of its
+    // terms.
     if (!(std::abs((*of_a)[i] - (*of_b)[i]) <= 1e-12 * (1 + std::abs((*of_a)[i])))) return false;
   }
   return true;
@@ -325,7 +343,8 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
           }
           EXPECT_EQ(finding.verdict, Verdict::refuted)
               << c.name << ", " << mutation.name << ": " << to_text(before) << " -> "
-              << to_text(variants[v]) << "\n" << finding.detail;
+              << to_text(variants[v]) << "\n"
+              << finding.detail;
           ++mutants;
           ++of_case;
           ++by_kind[mutation.name];
@@ -351,9 +370,11 @@ TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
     std::swap(swapped.beta, swapped.gamma);
     const Program program = program_of(mechanics, scheme_of(swapped, n), c.solver);
     EXPECT_EQ(prove_emitted(mechanics, scheme_of(swapped, n), program, mechanics.energy).verdict,
-              Verdict::proved) << c.name;
+              Verdict::proved)
+        << c.name;
     EXPECT_EQ(prove_emitted(mechanics, scheme_of(straight, n), program, mechanics.energy).verdict,
-              Verdict::refuted) << c.name;
+              Verdict::refuted)
+        << c.name;
   }
 }
 
@@ -364,19 +385,22 @@ TEST(EmittedCode, WrongDerivativesOfTheMechanicsAreRefuted) {
     wrong.gradient[0] = wrong.gradient[0] * Expression(2);
     const Scheme scheme = scheme_of(c, wrong.degrees_of_freedom);
     const Program first = program_of(wrong, scheme, c.solver);
-    EXPECT_EQ(prove_emitted(wrong, scheme, first, wrong.energy).verdict, Verdict::refuted) << c.name;
+    EXPECT_EQ(prove_emitted(wrong, scheme, first, wrong.energy).verdict, Verdict::refuted)
+        << c.name;
     if (c.solver != "" || c.alpha.is_zero() || c.alpha.is_one()) continue;  // no Hessian in them
     wrong = mechanics_of(c);
     Expression& entry = wrong.hessian.begin()->second;
     entry = entry * Expression(2);
     const Program second = program_of(wrong, scheme, c.solver);
-    EXPECT_EQ(prove_emitted(wrong, scheme, second, wrong.energy).verdict, Verdict::refuted) << c.name;
+    EXPECT_EQ(prove_emitted(wrong, scheme, second, wrong.energy).verdict, Verdict::refuted)
+        << c.name;
   }
 }
 
 TEST(EmittedCode, LoopsOverSumsAreReadToo) {
   const std::string text =
-      "size N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter k = 1\n"
+      "size N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter k = "
+      "1\n"
       "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k*(q[i+1] - q[i])^4/4)\n";
   const Model model = read_model(make_source("chain.ham", "system chain\n" + text));
   Mechanics mechanics = derive(model);

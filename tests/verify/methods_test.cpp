@@ -19,7 +19,8 @@ const Finding& find(const Proof& proof, std::string_view property) {
 TEST(Tableau, ExplicitEulerIsRefutedWithItsWitness) {
   const Proof proof = prove_tableau({{{Expression(0)}}, {Expression(1)}, {Expression(0)}}, 1);
   EXPECT_EQ(find(proof, "symplectic").verdict, Verdict::refuted);
-  EXPECT_EQ(find(proof, "symplectic").detail, "b_i a_ij + b_j a_ji - b_i b_j is -1 for i = 1, j = 1");
+  EXPECT_EQ(find(proof, "symplectic").detail,
+            "b_i a_ij + b_j a_ji - b_i b_j is -1 for i = 1, j = 1");
   EXPECT_EQ(find(proof, "symmetric").verdict, Verdict::refuted);
   EXPECT_EQ(find(proof, "order").property, "order 1");
 }
@@ -78,8 +79,7 @@ TEST(Splitting, UnequalEndsAreNotSymmetricAndRuthsMethodHasOrderThree) {
 }
 
 TEST(Composition, TheTripleJumpHasOrderFourAndItsLeadingError) {
-  const Expression c =
-      Expression(1) / (Expression(2) - Expression::power(Expression(2), q(1, 3)));
+  const Expression c = Expression(1) / (Expression(2) - Expression::power(Expression(2), q(1, 3)));
   const Scheme midpoint = family_member(1, {{q(1, 2)}}, {{Expression(0)}}, {{Expression(0)}});
   const Composition jump{midpoint.member(), {c, Expression(1) - Expression(2) * c, c}};
   const Proof proof = prove_composition(jump, 4);

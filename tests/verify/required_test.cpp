@@ -28,8 +28,9 @@ TEST(Required, WhatIsRefutedOrOpenStopsTheGeneration) {
 
 TEST(Required, TheHeaderSaysWhatIsProvedAndWhatNot) {
   const std::string solved = generate(kepler(), method("", "")).front().text;
-  EXPECT_NE(solved.find("//   proved    symplectic, symmetric, order 2, conserves L, emitted code\n"),
-            std::string::npos);
+  EXPECT_NE(
+      solved.find("//   proved    symplectic, symmetric, order 2, conserves L, emitted code\n"),
+      std::string::npos);
   const std::string swept = generate(kepler(), method("sweeps:2", "")).front().text;
   EXPECT_NE(swept.find("//   proved    emitted code\n//   refuted   symplectic, symmetric\n"),
             std::string::npos);

@@ -39,7 +39,7 @@ int main() {
                     [&](const corrected::State& z) { return corrected::energy(same, z); });
   std::printf("energy spread: midpoint %.4e, corrected %.4e\n", spread, corrected_spread);
   // 1.4987e-6 is the error of order h^2 itself; the correction leaves what is of order h^4.
-  const bool right = spread > 1.48e-6 && spread < 1.51e-6 && corrected_spread >= 0.0 &&
-                     corrected_spread < 1.3e-12;
+  const bool right =
+      spread > 1.48e-6 && spread < 1.51e-6 && corrected_spread >= 0.0 && corrected_spread < 1.3e-12;
   return right ? 0 : 1;
 }
