@@ -13,31 +13,41 @@ namespace {
 std::string stage_rule(const ScalarType& scalar) {
   return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
 
-// When to stop iterating the stages: at stagnation with one second chance, that is when twice in a row
-// no component has moved less than ever before.  `length` is the size of the increments of the stages,
-// `scale` that of the stages themselves.
+// When to stop iterating the stages: at round-off, that is where they stand still, or where twice in
+// a row no component has moved less than ever before.  A zero may be an accident and says nothing.
+// The larger the last increment, the more often in a row it takes: 64, 512, 4096 units of rounding
+// after 2, 3, 4 times.
 struct StageRule {{
-  Real least[dimension] = {{}};
-  Real size = 0;  // of the last increment
+  // Every `cycle`-th iteration is compared.  2 for the fixed point: where q hangs on p and p on q
+  // alone, even and odd iterations are two sequences, and one may be far ahead of the other.
+  int cycle = 1;
+  Real least[2][dimension] = {{}};  // 0 before the first increment
+  Real size = 0;                  // of the last increment
   int stuck = 0;
 
-  Progress operator()(const Real (&moved)[dimension], Real length, Real scale, int iterations) {{
+  // moved, length: of each component, the increments of all stages and the stages' distance from z.
+  Progress operator()(const Real (&moved)[dimension], const Real (&length)[dimension], Real scale,
+                      int iterations) {{
     bool decreased = false;
     size = 0;
     for (int k = 0; k < dimension; ++k) {{
-      if (iterations == 1 || moved[k] < least[k]) {{
+      Real& smallest = least[iterations % cycle][k];
+      // Among many components one always flickers: but not far below the rounding of its stages.
+      const bool visible = moved[k] * 8 > {epsilon} * length[k];
+      if (visible && (smallest <= 0 || moved[k] < smallest)) {{
         decreased = true;
-        least[k] = moved[k];
+        smallest = moved[k];
       }}
       size += moved[k];
     }}
     if (!(size <= {largest})) return Progress::failed;
     if (size <= 0) return Progress::done;
-    // Among many components one always flickers: far below their rounding together they are done too.
-    const bool invisible = size * 8 <= {epsilon} * length;
-    stuck = decreased && !invisible ? 0 : stuck + 1;
-    const bool small = size <= 4096 * {epsilon} * scale;
-    if (stuck >= 2 && small) return Progress::done;
+    stuck = decreased ? 0 : stuck + 1;
+    const Real round_off = {epsilon} * scale;
+    if (stuck >= 2 && size <= 64 * round_off) return Progress::done;
+    if (stuck >= 3 && size <= 512 * round_off) return Progress::done;
+    const bool small = size <= 4096 * round_off;
+    if (stuck >= 4 && small) return Progress::done;
     if (iterations < 200) return Progress::go_on;
     return small ? Progress::done : Progress::failed;
   }}
@@ -216,25 +226,24 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
             "at all.\n"
           : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
   text += R"(  bool fixed_point(StepReport& report) {
-    StageRule rule;
+    StageRule rule{.cycle = 2};
 )";
   if (switches) text += "    Real before = 0;\n    int slow = 0;\n";
   text += R"(    for (int iteration = 1;; ++iteration) {
       ++report.iterations;
       evaluate();
       Real moved[dimension] = {};
-      Real length = 0;
+      Real length[dimension] = {};
       Real scale = 0;
       for (int k = 0; k < dimension; ++k) {
         for (int i = 0; i < stages; ++i) {
           const Real next = collected(i, k);
           moved[k] += magnitude(next - increment_[i][k]);
           increment_[i][k] = next;
-          length += magnitude(next);
+          length[k] += magnitude(next);
         }
-        scale += magnitude(y_[k]);
+        scale += magnitude(y_[k]) + length[k];
       }
-      scale += length;
       const Progress progress = rule(moved, length, scale, iteration);
       report.increment = rule.size;
       if (progress == Progress::done) return true;
@@ -301,17 +310,16 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
       }
       matrix_.solve(vector);
       Real moved[dimension] = {};
-      Real length = 0;
-      Real scale = 0;
+      Real length[dimension] = {};
       for (int row = 0; row < Elimination::size; ++row) {
         const int i = row / dimension;
         const int k = row % dimension;
         moved[k] += magnitude(vector[row]);
         increment_[i][k] -= vector[row];
-        length += magnitude(increment_[i][k]);
-        if (i == 0) scale += magnitude(y_[k]);
+        length[k] += magnitude(increment_[i][k]);
       }
-      scale += length;
+      Real scale = 0;
+      for (int k = 0; k < dimension; ++k) scale += magnitude(y_[k]) + length[k];
       const Progress progress = rule(moved, length, scale, iteration);
       report.increment = rule.size;
       if (progress == Progress::done) return true;

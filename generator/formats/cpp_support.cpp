@@ -91,30 +91,36 @@ std::string cpp_fixed_point_rule(const ScalarType& scalar) {
   return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
 
 // When to stop a fixed-point iteration: at stagnation with one second chance, that is when twice in
-// a row no component's increment has been smaller than ever before.
+// a row no component's increment has been smaller than ever before.  A zero may be an accident and
+// says nothing.  Even and odd iterations are compared among themselves: where q hangs on p and p on
+// q alone they are two sequences, and one may be far ahead of the other.  The larger the last
+// increment, the longer it must stand still: 64, 512, 4096 units of rounding after 2, 3, 4 times.
 template <int Size>
 struct FixedPointRule {{
-  Real least[Size] = {{}};
+  Real least[2][Size] = {{}};  // 0 before the first increment
   int stuck = 0;
 
   Progress operator()(const Real (&increment)[Size], Real scale, int iterations) {{
     bool decreased = false;
     Real size = 0;
     for (int i = 0; i < Size; ++i) {{
+      Real& smallest = least[iterations % 2][i];
       const Real now = magnitude(increment[i]);
-      if (iterations == 1 || now < least[i]) {{
+      if (now > 0 && (smallest <= 0 || now < smallest)) {{
         decreased = true;
-        least[i] = now;
+        smallest = now;
       }}
       size += now;
     }}
     if (!(size <= {largest})) return Progress::failed;
     if (size <= 0) return Progress::done;
     // Among many components one always flickers: below their rounding together they are done too.
-    const bool invisible = size * 8 <= {epsilon} * scale;
-    stuck = decreased && !invisible ? 0 : stuck + 1;
-    const bool small = size <= 4096 * {epsilon} * scale;
-    if (stuck >= 2 && small) return Progress::done;
+    const Real round_off = {epsilon} * scale;
+    stuck = decreased && size * 8 > round_off ? 0 : stuck + 1;
+    if (stuck >= 2 && size <= 64 * round_off) return Progress::done;
+    if (stuck >= 3 && size <= 512 * round_off) return Progress::done;
+    const bool small = size <= 4096 * round_off;
+    if (stuck >= 4 && small) return Progress::done;
     if (iterations < 500) return Progress::go_on;
     return small ? Progress::done : Progress::failed;
   }}
