@@ -6,36 +6,15 @@
 #include <charconv>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/pieces.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "runtime/sha256.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-// The pieces between the commas that stand outside all brackets.
-std::vector<std::string_view> outermost_pieces(std::string_view text) {
-  std::vector<std::string_view> pieces;
-  int depth = 0;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '(' || text[i] == '[') ++depth;
-    if (text[i] == ')' || text[i] == ']') --depth;
-    if (text[i] == ',' && depth == 0) {
-      pieces.push_back(text.substr(begin, i - begin));
-      begin = i + 1;
-    }
-  }
-  pieces.push_back(text.substr(begin));
-  return pieces;
-}
 
 void require_no_member_besides_scheme(const MethodOptions& options) {
   if (options.scheme.empty()) return;
@@ -93,11 +72,12 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& name,
 
 Assignment split_assignment(std::string_view option, std::string_view text) {
   const std::size_t equals = text.find('=');
-  const std::string_view name = trimmed(text.substr(0, equals));
-  if (equals == std::string_view::npos || name.empty() || trimmed(text.substr(equals + 1)).empty())
+  const std::string_view name = without_blanks(text.substr(0, equals));
+  if (equals == std::string_view::npos || name.empty() ||
+      without_blanks(text.substr(equals + 1)).empty())
     throw UsageError(
         fmt::format("{} {}: not an assignment\nhelp: write {} NAME=VALUE", option, text, option));
-  return {std::string(name), std::string(trimmed(text.substr(equals + 1)))};
+  return {std::string(name), std::string(without_blanks(text.substr(equals + 1)))};
 }
 
 std::vector<Assignment> split_assignments(std::string_view option, std::string_view text) {
@@ -217,6 +197,11 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
   return on_one_line(runtime::command_text(words));
+}
+
+void record_origin(const MethodOptions& options, const SourceText& source, Request& request) {
+  request.command = generate_command(options.model, request);
+  request.model_digest = runtime::sha256_hex(source.text);
 }
 
 }  // namespace hamgen::app

@@ -84,6 +84,8 @@ struct SizesAndRest {
 // The `hamgen generate` command that emits this request's files: paths as typed, a fixed order of
 // options, no output directory.
 [[nodiscard]] std::string generate_command(const std::string& model, const Request& request);
+// That command and the digest of the model's text: what an emitted header says of its origin.
+void record_origin(const MethodOptions& options, const SourceText& source, Request& request);
 
 // Help that fits one screen: one line an option.
 void use_short_help(CLI::App& app);

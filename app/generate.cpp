@@ -95,7 +95,7 @@ int generate_files(const GenerateOptions& options) {
   request.name_space = options.name_space;
   request.require = options.require;
   request.tangent = options.tangent;
-  request.command = generate_command(options.method.model, request);
+  record_origin(options.method, source, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, request.command);
   return options.output.empty() ? print_only_file(files) : write(files, options.output);

@@ -72,7 +72,6 @@ int report(const ReportOptions& options) {
   SizesAndRest set = split_sizes(read_model(source), options.method.set);
   Request request = request_of(options.method);
   request.sizes = set.sizes;
-  request.command = generate_command(options.method.model, request);
   const Model model = read_model(source, set.sizes);
   SceneRequest wanted{.scene = options.scene, .set = std::move(set.rest)};
   for (const std::string& text : options.initial) {
@@ -81,7 +80,7 @@ int report(const ReportOptions& options) {
   }
   const SceneValues scene = complete_scene(model, wanted);
   take_gauge_at(scene, model, request);
-  request.command = generate_command(options.method.model, request);
+  record_origin(options.method, source, request);
   const BenchMethod method = chosen_method(options, source, request);
   const Mechanics mechanics = derive(model);
 

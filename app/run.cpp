@@ -156,7 +156,7 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
-  request.command = generate_command(options.method.model, request);
+  record_origin(options.method, source, request);
 
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);

@@ -3,6 +3,7 @@
 //   made by   hamgen 0.1.0
 //   command   hamgen generate hamiltonians/harmonic.ham
 //   model     hamiltonians/harmonic.ham
+//   sha256    fcf2f89f040617f03f5a8147fa7f74832e9c455dee8e25aad6dcde9e54458dc6
 //   H(q, p) = p^2/2 + w^2*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   proved    symplectic, symmetric, order 2, emitted code

@@ -3,6 +3,7 @@
 //   made by   hamgen 0.1.0
 //   command   hamgen generate hamiltonians/henon_heiles.ham --scheme symplectic-euler-a
 //   model     hamiltonians/henon_heiles.ham
+//   sha256    8e46b3740a4830724122a7fa467096da159788e64cb64b79a88f5b14c7363aaf
 //   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
 //   proved    symplectic, order 1, emitted code

@@ -3,6 +3,7 @@
 //   made by   hamgen 0.1.0
 //   command   hamgen generate hamiltonians/pendulum.ham
 //   model     hamiltonians/pendulum.ham
+//   sha256    492f143ced2b8c56ef576565398ce1c424f5eab431b84482fbae777e4bc970ad
 //   H(q, p) = p^2/2 - eps*cos(q)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   proved    symplectic, symmetric, order 2, emitted code
@@ -182,29 +183,30 @@ struct Start {
   return report;
 }
 
-// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
-// prediction of degree d and x the solution that came, the next predictions are
+// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
+// and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time.
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
 struct History {
   static constexpr int unknowns = 1;
-  static constexpr int degrees = 8;
+  static constexpr int degrees = 16;
   Real predicted[degrees][unknowns] = {};
-  int known = 0;
+  Real sum[unknowns] = {};
+  int known = 0;  // degrees that are kept up to date
   int best = 0;
-  int age = 0;
+  int age = 15;
 
   void record(const Real (&solution)[unknowns]) {
-    if (known < degrees || ++age == 16) choose(solution);
-    for (int i = 0; i < unknowns; ++i) {
-      Real earlier = 0;
-      for (int degree = 0; degree < degrees; ++degree) {
+    if (++age == 16) choose(solution);
+    for (int i = 0; i < unknowns; ++i) sum[i] = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      for (int i = 0; i < unknowns; ++i) {
         const Real kept = predicted[degree][i];
-        predicted[degree][i] = Real(degree + 1) * solution[i] - earlier;
-        earlier += kept;
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+        sum[i] += kept;
       }
     }
-    if (known < degrees) ++known;
   }
   void choose(const Real (&solution)[unknowns]) {
     age = 0;
@@ -218,6 +220,12 @@ struct History {
         least = error;
         best = degree;
       }
+    }
+    if (best + 2 < known) {
+      --known;
+    } else if (known < degrees) {
+      ++known;
+      age = 15;
     }
   }
   void extrapolate(Real (&solution)[unknowns]) const {

@@ -3,6 +3,7 @@
 //   made by   hamgen 0.1.0
 //   command   hamgen generate hamiltonians/product.ham --scheme symplectic-euler-b
 //   model     hamiltonians/product.ham
+//   sha256    827ad3095c58c92aea25a81d74b660a8b7ea95a923c7be1f99858ea7e4361d88
 //   H(q, p) = (q^2 + 1)*(p^2 + 1)/2
 //   scheme    alpha = 1, beta = 0, gamma = 0: order 1, symplectic
 //   proved    symplectic, order 1, emitted code

@@ -156,6 +156,7 @@ std::string stem(const std::string& path) {
 CppOptions cpp_options(const SourceText& source, const Program& program, const Request& request) {
   CppOptions options{.command = request.command,
                      .model_path = source.path,
+                     .model_digest = request.model_digest,
                      .scalar = request.scalar,
                      .name_space = request.name_space,
                      .tangent = request.tangent && has_tangent(program)};

@@ -40,6 +40,7 @@ struct Request {
   int watch_modified = 0;             // terms of the modified Hamiltonian among the invariants,
   Rational step;                      // at this h; as many for a symmetric step are even powers
   std::string command;                // as the user typed it, for the header; may be empty
+  std::string model_digest;           // SHA-256 of the model's text, for the header; may be empty
 };
 
 // The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma

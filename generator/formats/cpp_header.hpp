@@ -11,8 +11,9 @@ namespace hamgen {
 struct CppOptions {
   std::string command;  // as the user typed it
   std::string model_path;
-  std::string scalar;      // name of a scalar, "" is double
-  std::string name_space;  // "pendulum::implicit_midpoint"
+  std::string model_digest;  // SHA-256 of its text
+  std::string scalar;        // name of a scalar, "" is double
+  std::string name_space;    // "pendulum::implicit_midpoint"
   // What is proved, tested and refuted of the step, for the first lines; empty: not looked at.
   std::string proved, tested, refuted;
   bool gradient = false;  // emit gradient() too

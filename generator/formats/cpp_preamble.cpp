@@ -57,6 +57,7 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
   const CppOptions& options = context.options;
   if (!options.command.empty()) out.line("//   command   " + one_line(options.command));
   if (!options.model_path.empty()) out.line("//   model     " + one_line(options.model_path));
+  if (!options.model_digest.empty()) out.line("//   sha256    " + options.model_digest);
   std::string formula = context.mechanics.hamiltonian_text;
   std::ranges::replace(formula, '\n', ' ');
   out.comment("//   H(q, p) = ", formula);

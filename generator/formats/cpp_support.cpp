@@ -130,30 +130,33 @@ struct FixedPointRule {{
 }
 
 std::string cpp_history(int unknowns) {
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  constexpr int many = 32;
   return fmt::format(
-      R"(// Solutions of earlier steps, extrapolated by polynomials of degree 0 to 7.  With s_d the
-// prediction of degree d and x the solution that came, the next predictions are
+      R"(// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
+// and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time.
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
 struct History {{
   static constexpr int unknowns = {unknowns};
-  static constexpr int degrees = 8;
+  static constexpr int degrees = {degrees};
   Real predicted[degrees][unknowns] = {{}};
-  int known = 0;
+  Real sum[unknowns] = {{}};
+  int known = 0;  // degrees that are kept up to date
   int best = 0;
-  int age = 0;
+  int age = 15;
 
   void record(const Real (&solution)[unknowns]) {{
-    if (known < degrees || ++age == 16) choose(solution);
-    for (int i = 0; i < unknowns; ++i) {{
-      Real earlier = 0;
-      for (int degree = 0; degree < degrees; ++degree) {{
+    if (++age == 16) choose(solution);
+    for (int i = 0; i < unknowns; ++i) sum[i] = 0;
+    for (int degree = 0; degree < known; ++degree) {{
+      for (int i = 0; i < unknowns; ++i) {{
         const Real kept = predicted[degree][i];
-        predicted[degree][i] = Real(degree + 1) * solution[i] - earlier;
-        earlier += kept;
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+        sum[i] += kept;
       }}
     }}
-    if (known < degrees) ++known;
   }}
   void choose(const Real (&solution)[unknowns]) {{
     age = 0;
@@ -168,13 +171,19 @@ struct History {{
         best = degree;
       }}
     }}
+    if (best + 2 < known) {{
+      --known;
+    }} else if (known < degrees) {{
+      ++known;
+      age = 15;
+    }}
   }}
   void extrapolate(Real (&solution)[unknowns]) const {{
     for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
   }}
 }};
 )",
-      fmt::arg("unknowns", unknowns));
+      fmt::arg("unknowns", unknowns), fmt::arg("degrees", unknowns <= many ? 16 : 8));
 }
 
 std::string cpp_elimination(const ScalarType&) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/pieces.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -13,12 +14,6 @@
 namespace hamgen {
 
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 class GaugeText {
  public:
@@ -31,10 +26,11 @@ class GaugeText {
     const std::string_view outer = without_blanks(text);
     GaugeBlock block;
     if (!outer.starts_with('[')) {
-      for (const std::string_view piece : pieces(outer)) block.entries.push_back(entry(piece));
+      for (const std::string_view piece : outermost_pieces(outer))
+        block.entries.push_back(entry(piece));
       return block;
     }
-    const std::vector<std::string_view> rows = pieces(inside(outer));
+    const std::vector<std::string_view> rows = outermost_pieces(inside(outer));
     const auto n = static_cast<std::size_t>(degrees_of_freedom(model_));
     block.is_matrix = rows[0].starts_with('[');
     if (block.is_matrix && rows.size() != n) refuse(rows.size(), "rows");
@@ -43,7 +39,7 @@ class GaugeText {
         block.entries.push_back(entry(row));
         continue;
       }
-      const std::vector<std::string_view> entries = pieces(inside(row));
+      const std::vector<std::string_view> entries = outermost_pieces(inside(row));
       if (entries.size() != n) refuse(entries.size(), "entries in a row");
       for (const std::string_view piece : entries) block.entries.push_back(entry(piece));
     }
@@ -69,23 +65,6 @@ class GaugeText {
       fail(fmt::format("'{}' is not a list in brackets", text));
     }
     return text.substr(1, text.size() - 2);
-  }
-
-  // Split at the commas outside all brackets and parentheses.
-  [[nodiscard]] std::vector<std::string_view> pieces(std::string_view text) const {
-    std::vector<std::string_view> result;
-    int depth = 0;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] == '(' || text[i] == '[') ++depth;
-      if (text[i] == ')' || text[i] == ']') --depth;
-      if (text[i] == ',' && depth == 0) {
-        result.push_back(without_blanks(text.substr(begin, i - begin)));
-        begin = i + 1;
-      }
-    }
-    result.push_back(without_blanks(text.substr(begin)));
-    return result;
   }
 
   [[nodiscard]] Expression entry(std::string_view text) const {

@@ -19,6 +19,19 @@ TEST(Generate, PrintsTheHeaderWithItsCommand) {
       << result.out;
 }
 
+TEST(Generate, NamesTheModelByItsDigest) {
+  const Scratch scratch;
+  // The digest is what `sha256sum` prints for these bytes.
+  const std::string model =
+      scratch.write("free.ham", "system free\ncoordinate q\nmomentum p\nH = p^2/2\n");
+  const Result result = hamgen({"generate", model});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(
+      contains(result.out,
+               "//   sha256    c18574c0ad02dea3bfb9bf674f247212857c4c5c4e146311af7882800dd1e75e\n"))
+      << result.out;
+}
+
 TEST(Generate, WritesAndThenFindsNoDifference) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
