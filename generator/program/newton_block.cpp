@@ -1,0 +1,310 @@
+// Blocks solved by Newton's iteration, with the torn variables eliminated from its linear system.
+#include <algorithm>
+
+#include "generator/program/step_builder.hpp"
+
+namespace hamgen {
+
+void StepBuilder::evaluate_gradient(NewtonBlock& newton, int k) {
+  if (known_gradient_[index(k)]) return;
+  known_gradient_[index(k)] = true;
+  newton.evaluated.push_back(k);
+  define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), newton.where);
+}
+
+Expression StepBuilder::second_derivative(NewtonBlock& newton, int k, int v) {
+  const Expression plain = equations_.hessian_symbol(k, v);
+  if (plain.is_zero()) return plain;
+  if (const auto it = newton.hessian.find(plain.name()); it != newton.hessian.end()) {
+    return it->second;
+  }
+  std::string name = plain.name();
+  while (!hessian_names_.insert(name).second) name += "*";
+  const Expression symbol = Expression::symbol(name, plain.rank());
+  define(symbol, at_stage(equations_.stage_hessian(k, v)), newton.where);
+  newton.hessian.emplace(plain.name(), symbol);
+  return symbol;
+}
+
+template <class Value>
+Expression StepBuilder::chain(NewtonBlock& newton, int i, const Value& value) {
+  std::vector<Expression> terms;
+  for (const int k : equations_.row_gradients(i)) {
+    for (const int v : newton.members) {
+      const Expression factor = value(v);
+      if (factor.is_zero()) continue;
+      terms.push_back(weight(i, k) * second_derivative(newton, k, v) * factor);
+    }
+  }
+  return Expression::sum(std::move(terms));
+}
+
+// d(t)/d(x): named, because it is used for every row.
+Expression StepBuilder::name_slope(int t, int x, const Expression& value, int section) {
+  if (value.is_number()) return value;
+  const Expression symbol =
+      Expression::symbol("d(" + name_of(t) + ")/d(" + name_of(x) + ")", kRankOfTemporary);
+  define(symbol, value, section);
+  return symbol;
+}
+
+Expression StepBuilder::increment_symbol(int x) const {
+  return Expression::symbol("delta(" + name_of(x) + ")", kRankOfTemporary);
+}
+
+namespace {
+
+NewtonBlock newton_block(const Block& block) {
+  NewtonBlock newton{.block = block, .members = block.unknowns};
+  const std::size_t m = block.unknowns.size();
+  for (std::size_t j = 0; j < m; ++j) {
+    std::vector<Expression> unit(m, Expression(0));
+    unit[j] = Expression(1);
+    newton.slopes[block.unknowns[j]] = std::move(unit);
+  }
+  return newton;
+}
+
+}  // namespace
+
+// Newton's iteration on the unknowns, with the torn variables eliminated by the chain rule.  The
+// last increment also corrects the gradient to first order, so that no evaluation at the solution
+// is needed: the error is quadratic in that increment, as Newton's own.
+void StepBuilder::add_newton(const Block& block) {
+  PendingSolve pending;
+  pending.solve.kind = block.kind;
+  pending.solve.linear_solver = linear_solver(block);
+  pending.solve.constant_matrix = block.kind == BlockKind::linear && block.constant_matrix;
+  const bool written_out = pending.solve.linear_solver == LinearSolver::written_out;
+
+  NewtonBlock newton = newton_block(block);
+  newton.iterates = block.kind != BlockKind::linear;
+  if (newton.iterates || !written_out) open_solve();
+  pending.stage = stage_;
+  newton.where = newton.iterates ? body(stage_) : (written_out ? straight() : before(stage_));
+  newton.outside = newton.iterates || !written_out ? after(stage_) : straight();
+
+  for (const int x : block.unknowns) {
+    if (newton.iterates) {
+      lowering_.declare(stage_value_[index(x)].name(), newton.where);
+    } else {
+      // An affine system may start anywhere.  From 0 the increment is the solution itself, and
+      // nothing cancels for large h; from z it would lose (h omega)^2 units of rounding.
+      stage_value_[index(x)] = Expression(0);
+    }
+  }
+  for (const int t : block.torn) tear_out(newton, t);
+  for (const int x : block.unknowns) {
+    for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
+  }
+  for (std::size_t i = 0; i < block.unknowns.size(); ++i) {
+    const int x = block.unknowns[i];
+    newton.residual.push_back(stage_value_[index(x)] - row(x, newton.where));
+    std::vector<Expression> line;
+    for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
+      const auto slope = [&](int v) { return newton.slopes.at(v)[j]; };
+      line.push_back(Expression(i == j ? 1 : 0) - chain(newton, x, slope));
+    }
+    newton.matrix.push_back(std::move(line));
+  }
+  solve_linear_system(newton, pending);
+  for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
+    const int x = block.unknowns[j];
+    pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
+    if (!newton.iterates) pending.solve.variables.back().name = increment_symbol(x).name();
+    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
+    if (written_out && newton.iterates) {
+      pending.correction.push_back(lowering_.want(newton.increments[j], newton.where));
+    }
+  }
+  if (newton.iterates || !written_out) solves_.push_back(std::move(pending));
+  correct_solution(newton);
+}
+
+// Row t gives its variable, and the chain rule what it depends on.
+void StepBuilder::tear_out(NewtonBlock& newton, int t) {
+  Expression denominator(1);
+  if (equations_.depends(t, t)) {
+    // Affine in itself: solved for.
+    const Substitution zero{{equations_.stage(t).name(), Expression(0)}};
+    std::vector<Expression> terms{carry_symbol(t)};
+    for (const int k : equations_.row_gradients(t)) {
+      terms.push_back(weight(t, k) * at_stage(substitute(equations_.stage_gradient(k), zero)));
+      denominator += -(weight(t, k) * at_stage(equations_.stage_hessian(k, t)));
+    }
+    const Expression known =
+        equations_.mechanics.variable(t) +
+        named_rest(name_of(t), Expression::sum(std::move(terms)), newton.where);
+    define(stage_value_[index(t)], known / denominator, newton.where);
+  } else {
+    for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
+    define(stage_value_[index(t)], row(t, newton.where), newton.where);
+  }
+  std::vector<Expression> slopes;
+  for (std::size_t j = 0; j < newton.block.unknowns.size(); ++j) {
+    const Expression value =
+        chain(newton, t, [&](int v) { return newton.slopes.at(v)[j]; }) / denominator;
+    slopes.push_back(name_slope(t, newton.block.unknowns[j], value, newton.where));
+  }
+  for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
+  newton.slopes[t] = std::move(slopes);
+  newton.members.push_back(t);
+}
+
+// Everything that was evaluated before the last increment, corrected by it.
+void StepBuilder::correct_solution(NewtonBlock& newton) {
+  const Block& block = newton.block;
+  std::map<int, Expression> moved;
+  for (const int v : newton.members) {
+    std::vector<Expression> terms;
+    for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
+      terms.push_back(newton.slopes.at(v)[j] * newton.increments[j]);
+    }
+    moved[v] = Expression::sum(std::move(terms));
+  }
+  // Torn variables whose rows need corrected gradients only are computed anew from these, and so
+  // is what depends on nothing else but linearly: the kinetic part of a separable H.
+  std::set<int> anew;
+  for (const int t : block.torn) {
+    const auto corrected = [&](int k) {
+      return std::ranges::find(newton.evaluated, k) != newton.evaluated.end() &&
+             !is_linear_in(k, block.torn);
+    };
+    if (newton.iterates && !equations_.depends(t, t) &&
+        std::ranges::all_of(equations_.row_gradients(t), corrected)) {
+      anew.insert(t);
+    }
+  }
+  const auto is_anew = [&](int k) { return newton.iterates && is_linear_in(k, anew); };
+  for (const int k : newton.evaluated) {
+    if (is_anew(k)) continue;
+    std::vector<Expression> terms;
+    for (const int v : newton.members) {
+      terms.push_back(second_derivative(newton, k, v) * moved[v]);
+    }
+    correct_gradient(k, Expression::sum(std::move(terms)), newton.outside);
+  }
+  for (const int v : newton.members) {
+    const Expression value =
+        anew.contains(v) ? row(v, newton.outside) : stage_value_[index(v)] + moved[v];
+    renew(stage_value_[index(v)], equations_.stage(v).name(), value, newton.outside);
+  }
+  for (const int k : newton.evaluated) {
+    if (!is_anew(k)) continue;
+    renew(gradient_[index(k)], gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)),
+          newton.outside);
+  }
+}
+
+// dH/dz_k as the last iteration evaluated it, and what the last increment adds.
+void StepBuilder::correct_gradient(int k, const Expression& change, int section) {
+  if (change.is_zero()) return;
+  const Expression main = gradient_[index(k)];
+  const Expression symbol = Expression::symbol("change(" + main.name() + ")", kRankOfTemporary);
+  define(symbol, change, section);
+  correction_[index(k)] = {main, symbol};
+  renew(gradient_[index(k)], main.name(), main + symbol, section);
+}
+
+// Is dH/dz_k linear with constant coefficients in some of these variables and free of all others?
+template <class Variables>
+bool StepBuilder::is_linear_in(int k, const Variables& variables) const {
+  bool any = false;
+  for (int v = 0; v < 2 * n_; ++v) {
+    const auto entry = equations_.mechanics.hessian.find(std::minmax(k, v));
+    if (entry == equations_.mechanics.hessian.end()) continue;
+    if (std::ranges::find(variables, v) == std::ranges::end(variables)) return false;
+    std::set<std::string> used;
+    collect_symbols(entry->second, used);
+    for (const Quantity& variable : equations_.mechanics.variables) {
+      if (used.contains(variable.name)) return false;
+    }
+    any = true;
+  }
+  return any;
+}
+
+// Newton's iteration with the Hessian of a shorter K.  The torn unknowns are eliminated from the
+// linear system only: delta_t = r_t + sum_j slope_tj delta_j, where r_t is what their rows lack
+// now.  The last increment corrects the gradient with the same Hessian, whose error times that
+// increment is as small as the next increment, which the stopping rule bounds.
+void StepBuilder::add_simplified_newton(const Block& block) {
+  open_solve();
+  PendingSolve pending{.solve = {}, .stage = stage_};
+  pending.solve.kind = BlockKind::newton;
+  pending.solve.simplified = true;
+  pending.solve.linear_solver = linear_solver(block);
+  NewtonBlock newton = newton_block(block);
+  newton.where = body(stage_);
+  newton.outside = after(stage_);
+  const std::size_t m = block.unknowns.size();
+
+  std::vector<int> all = block.unknowns;
+  all.insert(all.end(), block.torn.begin(), block.torn.end());
+  for (const int v : all) lowering_.declare(stage_value_[index(v)].name(), newton.where);
+  for (const int v : all) {
+    for (const int k : equations_.row_gradients(v)) evaluate_gradient(newton, k);
+  }
+  // delta_v = lacking.at(v) + sum_j slopes.at(v)[j] delta_j of the members known so far.
+  std::map<int, Expression> lacking;
+  const auto residual = [&](int i) {
+    return stage_value_[index(i)] - row(i, newton.where) -
+           chain(newton, i, [&](int v) { return lacking[v]; });
+  };
+  for (const int t : block.torn) {
+    const Expression symbol = Expression::symbol("R(" + name_of(t) + ")", kRankOfTemporary + t);
+    define(symbol, residual(t), newton.where);
+    std::vector<Expression> slopes;
+    for (std::size_t j = 0; j < m; ++j) {
+      slopes.push_back(name_slope(t, block.unknowns[j],
+                                  chain(newton, t, [&](int v) { return newton.slopes.at(v)[j]; }),
+                                  newton.where));
+    }
+    lacking[t] = -symbol;
+    newton.slopes[t] = std::move(slopes);
+    newton.members.push_back(t);
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    newton.residual.push_back(residual(block.unknowns[i]));
+    std::vector<Expression> line;
+    for (std::size_t j = 0; j < m; ++j) {
+      const auto slope = [&](int v) { return newton.slopes.at(v)[j]; };
+      line.push_back(Expression(i == j ? 1 : 0) - chain(newton, block.unknowns[i], slope));
+    }
+    newton.matrix.push_back(std::move(line));
+  }
+  solve_linear_system(newton, pending);
+
+  std::map<int, Expression> increments;
+  for (std::size_t j = 0; j < m; ++j) increments[block.unknowns[j]] = newton.increments[j];
+  for (const int t : block.torn) {
+    std::vector<Expression> terms{lacking[t]};
+    for (std::size_t j = 0; j < m; ++j) {
+      terms.push_back(newton.slopes.at(t)[j] * newton.increments[j]);
+    }
+    increments[t] = increment_symbol(t);
+    define(increments[t], Expression::sum(std::move(terms)), newton.where);
+  }
+  for (const int v : newton.members) {
+    pending.solve.variables.push_back({stage_value_[index(v)].name(), {}, {}, {}});
+    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(v), before(stage_)));
+    if (pending.solve.corrections.empty()) {
+      pending.correction.push_back(lowering_.want(increments[v], newton.where));
+    }
+  }
+  solves_.push_back(std::move(pending));
+
+  for (const int k : newton.evaluated) {
+    std::vector<Expression> terms;
+    for (const int v : newton.members) {
+      terms.push_back(second_derivative(newton, k, v) * increments[v]);
+    }
+    correct_gradient(k, Expression::sum(std::move(terms)), newton.outside);
+  }
+  for (const int v : newton.members) {
+    renew(stage_value_[index(v)], equations_.stage(v).name(),
+          stage_value_[index(v)] + increments[v], newton.outside);
+  }
+}
+
+}  // namespace hamgen

@@ -1,0 +1,274 @@
+#include "generator/program/step_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hamgen {
+
+namespace {
+
+std::vector<Section> sections(const SolvePlan& plan) {
+  std::vector<Section> result(4 + 3 * plan.blocks.size() + 3);
+  for (std::size_t s = 0; 2 + 3 * s < result.size(); ++s) result[2 + 3 * s].is_loop = true;
+  return result;
+}
+
+}  // namespace
+
+StepBuilder::StepBuilder(const SolvePlan& plan)
+    : plan_(plan),
+      equations_(plan.equations),
+      n_(plan.equations.mechanics.degrees_of_freedom),
+      lowering_(sections(plan)) {
+  for (const Quantity& parameter : equations_.mechanics.parameters) {
+    lowering_.declare(parameter.name, kCoefficients);
+  }
+  lowering_.declare("h", kCoefficients);
+  lowering_.declare("E0", kCoefficients);
+  for (int i = 0; i < 2 * n_; ++i) {
+    lowering_.declare(equations_.mechanics.variables[index(i)].name, before(0));
+    lowering_.declare("carry(" + name_of(i) + ")", before(0));
+    stage_value_.push_back(equations_.stage(i));
+    gradient_.push_back(equations_.gradient_symbol(i));
+  }
+  known_gradient_.resize(index(2 * n_), false);
+  correction_.resize(index(2 * n_));
+}
+
+Program StepBuilder::build() {
+  if (plan_.sweeps) {
+    add_sweeps();
+  } else {
+    for (const Block& block : plan_.blocks) add_block(block);
+  }
+  std::vector<std::size_t> increments;
+  for (int i = 0; i < 2 * n_; ++i) {
+    const int k = i < n_ ? i + n_ : i - n_;
+    need_gradient(k);
+    increments.push_back(lowering_.want(increment(i, k), straight()));
+  }
+  lowering_.run();
+
+  Program program{.plan = plan_};
+  program.coefficients = lowering_.statements(kCoefficients);
+  for (int s = 0; s <= stage_; ++s) {
+    Stage stage{.before = lowering_.statements(before(s)), .after = lowering_.statements(after(s))};
+    for (PendingSolve& pending : solves_) {
+      if (pending.stage == s) stage.solve = finished(pending);
+    }
+    program.stages.push_back(std::move(stage));
+  }
+  for (const std::size_t handle : increments) {
+    program.increments.push_back(lowering_.wanted(handle));
+  }
+  return program;
+}
+
+int StepBuilder::straight() const { return solving_done_ ? after(stage_) : before(stage_); }
+
+void StepBuilder::open_solve() {
+  if (solving_done_) ++stage_;
+  solving_done_ = true;
+}
+
+Expression StepBuilder::carry_symbol(int i) const {
+  // What never changes is never rounded.
+  if (gradient_[index(i < n_ ? i + n_ : i - n_)].is_zero()) return Expression(0);
+  return Expression::symbol("carry(" + name_of(i) + ")", kRankOfTemporary);
+}
+
+const std::string& StepBuilder::name_of(int i) const {
+  return equations_.mechanics.variables[index(i)].name;
+}
+
+Expression StepBuilder::increment(int i, int k) {
+  if (gradient_[index(k)].is_zero()) return gradient_[index(k)];
+  const Expression h = i < n_ ? step_size() : -step_size();
+  const auto& [main, correction] = correction_[index(k)];
+  if (correction.is_zero()) return h * gradient_[index(k)] + carry_symbol(i);
+  return h * main + named_rest("d" + name_of(i), carry_symbol(i) + h * correction, straight());
+}
+
+Expression StepBuilder::named_rest(const std::string& of, const Expression& value, int section) {
+  const int before = rests_[of]++;
+  const Expression symbol = Expression::symbol(
+      fmt::format("rest({}){}", of, std::string(index(before), '*')), kRankOfTemporary);
+  define(symbol, value, section);
+  return symbol;
+}
+
+void StepBuilder::need_gradient(int k) {
+  if (known_gradient_[index(k)] || gradient_[index(k)].is_zero()) return;
+  known_gradient_[index(k)] = true;
+  lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), straight());
+}
+
+Expression StepBuilder::at_stage(const Expression& e) const {
+  Substitution replacements;
+  for (int i = 0; i < 2 * n_; ++i) {
+    if (stage_value_[index(i)] != equations_.stage(i)) {
+      replacements.emplace(equations_.stage(i).name(), stage_value_[index(i)]);
+    }
+  }
+  return replacements.empty() ? e : substitute(e, replacements);
+}
+
+Expression StepBuilder::row(int i, int section) {
+  std::vector<Expression> terms{carry_symbol(i)};
+  for (const int k : equations_.row_gradients(i)) {
+    terms.push_back(weight(i, k) * gradient_[index(k)]);
+  }
+  return equations_.mechanics.variable(i) +
+         named_rest(name_of(i), Expression::sum(std::move(terms)), section);
+}
+
+Expression StepBuilder::weight(int i, int k) const {
+  return step_size() * equations_.stage_matrix.at({i, k});
+}
+
+void StepBuilder::define(const Expression& symbol, const Expression& value, int section) {
+  lowering_.define(symbol.name(), value, section);
+}
+
+void StepBuilder::renew(Expression& value, const std::string& name, const Expression& renewed,
+                        int section) {
+  if (renewed == value) return;
+  const Expression symbol = Expression::symbol(name + "*", kRankOfTemporary);
+  define(symbol, renewed, section);
+  value = symbol;
+}
+
+void StepBuilder::add_block(const Block& block) {
+  switch (block.kind) {
+    case BlockKind::assign:
+      add_assignment(block.unknowns[0]);
+      return;
+    case BlockKind::quadratic:
+      add_quadratic(block.unknowns[0]);
+      return;
+    case BlockKind::linear:
+    case BlockKind::newton:
+      if (block.simplified) {
+        add_simplified_newton(block);
+      } else {
+        add_newton(block);
+      }
+      return;
+    case BlockKind::fixed_point:
+      add_fixed_point(block);
+      return;
+  }
+}
+
+void StepBuilder::add_assignment(int i) {
+  for (const int k : equations_.row_gradients(i)) need_gradient(k);
+  define(stage_value_[index(i)], row(i, straight()), straight());
+}
+
+// c0 + c1 d + c2 d^2 = 0 for d = zbar_i - z_i: the root that tends to 0 with h, in the form
+// without cancellation, d = -2 c0 / (c1 + sqrt(c1^2 - 4 c0 c2)).
+void StepBuilder::add_quadratic(int i) {
+  const Expression z = equations_.mechanics.variable(i);
+  const std::string bar = equations_.stage(i).name();
+  Expression c0(0);
+  Expression c1(1);
+  Expression c2(0);
+  for (const int k : equations_.row_gradients(i)) {
+    const Expression slope = at_stage(equations_.stage_hessian(k, i));
+    auto slope_at = [&](const Expression& x) { return substitute(slope, {{bar, x}}); };
+    const Expression w = weight(i, k);
+    c0 += -(w * substitute(at_stage(equations_.stage_gradient(k)), {{bar, z}}));
+    c1 += -(w * slope_at(z));
+    c2 += -(w * Expression(Rational(1, 2)) * (slope_at(Expression(1)) - slope_at(Expression(0))));
+  }
+  const std::string& name = equations_.mechanics.variables[index(i)].name;
+  auto named = [&](const std::string& what, const Expression& value) {
+    const Expression symbol = Expression::symbol(what + "(" + name + ")", kRankOfTemporary + i);
+    define(symbol, value, straight());
+    return symbol;
+  };
+  const Expression constant = named("c0", c0);
+  const Expression linear = named("c1", c1);
+  const Expression square = named("c2", c2);
+  const Expression root = square_root(linear * linear - Expression(4) * constant * square);
+  const Expression d = Expression(-2) * constant / (linear + root);
+  define(stage_value_[index(i)], z + d, straight());
+}
+
+void StepBuilder::add_fixed_point(const Block& block) {
+  open_solve();
+  PendingSolve pending{.stage = stage_};
+  pending.solve.kind = BlockKind::fixed_point;
+  const int where = body(stage_);
+  for (const int x : block.unknowns) lowering_.declare(stage_value_[index(x)].name(), where);
+  auto evaluate = [&](int k) {
+    if (known_gradient_[index(k)]) return;
+    known_gradient_[index(k)] = true;
+    define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), where);
+  };
+  for (const int t : block.torn) {
+    for (const int k : equations_.row_gradients(t)) evaluate(k);
+    define(stage_value_[index(t)], row(t, where), where);
+  }
+  for (const int x : block.unknowns) {
+    for (const int k : equations_.row_gradients(x)) evaluate(k);
+    pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
+    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
+    pending.next.push_back(lowering_.want(row(x, where), where));
+  }
+  solves_.push_back(std::move(pending));
+}
+
+// Algorithm 1 of the paper: predictor z + h J grad H(z), then K times zbar from the last Z and
+// Z = z + h J grad H(zbar).  In terms of the gradient g: g = grad H(z), K times g = grad
+// H(zbar(g)).
+void StepBuilder::add_sweeps() {
+  open_solve();
+  PendingSolve pending{.stage = stage_};
+  pending.solve.kind = BlockKind::fixed_point;
+  pending.solve.sweeps = plan_.sweeps;
+  const int where = body(stage_);
+  for (int k = 0; k < 2 * n_; ++k) {
+    if (!gradient_[index(k)].is_zero()) lowering_.declare(gradient_[index(k)].name(), where);
+    known_gradient_[index(k)] = true;
+  }
+  for (int i = 0; i < 2 * n_; ++i) define(equations_.stage(i), row(i, where), where);
+  for (int k = 0; k < 2 * n_; ++k) {
+    if (gradient_[index(k)].is_zero()) continue;
+    pending.solve.variables.push_back({gradient_[index(k)].name(), {}, {}, {}});
+    pending.cold.push_back(lowering_.want(equations_.mechanics.gradient[index(k)], before(stage_)));
+    pending.next.push_back(lowering_.want(equations_.stage_gradient(k), where));
+  }
+  // After the loop the gradient is a value of its own: what the loop made of the one before it
+  // does not hold for it.
+  for (Expression& component : gradient_) {
+    if (component.is_zero()) continue;
+    component = Expression::symbol(component.name() + "*", kRankOfTemporary);
+    lowering_.declare(component.name(), after(stage_));
+  }
+  solves_.push_back(std::move(pending));
+}
+
+Solve StepBuilder::finished(PendingSolve& pending) const {
+  Solve solve = std::move(pending.solve);
+  solve.body = lowering_.statements(body(pending.stage));
+  for (std::size_t j = 0; j < solve.variables.size(); ++j) {
+    LoopVariable& variable = solve.variables[j];
+    if (j < pending.cold.size()) variable.cold = lowering_.wanted(pending.cold[j]);
+    if (j < pending.next.size()) variable.next = lowering_.wanted(pending.next[j]);
+    if (j < pending.correction.size()) {
+      variable.correction = lowering_.wanted(pending.correction[j]);
+    }
+  }
+  for (const std::size_t handle : pending.residual) {
+    solve.residual.push_back(lowering_.wanted(handle));
+  }
+  for (const auto& line : pending.matrix) {
+    auto& row = solve.matrix.emplace_back();
+    for (const std::size_t handle : line) row.push_back(lowering_.wanted(handle));
+  }
+  return solve;
+}
+
+}  // namespace hamgen
