@@ -19,8 +19,9 @@ void write_single_step(CodeWriter& out) {
 )");
 }
 
-void write_composition(CodeWriter& out, const CppContext& context, const Composition& composition) {
-  const std::size_t count = composition.substeps.size();
+void write_composition(CodeWriter& out, const CppContext& context) {
+  const std::vector<Substep>& substeps = context.program.sequence.substeps;
+  const std::size_t count = substeps.size();
   const bool solves = context.arrays() ? uses_newton(*context.program.plan.arrays)
                                        : member_parts(context.program, context.scalar).has_start();
   out.line("// Many steps, each a composition of substeps.");
@@ -32,7 +33,7 @@ void write_composition(CodeWriter& out, const CppContext& context, const Composi
   out.line("    : z_(z),");
   for (std::size_t i = 0; i < count; ++i) {
     out.line(fmt::format("      {}Substep(par, h * {}, z){}", i == 0 ? "substep_{" : "         ",
-                         literal(numeric_value(composition.substeps[i]), context.scalar),
+                         literal(numeric_value(substeps[i].length), context.scalar),
                          i + 1 < count ? "," : "} {}"));
   }
   out.line();

@@ -97,19 +97,19 @@ void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
 
 void write_scheme(CodeWriter& out, CppContext& context) {
   const Method& method = context.equations.scheme.method;
-  if (const auto* splitting = std::get_if<Splitting>(&method)) {
-    write_splitting(out, context, *splitting);
+  if (std::holds_alternative<Splitting>(method)) {
+    write_splitting(out, context);
   } else if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
     write_runge_kutta(out, context, *tableau);
   } else {
-    const auto* composition = std::get_if<Composition>(&method);
-    const StepRole role = composition ? StepRole::substep : StepRole::propagator;
+    const bool composed = std::holds_alternative<Composition>(method);
+    const StepRole role = composed ? StepRole::substep : StepRole::propagator;
     if (context.arrays()) {
       write_array_member(out, context, role);
     } else {
       write_member(out, context, role);
     }
-    if (composition) write_composition(out, context, *composition);
+    if (composed) write_composition(out, context);
   }
 }
 

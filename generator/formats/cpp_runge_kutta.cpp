@@ -14,7 +14,6 @@ namespace {
 
 // f = (H_p, -H_q) from grad H = (H_q, H_p).
 void write_vector_field(CodeWriter& out, CppContext& context) {
-  const int n = context.n();
   out.line("// J grad H at a state (q, p).");
   const std::string head = "inline void vector_field([[maybe_unused]] const Parameters& par, ";
   if (context.arrays()) {
@@ -31,17 +30,11 @@ void write_vector_field(CodeWriter& out, CppContext& context) {
 )");
     return;
   }
-  const Evaluation& gradient = context.program.gradient;
+  const Evaluation& field = context.program.vector_field;
   write_evaluation(
       out, context,
-      head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])", gradient,
-      [&](CodeWriter& w, const CppExpression& cpp) {
-        for (int i = 0; i < 2 * n; ++i) {
-          const auto k = static_cast<std::size_t>(i < n ? i + n : i - n);
-          const Expression& slope = gradient.results[k];
-          w.line(fmt::format("values[{}] = {};", i, cpp(i < n ? slope : -slope)));
-        }
-      },
+      head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])", field,
+      [&](CodeWriter& w, const CppExpression& cpp) { write_results(w, cpp, field); },
       CppContext::StateForm::array);
 }
 
@@ -62,15 +55,16 @@ std::vector<Rational> numbers(const std::vector<Expression>& values) {
   return result;
 }
 
-void write_explicit(CodeWriter& out, const CppContext& context, const RungeKutta& tableau) {
+void write_explicit(CodeWriter& out, const CppContext& context) {
+  const StageTable& table = context.program.sequence.stages;
   out.line("// dz = Z - z for one step from z.");
   out.open(
       "[[nodiscard]] inline StepReport solve(const Parameters& par, Real h, "
       "const Real (&z)[dimension], Real (&dz)[dimension])");
   out.line("StepReport report;");
   out.line("Real y[dimension];");
-  for (std::size_t i = 0; i < tableau.b.size(); ++i) {
-    const std::string sum = combination(numbers(tableau.a[i]), context.scalar);
+  for (std::size_t i = 0; i < table.weight.size(); ++i) {
+    const std::string sum = combination(numbers(table.coupling[i]), context.scalar);
     out.line(fmt::format("Real f_{}[dimension];", i + 1));
     if (!sum.empty()) {
       out.line(fmt::format("for (int k = 0; k < dimension; ++k) y[k] = z[k] + h * ({});", sum));
@@ -79,7 +73,7 @@ void write_explicit(CodeWriter& out, const CppContext& context, const RungeKutta
   }
   out.line("Real length = 0;");
   out.open("for (int k = 0; k < dimension; ++k)");
-  out.line("dz[k] = h * (" + combination(numbers(tableau.b), context.scalar) + ");");
+  out.line("dz[k] = h * (" + combination(numbers(table.weight), context.scalar) + ");");
   out.line("length += dz[k] * dz[k];");
   out.close();
   out.line("// False for infinities and NaN alike.");
@@ -167,7 +161,7 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   if (implicit) {
     write_stages(out, context, tableau);
   } else {
-    write_explicit(out, context, tableau);
+    write_explicit(out, context);
   }
   write_single_step(out);
 }

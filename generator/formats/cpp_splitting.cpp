@@ -1,6 +1,7 @@
 // Kicks and drifts.
 #include <fmt/format.h>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_member.hpp"
@@ -22,15 +23,22 @@ struct Kind {
 
 class SplittingWriter {
  public:
-  SplittingWriter(CodeWriter& out, CppContext& context, const Splitting& splitting)
+  SplittingWriter(CodeWriter& out, CppContext& context)
       : out_(out),
         context_(context),
-        splitting_(splitting),
-        closed_(splitting.kicks.size() != splitting.drifts.size()) {
+        kicks_(numbers(lengths_of(context.program.sequence, SubstepKind::kick))),
+        drifts_(numbers(lengths_of(context.program.sequence, SubstepKind::drift))),
+        closed_(kicks_.size() != drifts_.size()) {
+    const std::vector<Substep>& substeps = context.program.sequence.substeps;
+    const bool kick_first = substeps.front().kind == SubstepKind::kick;
+    for (std::size_t i = 1; i < substeps.size(); ++i) {
+      if (substeps[i].kind == substeps[i - 1].kind)
+        internal_error("substeps that do not alternate");
+    }
     const Kind kick{"potential_gradient", "kick", "", "-", true};
     const Kind drift{"kinetic_gradient", "drift", "", "+", false};
-    first_ = splitting.kick_first ? kick : drift;
-    second_ = splitting.kick_first ? drift : kick;
+    first_ = kick_first ? kick : drift;
+    second_ = kick_first ? drift : kick;
     first_.values = closed_ ? "start.value" : "first";
     second_.values = "second";
   }
@@ -39,8 +47,7 @@ class SplittingWriter {
     write_types(out_, context_, false);
     MemberParts parts;
     parts.coefficients = true;
-    const std::vector<ScaledNumbers> scaled{{"kick", numbers(splitting_.kicks)},
-                                            {"drift", numbers(splitting_.drifts)}};
+    const std::vector<ScaledNumbers> scaled{{"kick", kicks_}, {"drift", drifts_}};
     if (context_.arrays()) {
       write_array_functions(out_, context_);
       (void)write_prepare(out_, context_, parts, scaled);
@@ -144,7 +151,7 @@ class SplittingWriter {
   }
 
   void write_solve() {
-    const std::size_t pairs = std::min(splitting_.kicks.size(), splitting_.drifts.size());
+    const std::size_t pairs = std::min(kicks_.size(), drifts_.size());
     out_.line("// dz = Z - z for one step from z.");
     out_.open(
         fmt::format("[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& "
@@ -267,15 +274,15 @@ class SplittingWriter {
 
   CodeWriter& out_;
   CppContext& context_;
-  const Splitting& splitting_;
+  std::vector<Rational> kicks_, drifts_;
   bool closed_;  // it begins and ends with the same kind
   Kind first_, second_;
 };
 
 }  // namespace
 
-void write_splitting(CodeWriter& out, CppContext& context, const Splitting& splitting) {
-  SplittingWriter(out, context, splitting).write();
+void write_splitting(CodeWriter& out, CppContext& context) {
+  SplittingWriter(out, context).write();
 }
 
 }  // namespace hamgen

@@ -370,7 +370,7 @@ std::string iterate_text(StageSolver solver) {
 void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tableau) {
   const StageSolver solver = *context.program.plan.stage_solver;
   const bool newton = solver != StageSolver::fixed_point;
-  write_tableau(out, context.scalar, tableau);
+  write_tableau(out, context.scalar, context.program.sequence.stages, tableau.c);
   if (newton) write_stage_hessian(out, context);
   out.lines(stage_rule(context.scalar));
   if (newton) out.lines(kElimination);

@@ -74,15 +74,13 @@ void write_matrix_of(CodeWriter& out, const std::string& name,
 
 }  // namespace
 
-void write_tableau(CodeWriter& out, const ScalarType& scalar, const RungeKutta& tableau) {
-  const Row b = values_of(tableau.b);
-  const Row c = values_of(tableau.c);
+void write_tableau(CodeWriter& out, const ScalarType& scalar, const StageTable& table,
+                   const std::vector<Expression>& nodes) {
+  const Row b = values_of(table.weight);
+  const Row c = values_of(nodes);
   const std::size_t s = b.size();
   Matrix coupling;
-  for (const auto& row : tableau.a) {
-    coupling.push_back(values_of(row));
-    for (std::size_t j = 0; j < s; ++j) coupling.back()[j] /= b[j];
-  }
+  for (const auto& row : table.coupling) coupling.push_back(values_of(row));
   std::vector<std::vector<std::string>> m(s, std::vector<std::string>(s));
   for (std::size_t i = 0; i < s; ++i) {
     m[i][i] = literal(Rational(1, 2), scalar);

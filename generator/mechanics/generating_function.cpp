@@ -210,7 +210,7 @@ std::vector<Candidate> candidates(const Expression& energy, const Chart& chart,
 // The Hessian is needed approximately only: that of K itself, of a shorter K, or of H.  The better
 // it is, the fewer evaluations Newton's iteration takes from an extrapolated start to round-off.
 struct HessianChoice {
-  int order = 2;
+  int order = 0;
   double evaluations = 0;  // per step, as seen on the shipped models
 };
 
@@ -226,15 +226,17 @@ long solve_cost(const SparseMatrix& hessian, int n) {
 
 // Sets the Hessian, and the operations, to the choice that costs least per step.
 void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
-                    const Candidate& candidate, const Row& z,
-                    const std::set<std::string>& varying) {
-  std::vector<HessianChoice> choices{{2, 4.0}, {function.order, 2.0}};
+                    const Candidate& candidate, const Row& z, const std::set<std::string>& varying,
+                    bool symmetric) {
+  // H is the K of order 1, and of order 2 where even powers of h vanish.
+  const int of_h = symmetric ? 2 : 1;
+  std::vector<HessianChoice> choices{{of_h, 4.0}, {function.order, 2.0}};
   if (function.order > 4) choices.push_back({4, 3.0});
   double least = 0;
   const Row slopes_only = function.gradient;
   for (const HessianChoice& choice : choices) {
     SparseMatrix hessian = mechanics.hessian;
-    if (choice.order > 2) {
+    if (choice.order > of_h) {
       // Many second derivatives of a long K are never the cheapest: do not even look at them.
       if (least > 0 && function.operations * static_cast<long>(z.size()) > 4 * kMostOperations)
         break;
@@ -291,7 +293,7 @@ std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, cons
   if (chosen->chart != &coordinates) {
     best.form += fmt::format(" in {} quadratic forms", chosen->chart->symbols.size());
   }
-  choose_hessian(best, mechanics, *chosen, z, varying);
+  choose_hessian(best, mechanics, *chosen, z, varying, is_odd(gauge));
   return best;
 }
 

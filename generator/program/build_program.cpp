@@ -41,6 +41,15 @@ void build_splitting(Program& program, const Mechanics& mechanics) {
   }
 }
 
+// J grad H from grad H = (H_q, H_p).
+Evaluation rotated(const Evaluation& gradient) {
+  Evaluation field{.statements = gradient.statements};
+  const auto middle = gradient.results.begin() + std::ssize(gradient.results) / 2;
+  field.results.assign(middle, gradient.results.end());
+  for (auto it = gradient.results.begin(); it != middle; ++it) field.results.push_back(-*it);
+  return field;
+}
+
 void build_hessian(Program& program, const Mechanics& mechanics) {
   std::vector<Expression> values;
   for (const auto& [place, value] : mechanics.hessian) {
@@ -70,7 +79,11 @@ Program build_program(const SolvePlan& plan) {
     program.energy = evaluate_together({mechanics.energy});
     program.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
                                                                  : mechanics.gradient);
+    if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
+      program.vector_field = rotated(program.gradient);
+    }
   }
+  program.sequence = sequence_of(plan.equations.scheme);
   std::vector<Expression> invariants;
   for (const NamedExpression& invariant : mechanics.invariants)
     invariants.push_back(invariant.value);

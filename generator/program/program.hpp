@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/program/sequence.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -68,6 +69,10 @@ struct Program {
   // Of a splitting: n results each, dV/dq and dT/dp.
   Evaluation potential_gradient = {};
   Evaluation kinetic_gradient = {};
+  // Of a Runge-Kutta method: J grad H, 2n results.
+  Evaluation vector_field = {};
+  // What stands around the instructions.
+  Sequence sequence = {};
   // Of an implicit Runge-Kutta method, and for tangent maps: the entries of the Hessian at
   // `hessian_places`, i <= j.
   Evaluation hessian = {};

@@ -16,7 +16,7 @@ void print(std::string& text, const std::vector<Statement>& statements, const ch
 }  // namespace
 
 std::string to_text(const Program& program) {
-  std::string text = "once per run:\n";
+  std::string text = to_text(program.sequence) + "once per run:\n";
   print(text, program.coefficients, "  ");
   for (const Stage& stage : program.stages) {
     text += "straight-line:\n";

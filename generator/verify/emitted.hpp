@@ -6,6 +6,7 @@
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
+#include "generator/verify/expected_step.hpp"
 #include "generator/verify/identities.hpp"
 
 namespace hamgen {
@@ -18,5 +19,14 @@ namespace hamgen {
 // up to H.
 [[nodiscard]] std::vector<Identities> kernel_identities(const Mechanics& mechanics,
                                                         const Expression& hamiltonian);
+
+// The substeps of a splitting or composition and the coefficients of a Runge-Kutta method, as they
+// are written.
+[[nodiscard]] Identities sequence_identities(const Scheme& scheme, const Sequence& sequence);
+
+// grad K and the Hessian that Newton's iteration takes: a gradient, and one whose step follows the
+// flow of H to its order, at random points.
+[[nodiscard]] Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,
+                                       const Member& member, const GeneratingFunction& function);
 
 }  // namespace hamgen

@@ -13,13 +13,17 @@
 
 namespace hamgen {
 
-// H differentiated anew, from its expression.
+// What stands for the derivatives of H in the step.
 class Derivatives {
  public:
+  // H differentiated anew, from its expression.
   explicit Derivatives(const Mechanics& mechanics);
+  // Those of K as they were derived; `decide_function` says if they are right.
+  explicit Derivatives(const GeneratingFunction& function);
   [[nodiscard]] const Expression& first(int i) const {
     return gradient_[static_cast<std::size_t>(i)];
   }
+  [[nodiscard]] const std::vector<Expression>& gradient() const { return gradient_; }
   [[nodiscard]] Expression second(int i, int j) const;
 
  private:

@@ -38,7 +38,10 @@ Precise power_of(const Precise& base, const Precise& exponent) {
   return cln::exp(exponent * cln::ln(base));
 }
 
-Precise function_of(const std::string& name, const std::vector<Precise>& x) {
+}  // namespace
+
+Precise precise_function(const std::string& name, const std::vector<Precise>& x) {
+  if (name == "pi") return cln::pi(kFormat);
   const Precise& a = x.front();
   const Precise one = precise(1);
   auto arc_tangent = [](const Precise& over, const Precise& under) {
@@ -74,8 +77,6 @@ Precise function_of(const std::string& name, const std::vector<Precise>& x) {
   internal_error("no precise value of the function " + name);
 }
 
-}  // namespace
-
 Precise precise(const Rational& value) {
   const cln::cl_I over(value.get_num().get_str().c_str());
   const cln::cl_I under(value.get_den().get_str().c_str());
@@ -103,7 +104,7 @@ std::optional<Precise> PreciseValues::operator()(const Expression& e) {
 
 Precise PreciseValues::symbol(const std::string& name) {
   if (const auto it = values_.find(name); it != values_.end()) return it->second;
-  if (name == "pi") return cln::pi(kFormat);
+  if (name == "pi") return precise_function(name, {});
   const auto definition = definitions_.find(name);
   if (definition == definitions_.end()) internal_error("no value of " + name);
   const Precise result = value(definition->second);
@@ -143,7 +144,7 @@ Precise PreciseValues::value(const Expression& e) {
         result = power_of(operands[0], operands[1]);
         break;
       case Kind::function:
-        result = function_of(e.name(), operands);
+        result = precise_function(e.name(), operands);
         break;
       case Kind::number:
       case Kind::symbol:

@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "generator/algebra/expression.hpp"
 
@@ -19,6 +20,10 @@ using Precise = cln::cl_F;
 
 [[nodiscard]] Precise precise(const Rational& value);
 [[nodiscard]] double to_double(const Precise& value);
+
+// The value of a function of the language, or of "pi" without arguments.  Throws std::domain_error
+// where there is none.
+[[nodiscard]] Precise precise_function(const std::string& name, const std::vector<Precise>& x);
 
 // A number from 1/4 to 7/4, the same in every process.
 [[nodiscard]] Precise random_precise(std::mt19937_64& source);

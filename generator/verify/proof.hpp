@@ -34,6 +34,8 @@ using Proof = std::vector<Finding>;
 [[nodiscard]] Finding prove_step_symplectic(const Member& member);
 [[nodiscard]] Finding prove_symmetric(const Member& member);
 [[nodiscard]] Finding prove_order(const Member& member);
+// A fixed number of sweeps in place of the solution: the order of M^T J M - J by its power series.
+[[nodiscard]] Finding prove_swept(const Mechanics& mechanics, const Member& member, int sweeps);
 // Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal
 // series, which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
 [[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);

@@ -3,23 +3,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <functional>
 #include <map>
-#include <numeric>
-#include <optional>
-#include <set>
-#include <stdexcept>
 
-#include "generator/equations/step_equations.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
-#include "generator/program/program.hpp"
-#include "generator/solvers/solve_plan.hpp"
 #include "generator/verify/proof.hpp"
+#include "tests/verify/mutants.hpp"
 
 namespace hamgen {
 namespace {
+
+using verify_test::computes_the_same;
+using verify_test::program_of;
 
 struct Case {
   std::string name;
@@ -35,13 +30,7 @@ Scheme scheme_of(const Case& c, int n) {
   return family_member(n, {{c.alpha}}, {{c.beta}}, {{c.gamma}});
 }
 
-Mechanics mechanics_of(const Case& c) {
-  return derive(read_model(make_source("case.ham", "system case\n" + c.text)));
-}
-
-Program program_of(const Mechanics& mechanics, const Scheme& scheme, const std::string& solver) {
-  return build_program(plan_solve(discretise(mechanics, scheme), solver));
-}
+Mechanics mechanics_of(const Case& c) { return verify_test::mechanics_of(c.text); }
 
 const std::string kPendulum =
     "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
@@ -83,209 +72,6 @@ std::vector<Case> cases() {
   };
 }
 
-// Every expression the program holds.
-void for_each_expression(Program& program, const std::function<void(Expression&)>& visit) {
-  auto statements = [&](std::vector<Statement>& list) {
-    for (Statement& s : list) visit(s.value);
-  };
-  auto expressions = [&](std::vector<Expression>& list) {
-    for (Expression& e : list) visit(e);
-  };
-  statements(program.coefficients);
-  for (Stage& stage : program.stages) {
-    statements(stage.before);
-    if (stage.solve) {
-      statements(stage.solve->body);
-      expressions(stage.solve->residual);
-      for (auto& row : stage.solve->matrix) expressions(row);
-      for (LoopVariable& v : stage.solve->variables) {
-        for (Expression* e : {&v.cold, &v.next, &v.correction}) visit(*e);
-      }
-    }
-    statements(stage.after);
-  }
-  expressions(program.increments);
-  for (Evaluation* evaluation : {&program.energy, &program.gradient, &program.invariants}) {
-    statements(evaluation->statements);
-    expressions(evaluation->results);
-  }
-}
-
-// An expression with one node changed: all ways of a kind.
-using Change = std::function<std::vector<Expression>(const Expression&)>;
-
-Expression rebuilt(const Expression& e, std::vector<Expression> operands) {
-  switch (e.kind()) {
-    case Kind::sum:
-      return Expression::sum(std::move(operands));
-    case Kind::product:
-      return Expression::product(std::move(operands));
-    case Kind::power:
-      return Expression::power(operands[0], operands[1]);
-    case Kind::function:
-      return Expression::apply(e.name(), std::move(operands));
-    default:
-      return e;
-  }
-}
-
-std::vector<Expression> changed_somewhere(const Expression& e, const Change& change) {
-  std::vector<Expression> result = change(e);
-  std::vector<Expression> operands(e.operands().begin(), e.operands().end());
-  for (std::size_t i = 0; i < operands.size(); ++i) {
-    const Expression kept = operands[i];
-    for (const Expression& other : changed_somewhere(kept, change)) {
-      operands[i] = other;
-      result.push_back(rebuilt(e, operands));
-    }
-    operands[i] = kept;
-  }
-  return result;
-}
-
-struct Mutation {
-  std::string name;
-  Change change;
-};
-
-std::string exchanged(std::string name) {
-  // x and px, q1 and p1 and the names made of them change places.
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == 'q') {
-      name[i] = 'p';
-    } else if (name[i] == 'p' && i + 1 < name.size() &&
-               (name[i + 1] == 'x' || name[i + 1] == 'y')) {
-      name.erase(i, 1);
-    } else if (name[i] == 'x' || name[i] == 'y') {
-      name.insert(i++, "p");
-    } else if (name[i] == 'p') {
-      name[i] = 'q';
-    }
-  }
-  return name;
-}
-
-std::vector<Mutation> mutations(const std::set<std::string>& known) {
-  using List = std::vector<Expression>;
-  return {
-      {"sign", [](const Expression& e) { return e.is_zero() ? List{} : List{-e}; }},
-      {"coefficient",
-       [](const Expression& e) {
-         return e.is_number() && !e.is_zero() ? List{e * number(1001, 1000)} : List{};
-       }},
-      {"dropped operand",
-       [](const Expression& e) {
-         List result;
-         if (e.kind() != Kind::sum && e.kind() != Kind::product) return result;
-         for (std::size_t i = 0; i < e.operands().size(); ++i) {
-           List rest(e.operands().begin(), e.operands().end());
-           rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-           result.push_back(rebuilt(e, rest));
-         }
-         return result;
-       }},
-      {"wrong power",
-       [](const Expression& e) {
-         if (e.kind() != Kind::power) return List{};
-         return List{Expression::power(e.operands()[0], e.operands()[1] + Expression(1))};
-       }},
-      {"q and p exchanged",
-       [known](const Expression& e) {
-         if (e.kind() != Kind::symbol) return List{};
-         const std::string other = exchanged(e.name());
-         return other != e.name() && known.contains(other) ? List{Expression::symbol(other)}
-                                                           : List{};
-       }},
-      {"another function",
-       [](const Expression& e) {
-         if (e.kind() != Kind::function) return List{};
-         return List{Expression::apply(e.name() == "sin" ? "cos" : "sin", {e.operands()[0]})};
-       }},
-  };
-}
-
-// The program's results in double at one point: an oracle that shares nothing with the proof. Empty
-// if a value is used before it is computed.
-class Interpreter {
- public:
-  std::optional<std::vector<double>> operator()(Program program) {
-    try {
-      run(program.coefficients);
-      for (const Stage& stage : program.stages) {
-        run(stage.before);
-        if (stage.solve) {
-          run(stage.solve->body);
-          for (const Expression& e : stage.solve->residual) results_.push_back(value(e));
-          for (const auto& row : stage.solve->matrix) {
-            for (const Expression& e : row) results_.push_back(value(e));
-          }
-          for (const LoopVariable& v : stage.solve->variables) {
-            for (const Expression& e : {v.cold, v.next, v.correction}) results_.push_back(value(e));
-          }
-        }
-        run(stage.after);
-      }
-      for (const Expression& e : program.increments) results_.push_back(value(e));
-      for (const Evaluation* e : {&program.energy, &program.gradient, &program.invariants}) {
-        run(e->statements);
-        for (const Expression& result : e->results) results_.push_back(value(result));
-      }
-    } catch (const std::out_of_range&) {
-      return std::nullopt;
-    }
-    return results_;
-  }
-
- private:
-  void run(const std::vector<Statement>& statements) {
-    for (const Statement& s : statements) pending_.insert(s.name);
-    for (const Statement& s : statements) {
-      values_[s.name] = value(s.value);
-      pending_.erase(s.name);
-    }
-  }
-  double symbol(const std::string& name) {
-    if (pending_.contains(name)) throw std::out_of_range(name);
-    // Free symbols: some number from 1/2 to 3/2 that depends on the name.
-    const double spread = static_cast<double>(std::hash<std::string>{}(name) % 1000) / 1000;
-    return values_.try_emplace(name, name == "h" ? 0.1 : 0.5 + spread).first->second;
-  }
-  double value(const Expression& e) {
-    std::vector<double> x;
-    for (const Expression& operand : e.operands()) x.push_back(value(operand));
-    switch (e.kind()) {
-      case Kind::number:
-        return e.number().get_d();
-      case Kind::symbol:
-        return symbol(e.name());
-      case Kind::sum:
-        return std::accumulate(x.begin(), x.end(), 0.0);
-      case Kind::product:
-        return std::accumulate(x.begin(), x.end(), 1.0, std::multiplies<>());
-      case Kind::power:
-        return std::pow(x[0], x[1]);
-      case Kind::function:
-        return e.name() == "sin" ? std::sin(x[0]) : std::cos(x[0]);
-    }
-    return 0;
-  }
-  std::map<std::string, double> values_;
-  std::set<std::string> pending_;
-  std::vector<double> results_;
-};
-
-bool computes_the_same(const Program& a, const Program& b) {
-  const auto of_a = Interpreter()(a);
-  const auto of_b = Interpreter()(b);
-  if (!of_a || !of_b) return false;
-  for (std::size_t i = 0; i < of_a->size(); ++i) {
-    // Rounding errors stay below 1e-12; a mutation moves a value by at least 1e-3 of one of its
-    // terms.
-    if (!(std::abs((*of_a)[i] - (*of_b)[i]) <= 1e-12 * (1 + std::abs((*of_a)[i])))) return false;
-  }
-  return true;
-}
-
 TEST(EmittedCode, IsTheMathematicsForEverySolver) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
@@ -306,50 +92,20 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
     const Mechanics mechanics = mechanics_of(c);
     const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
     const Program original = program_of(mechanics, scheme, c.solver);
-    std::set<std::string> known;
-    int places = 0;
-    Program copy = original;
-    for_each_expression(copy, [&](Expression& e) {
-      collect_symbols(e, known);
-      ++places;
-    });
     int of_case = 0;
-    int kind = 0;
-    for (const Mutation& mutation : mutations(known)) {
-      ++kind;
-      for (int place = 0; place < places; ++place) {
-        int now = 0;
-        std::vector<Expression> variants;
-        for_each_expression(copy, [&](Expression& e) {
-          if (now++ == place) variants = changed_somewhere(e, mutation.change);
-        });
-        // A handful of places, spread over the program, keeps the test short.
-        if (variants.empty() || (place + kind) % (1 + places / 12) != 0) continue;
-        for (std::size_t v = 0; v < variants.size(); v += 1 + variants.size() / 2) {
-          Program mutant = original;
-          now = 0;
-          Expression before;
-          for_each_expression(mutant, [&](Expression& e) {
-            if (now++ != place) return;
-            before = e;
-            e = variants[v];
-          });
-          if (before == variants[v]) continue;
-          const Finding finding = prove_emitted(mechanics, scheme, mutant, mechanics.energy);
-          if (computes_the_same(original, mutant)) {
-            EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << to_text(before);
-            ++equivalent;
-            continue;
-          }
-          EXPECT_EQ(finding.verdict, Verdict::refuted)
-              << c.name << ", " << mutation.name << ": " << to_text(before) << " -> "
-              << to_text(variants[v]) << "\n"
-              << finding.detail;
-          ++mutants;
-          ++of_case;
-          ++by_kind[mutation.name];
-        }
+    for (const verify_test::Mutant& mutant : verify_test::mutants_of(original)) {
+      const Finding finding = prove_emitted(mechanics, scheme, mutant.program, mechanics.energy);
+      if (computes_the_same(original, mutant.program)) {
+        EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << mutant.description;
+        ++equivalent;
+        continue;
       }
+      EXPECT_EQ(finding.verdict, Verdict::refuted)
+          << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+          << finding.detail;
+      ++mutants;
+      ++of_case;
+      ++by_kind[mutant.kind];
     }
     EXPECT_GE(of_case, 8) << c.name;
   }

@@ -1,0 +1,90 @@
+#include "generator/program/sequence.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+namespace {
+
+// Kicks and drifts in turn, until both are used up.
+std::vector<Substep> substeps_of(const Splitting& splitting) {
+  std::vector<Substep> result;
+  const std::size_t count = splitting.kicks.size() + splitting.drifts.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((i % 2 == 0) == splitting.kick_first) {
+      result.push_back({SubstepKind::kick, splitting.kicks.at(i / 2)});
+    } else {
+      result.push_back({SubstepKind::drift, splitting.drifts.at(i / 2)});
+    }
+  }
+  return result;
+}
+
+// Note [coupling of implicit stages]
+// The increments k_j = h b_j f_j are what an implicit step adds up, so its stages are coupled by
+// a_ij / b_j: in these the condition of symplecticity is coupling_ij + coupling_ji = 1, which a
+// format can keep exactly in rounded numbers.
+StageTable table_of(const RungeKutta& tableau) {
+  StageTable table{.coupling = tableau.a, .weight = tableau.b};
+  if (tableau.is_explicit()) return table;
+  for (auto& row : table.coupling) {
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = row[j] / tableau.b[j];
+  }
+  return table;
+}
+
+std::string joined(const std::vector<Expression>& values) {
+  std::string text;
+  for (const Expression& e : values) text += (text.empty() ? "" : ", ") + to_text(e);
+  return text;
+}
+
+const char* to_text(SubstepKind kind) {
+  switch (kind) {
+    case SubstepKind::kick:
+      return "kick";
+    case SubstepKind::drift:
+      return "drift";
+    case SubstepKind::member:
+      return "step";
+  }
+  return "";
+}
+
+}  // namespace
+
+Sequence sequence_of(const Scheme& scheme) {
+  Sequence sequence;
+  if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
+    sequence.substeps = substeps_of(*splitting);
+  } else if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    for (const Expression& length : composition->substeps) {
+      sequence.substeps.push_back({SubstepKind::member, length});
+    }
+  } else if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
+    sequence.stages = table_of(*tableau);
+  }
+  return sequence;
+}
+
+std::vector<Expression> lengths_of(const Sequence& sequence, SubstepKind kind) {
+  std::vector<Expression> lengths;
+  for (const Substep& substep : sequence.substeps) {
+    if (substep.kind == kind) lengths.push_back(substep.length);
+  }
+  return lengths;
+}
+
+std::string to_text(const Sequence& sequence) {
+  std::string text;
+  for (const Substep& substep : sequence.substeps) {
+    text += fmt::format("{} {}\n", to_text(substep.kind), to_text(substep.length));
+  }
+  for (std::size_t i = 0; i < sequence.stages.coupling.size(); ++i) {
+    text += fmt::format("coupling {}: {}\n", i + 1, joined(sequence.stages.coupling[i]));
+  }
+  if (!sequence.stages.weight.empty()) text += "weight: " + joined(sequence.stages.weight) + "\n";
+  return text;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,235 @@
+#include "generator/verify/power_series.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+Precise coefficient(const PowerSeries& a, std::size_t k) {
+  return k < a.size() ? a[k] : precise(0);
+}
+
+PowerSeries operator+(const PowerSeries& a, const PowerSeries& b) {
+  PowerSeries result = a.size() < b.size() ? b : a;
+  const PowerSeries& shorter = a.size() < b.size() ? a : b;
+  for (std::size_t k = 0; k < shorter.size(); ++k) result[k] = result[k] + shorter[k];
+  return result;
+}
+
+PowerSeries operator-(const PowerSeries& a) {
+  PowerSeries result;
+  for (const Precise& x : a) result.push_back(-x);
+  return result;
+}
+
+PowerSeries operator-(const PowerSeries& a, const PowerSeries& b) { return a + (-b); }
+
+PowerSeries operator*(const Precise& a, const PowerSeries& b) {
+  PowerSeries result;
+  for (const Precise& x : b) result.push_back(a * x);
+  return result;
+}
+
+PowerSeries product(const PowerSeries& a, const PowerSeries& b, std::size_t length) {
+  if (a.empty() || b.empty()) return {};
+  PowerSeries result(std::min(a.size() + b.size() - 1, length), precise(0));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size() && i + j < result.size(); ++j) {
+      result[i + j] = result[i + j] + a[i] * b[j];
+    }
+  }
+  return result;
+}
+
+namespace {
+
+Precise whole(std::size_t k) { return precise(Rational(static_cast<unsigned long>(k))); }
+
+// How far a function of these arguments has terms: a function of constants is a constant.
+std::size_t extent(const std::vector<PowerSeries>& x, std::size_t length) {
+  return std::ranges::all_of(x, [](const PowerSeries& a) { return a.size() <= 1; }) ? 1 : length;
+}
+
+// w = u^c with  k u_0 w_k = sum over j = 1..k of (c j - (k - j)) u_j w_(k - j).
+PowerSeries power(const PowerSeries& u, const Precise& c, const Precise& start,
+                  std::size_t length) {
+  PowerSeries w{start};
+  for (std::size_t k = 1; k < extent({u}, length); ++k) {
+    Precise sum = precise(0);
+    for (std::size_t j = 1; j <= std::min(k, u.size() - 1); ++j) {
+      sum = sum + (c * whole(j) - whole(k - j)) * u[j] * w[k - j];
+    }
+    w.push_back(sum / (whole(k) * u[0]));
+  }
+  return w;
+}
+
+PowerSeries integer_power(const PowerSeries& u, long n, std::size_t length) {
+  PowerSeries result{precise(1)};
+  for (long k = 0; k < n; ++k) result = product(result, u, length);
+  return result;
+}
+
+PowerSeries reciprocal(const PowerSeries& u, std::size_t length) {
+  const Precise first = coefficient(u, 0);
+  if (cln::zerop(first)) throw std::domain_error("a pole");
+  return power(u, precise(-1), cln::recip(first), length);
+}
+
+// start + the integral of u' g.
+PowerSeries integral(const Precise& start, const PowerSeries& u, const PowerSeries& g,
+                     std::size_t length) {
+  PowerSeries w{start};
+  for (std::size_t k = 1; k < extent({u, g}, length); ++k) {
+    Precise sum = precise(0);
+    for (std::size_t j = 1; j <= std::min(k, u.size() - 1); ++j) {
+      sum = sum + whole(j) * u[j] * coefficient(g, k - j);
+    }
+    w.push_back(sum / whole(k));
+  }
+  return w;
+}
+
+// e' = u' e of the exponential function, and of two functions that are each other's derivative, the
+// second's with a sign.
+std::pair<PowerSeries, PowerSeries> coupled(const PowerSeries& u, const Precise& first,
+                                            const Precise& second, int sign, std::size_t length) {
+  PowerSeries a{first};
+  PowerSeries b{second};
+  for (std::size_t k = 1; k < extent({u}, length); ++k) {
+    Precise of_a = precise(0);
+    Precise of_b = precise(0);
+    for (std::size_t j = 1; j <= std::min(k, u.size() - 1); ++j) {
+      const Precise slope = whole(j) * u[j];
+      of_a = of_a + slope * b[k - j];
+      of_b = of_b + slope * a[k - j];
+    }
+    a.push_back(of_a / whole(k));
+    b.push_back((sign < 0 ? -of_b : of_b) / whole(k));
+  }
+  return {a, b};
+}
+
+PowerSeries apply(const std::string& name, const std::vector<PowerSeries>& x, std::size_t length) {
+  std::vector<Precise> first;
+  for (const PowerSeries& a : x) first.push_back(coefficient(a, 0));
+  auto at = [&](const char* function) { return precise_function(function, first); };
+  const PowerSeries& u = x[0];
+  const PowerSeries one{precise(1)};
+  auto square = [&](const PowerSeries& a) { return product(a, a, length); };
+  // The integral of u' (a + b u^2)^c.
+  auto arc = [&](int a, int b, const Rational& c) {
+    const PowerSeries base = precise(a) * one + precise(b) * square(u);
+    const Precise exponent = precise(c);
+    const Precise start =
+        c == -1 ? cln::recip(base[0]) : cln::recip(precise_function("sqrt", {base[0]}));
+    return integral(at(name.c_str()), u, power(base, exponent, start, length), length);
+  };
+  if (name == "exp") return coupled(u, at("exp"), at("exp"), 1, length).first;
+  if (name == "sin") return coupled(u, at("sin"), at("cos"), -1, length).first;
+  if (name == "cos") return coupled(u, at("sin"), at("cos"), -1, length).second;
+  if (name == "sinh") return coupled(u, at("sinh"), at("cosh"), 1, length).first;
+  if (name == "cosh") return coupled(u, at("sinh"), at("cosh"), 1, length).second;
+  if (name == "tan" || name == "tanh") {
+    const bool circular = name == "tan";
+    const auto [over, under] = coupled(u, at(circular ? "sin" : "sinh"),
+                                       at(circular ? "cos" : "cosh"), circular ? -1 : 1, length);
+    return product(over, reciprocal(under, length), length);
+  }
+  if (name == "log") return integral(at("log"), u, reciprocal(u, length), length);
+  if (name == "sqrt") return power(u, precise(Rational(1, 2)), at("sqrt"), length);
+  if (name == "abs") return cln::minusp(first[0]) ? -u : u;
+  if (name == "atan") return arc(1, 1, -1);
+  if (name == "atanh") return arc(1, -1, -1);
+  if (name == "asin") return arc(1, -1, Rational(-1, 2));
+  if (name == "asinh") return arc(1, 1, Rational(-1, 2));
+  if (name == "acosh") return arc(-1, 1, Rational(-1, 2));
+  if (name == "acos") {
+    return integral(
+        at("acos"), -u,
+        power(one - square(u), precise(Rational(-1, 2)),
+              cln::recip(precise_function("sqrt", {precise(1) - first[0] * first[0]})), length),
+        length);
+  }
+  if (name == "atan2") {
+    // (x y' - y x')/(x^2 + y^2)
+    const PowerSeries over_square = reciprocal(square(x[0]) + square(x[1]), length);
+    const PowerSeries of_y =
+        integral(at("atan2"), x[0], product(x[1], over_square, length), length);
+    return of_y - integral(precise(0), x[1], product(x[0], over_square, length), length);
+  }
+  internal_error("no power series of the function " + name);
+}
+
+}  // namespace
+
+std::optional<PowerSeries> SeriesValues::operator()(const Expression& e) {
+  try {
+    return value(e);
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  } catch (const cln::runtime_exception&) {  // overflow
+    return std::nullopt;
+  }
+}
+
+const PowerSeries& SeriesValues::value(const Expression& e) {
+  const auto it = done_.find(e.identity());
+  if (it != done_.end()) return it->second;
+  kept_.push_back(e);
+  PowerSeries result = computed(e);
+  return done_.emplace(e.identity(), std::move(result)).first->second;
+}
+
+PowerSeries SeriesValues::computed(const Expression& e) {
+  const auto operands = e.operands();
+  switch (e.kind()) {
+    case Kind::number:
+      return {precise(e.number())};
+    case Kind::symbol: {
+      const auto it = symbols_.find(e.name());
+      if (it != symbols_.end()) return it->second;
+      if (e.name() != "pi") internal_error("no value of " + e.name());
+      return {precise_function("pi", {})};
+    }
+    case Kind::sum: {
+      PowerSeries sum = value(operands[0]);
+      for (std::size_t i = 1; i < operands.size(); ++i) sum = sum + value(operands[i]);
+      return sum;
+    }
+    case Kind::product: {
+      PowerSeries result = value(operands[0]);
+      for (std::size_t i = 1; i < operands.size(); ++i) {
+        result = product(result, value(operands[i]), length_);
+      }
+      return result;
+    }
+    case Kind::power:
+      return power_of(value(operands[0]), operands[1]);
+    case Kind::function:
+      break;
+  }
+  std::vector<PowerSeries> x;
+  for (const Expression& operand : operands) x.push_back(value(operand));
+  return apply(e.name(), x, length_);
+}
+
+PowerSeries SeriesValues::power_of(const PowerSeries& base, const Expression& exponent) {
+  const Precise first = coefficient(base, 0);
+  if (exponent.is_number() && exponent.number().get_den() <= 2 &&
+      exponent.number().get_num().fits_slong_p()) {
+    const bool integer = exponent.number().get_den() == 1;
+    const long over = exponent.number().get_num().get_si();
+    if (integer && over >= 0) return integer_power(base, over, length_);
+    if (cln::zerop(first)) throw std::domain_error("a pole");
+    const Precise root = integer ? first : precise_function("sqrt", {first});
+    const Precise size = integer_power({root}, over < 0 ? -over : over, 1)[0];
+    const Precise start = over < 0 ? cln::recip(size) : size;
+    return power(base, precise(exponent.number()), start, length_);
+  }
+  return apply("exp", {product(value(exponent), apply("log", {base}, length_), length_)}, length_);
+}
+
+}  // namespace hamgen

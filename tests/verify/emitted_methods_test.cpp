@@ -1,0 +1,200 @@
+// The proof that the emitted code is the mathematics, for what is not a single member of its own
+// order: splittings, compositions, Runge-Kutta methods, and members with K in place of H.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "generator/equations/step_equations.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "generator/verify/proof.hpp"
+#include "tests/verify/mutants.hpp"
+
+namespace hamgen::verify_test {
+namespace {
+
+const std::string kPendulum =
+    "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
+const std::string kHenonHeiles =
+    "coordinate q1, q2\nmomentum p1, p2\n"
+    "H = (p1^2 + p2^2)/2 + (q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3\n";
+const std::string kKepler =
+    "coordinate x, y\nmomentum px, py\nparameter mu = 1\nH = (px^2 + py^2)/2 - mu/sqrt(x^2 + "
+    "y^2)\n";
+const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
+
+Expression number(long over, long under) { return Expression(Rational(over, under)); }
+
+Scheme member(int n, const Expression& alpha, const Expression& beta, const Expression& gamma) {
+  return family_member(n, {{alpha}}, {{beta}}, {{gamma}});
+}
+
+Scheme named(const std::string& name, const Mechanics& mechanics) {
+  const Scheme& scheme = *find_scheme(name);
+  if (std::holds_alternative<Composition>(scheme.method)) {
+    return compose(
+        scheme, member(mechanics.degrees_of_freedom, number(1, 2), Expression(0), Expression(0)));
+  }
+  return for_system(scheme, mechanics);
+}
+
+struct Case {
+  std::string name;
+  std::string text;
+  int order = 0;  // of K, with the gauge 3/10, 1/5, -1/10 if it is odd
+  std::string solver = "";
+};
+
+Scheme scheme_of(const Case& c, const Mechanics& mechanics) {
+  if (c.order == 0) return named(c.name, mechanics);
+  const bool midpoint = c.order % 2 == 0;
+  return raise_order(
+      midpoint ? member(mechanics.degrees_of_freedom, number(1, 2), Expression(0), Expression(0))
+               : member(mechanics.degrees_of_freedom, number(3, 10), number(1, 5), number(-1, 10)),
+      c.order);
+}
+
+std::vector<Case> cases() {
+  return {
+      {"stormer-verlet", kPendulum},
+      {"ruth-3", kHenonHeiles},
+      {"saba-2", kKepler},
+      {"yoshida-4", kKepler},
+      {"suzuki-4", kProduct},
+      {"gauss-4", kHenonHeiles},
+      {"gauss-6", kProduct, 0, "fixed-point"},
+      {"rk4", kKepler},
+      {"order 4, midpoint", kPendulum, 4},
+      {"order 6, midpoint", kKepler, 6},
+      {"order 4, midpoint, nothing torn", kProduct, 4},
+      {"order 3, general member", kHenonHeiles, 3},
+  };
+}
+
+// Of a K nothing is more than tested: that it is the generating function of the flow is no
+// polynomial identity.
+Verdict expected_verdict(const Case& c) { return c.order == 0 ? Verdict::proved : Verdict::tested; }
+
+TEST(EmittedMethods, AreTheMathematics) {
+  for (const Case& c : cases()) {
+    const Mechanics mechanics = mechanics_of(c.text);
+    const Scheme scheme = scheme_of(c, mechanics);
+    const Program program = program_of(mechanics, scheme, c.solver);
+    const Finding finding = prove_emitted(mechanics, scheme, program, mechanics.energy);
+    EXPECT_EQ(finding.verdict, expected_verdict(c)) << c.name << ": " << finding.detail;
+    if (c.order > 0) {
+      EXPECT_NE(finding.detail.find("at 200 points to 1e-30"), std::string::npos) << finding.detail;
+    }
+  }
+}
+
+TEST(EmittedMethods, EveryMutationIsRefuted) {
+  int equivalent = 0;
+  int total = 0;
+  std::map<std::string, int> by_kind;
+  for (const Case& c : cases()) {
+    const Mechanics mechanics = mechanics_of(c.text);
+    const Scheme scheme = scheme_of(c, mechanics);
+    const Program original = program_of(mechanics, scheme, c.solver);
+    std::vector<Mutant> mutants = mutants_of(original);
+    for (Mutant& mutant : mutants_of_sequence(original)) mutants.push_back(std::move(mutant));
+    int of_case = 0;
+    for (const Mutant& mutant : mutants) {
+      if (computes_the_same(original, mutant.program)) {
+        ++equivalent;
+        continue;
+      }
+      const Finding finding = prove_emitted(mechanics, scheme, mutant.program, mechanics.energy);
+      EXPECT_EQ(finding.verdict, Verdict::refuted)
+          << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+          << finding.detail;
+      ++of_case;
+      ++by_kind[mutant.kind];
+    }
+    EXPECT_GE(of_case, 8) << c.name;
+    total += of_case;
+  }
+  std::string counts;
+  for (const auto& [name, count] : by_kind) counts += fmt::format(", {} {}", count, name);
+  fmt::print("{} mutants{}; {} others compute the same\n", total, counts, equivalent);
+  EXPECT_GE(total, 300);
+  EXPECT_EQ(by_kind.size(), 13U);
+}
+
+// The program is built from the wrong K and agrees with it: only the flow can tell.
+TEST(EmittedMethods, AWrongGeneratingFunctionIsRefuted) {
+  const Expression h = Expression::symbol("h", kRankOfStep);
+  for (const Case& c : cases()) {
+    if (c.order == 0) continue;
+    const Mechanics mechanics = mechanics_of(c.text);
+    const Scheme scheme = scheme_of(c, mechanics);
+    const StepEquations good = discretise(mechanics, scheme);
+    auto refuted = [&](const std::string& what, auto alter) {
+      StepEquations wrong = good;
+      alter(*wrong.function);
+      wrong.mechanics.gradient = wrong.function->gradient;
+      wrong.mechanics.hessian = wrong.function->hessian;
+      const Program program = build_program(plan_solve(wrong, ""));
+      const Finding finding = prove_emitted(mechanics, scheme, program, mechanics.energy);
+      EXPECT_EQ(finding.verdict, Verdict::refuted) << c.name << ", " << what;
+      return finding.detail;
+    };
+    // A term of the highest power of h, a part in 1e12 of the gradient.
+    const Expression last = Expression::power(h, Expression(c.order - 1));
+    EXPECT_NE(refuted("last power",
+                      [&](GeneratingFunction& k) {
+                        k.gradient[0] +=
+                            Expression(Rational(1, 1000000000000)) * last * mechanics.variable(0);
+                      })
+                  .find(fmt::format("the term in h^{} of the step", c.order)),
+              std::string::npos);
+    // Beyond the order anything goes, but it must be a gradient.
+    EXPECT_NE(refuted("not a gradient",
+                      [&](GeneratingFunction& k) {
+                        k.gradient[0] += last * h * mechanics.variable(0) *
+                                         mechanics.variable(mechanics.degrees_of_freedom);
+                      })
+                  .find("symmetric"),
+              std::string::npos);
+    EXPECT_NE(refuted("Hessian",
+                      [&](GeneratingFunction& k) {
+                        k.hessian.begin()->second = k.hessian.begin()->second * number(1001, 1000);
+                      })
+                  .find("the Hessian of K"),
+              std::string::npos);
+  }
+}
+
+Finding swept(const std::string& text, int sweeps, const Expression& alpha) {
+  const Mechanics mechanics = mechanics_of(text);
+  return prove_swept(
+      mechanics, member(mechanics.degrees_of_freedom, alpha, Expression(0), Expression(0)).member(),
+      sweeps);
+}
+
+// Each sweep wins a power of h from h^2 of the predictor on: K + 2, unless it cancels.
+TEST(Sweeps, AreRefutedWithTheOrderOfTheirDefect) {
+  for (int sweeps = 1; sweeps <= 4; ++sweeps) {
+    for (const std::string& text : {kPendulum, kKepler, kProduct}) {
+      const Finding finding = swept(text, sweeps, number(1, 2));
+      EXPECT_EQ(finding.verdict, Verdict::refuted);
+      EXPECT_NE(finding.detail.find(fmt::format("is O(h^{}), by its power series", sweeps + 2)),
+                std::string::npos)
+          << finding.detail;
+    }
+  }
+  // In a spring the error begins with a multiple of (J S)^(K + 2), which for odd K is itself
+  // Hamiltonian and does no harm.
+  const std::string spring = "coordinate q\nmomentum p\nH = p^2/2 + q^2\n";
+  EXPECT_NE(swept(spring, 1, number(1, 2)).detail.find("O(h^4)"), std::string::npos);
+  EXPECT_NE(swept(spring, 2, number(1, 2)).detail.find("O(h^4)"), std::string::npos);
+}
+
+TEST(Sweeps, ThatSolveTheEquationsAreNotRefuted) {
+  // alpha = 0, separable: P depends on q alone, and one sweep has it.
+  EXPECT_EQ(swept(kPendulum, 1, Expression(0)).verdict, Verdict::tested);
+  EXPECT_EQ(swept(kProduct, 1, Expression(0)).verdict, Verdict::refuted);
+}
+
+}  // namespace
+}  // namespace hamgen::verify_test
