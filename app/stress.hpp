@@ -63,12 +63,6 @@ void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
                                                         const std::vector<double>& parameters,
                                                         const std::vector<double>& state);
 
-// A member (alpha, beta, gamma) of the family on H = p^2/2 + omega^2 q^2/2: the powers of its
-// matrix are bounded iff this is positive.  With X = (1 + h beta)(1 - h omega^2 gamma) and D = X +
-// h^2 omega^2 alpha (1 - alpha) it is the smaller of D and X - h^2 omega^2 (alpha - 1/2)^2.
-[[nodiscard]] double linear_margin(double h, double omega_squared, double alpha, double beta,
-                                   double gamma);
-
 struct StressAxis {
   std::string label;  // "h", "k", "beta"
   bool logarithmic = false;

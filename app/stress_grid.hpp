@@ -39,8 +39,9 @@ class StressGrid {
   // Empty if H or its gradient is not defined at the initial state.
   [[nodiscard]] std::optional<runtime::InitialValues> start_at(const std::vector<double>& at) const;
 
-  // h omega of the fastest linear oscillation and its margin, see linear_margin; empty where there
-  // is no oscillation, or the method is no member with the same numbers for all degrees of freedom.
+  // h omega of the fastest linear oscillation and its margin, see
+  // generator/verify/linear_stability.hpp; empty where there is no oscillation, or the method is no
+  // member with the same numbers for all degrees of freedom.
   struct Linear {
     double h_omega = 0.0;
     double margin = 0.0;

@@ -80,11 +80,4 @@ std::optional<double> fastest_oscillation(const runtime::Library& library,
   return std::nullopt;
 }
 
-double linear_margin(double h, double omega_squared, double alpha, double beta, double gamma) {
-  const double x = (1.0 + h * beta) * (1.0 - h * omega_squared * gamma);
-  const double square = h * h * omega_squared;
-  const double d = x + square * alpha * (1.0 - alpha);
-  return std::min(d, x - square * (alpha - 0.5) * (alpha - 0.5));
-}
-
 }  // namespace hamgen::app

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
+#include "app/initial_data.hpp"
 #include "app/measure.hpp"
 #include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
@@ -20,6 +21,42 @@ struct VerifyOptions {
   bool json = false;
 };
 
+nlohmann::ordered_json json_of(const LinearPoint& point) {
+  const LinearStability& found = point.stability;
+  const auto number = [](const std::optional<double>& x) {
+    return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json resonant = nlohmann::ordered_json::object();
+  for (const auto& [m, h] : found.resonant_h) resonant[std::to_string(m)] = h;
+  return {{"property", "linear stability"},
+          {"place", point.place},
+          {"verdict", to_text(found.verdict)},
+          {"h", found.h},
+          {"frequencies", found.frequencies},
+          {"free_motions", found.free_motions},
+          {"growing", found.growing},
+          {"growth_rate", found.growth_rate},
+          {"margin", number(found.margin)},
+          {"bounded_for_every_h", found.bounded_for_every_h},
+          {"largest_h", number(found.largest_h)},
+          {"angles", found.angles},
+          {"resonant_h", resonant},
+          {"iteration_radius", number(found.iteration_radius)}};
+}
+
+// Of the scene's state, or of the first scene if none is named; nothing without h.
+std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
+                                     const ModifiedOptions& options) {
+  if (request.solver.starts_with("sweeps")) return {};  // the step they leave is another
+  const Model model = read_request(source, request);
+  SceneRequest wanted{.scene = options.scene};
+  if (!options.h.empty()) wanted.h = options.h;
+  const SceneValues scene = scene_values(model, wanted);
+  if (!scene.h) return {};
+  take_gauge_at(scene, model, request);
+  return linear_points(source, request, scene);
+}
+
 int verify(const VerifyOptions& options) {
   const SourceText source = read_model_source(options.method);
   const Request request = request_with_sizes(options.method, source);
@@ -32,6 +69,10 @@ int verify(const VerifyOptions& options) {
       proof.push_back(std::move(finding));
     }
   }
+  const std::vector<LinearPoint> linear = linear_part(source, request, options.modified);
+  for (const LinearPoint& point : linear) {
+    for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
+  }
   bool holds = true;
   const bool by_default = options.required.empty();
   auto rows = nlohmann::ordered_json::array();
@@ -43,6 +84,7 @@ int verify(const VerifyOptions& options) {
         finding.property == "emitted code" || (by_default && finding.property == "symplectic");
     if (needed && finding.verdict == Verdict::refuted) holds = false;
   }
+  for (const LinearPoint& point : linear) rows.push_back(json_of(point));
   std::string text = to_text(proof);
   if (!options.modified.terms.empty()) {
     const ModifiedReport report = modified_report(source, request, options.modified);

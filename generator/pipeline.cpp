@@ -309,6 +309,22 @@ std::vector<Expression> modified_hamiltonian(const SourceText& source, const Req
   return modified_terms(mechanics, choose_scheme(model, mechanics, request), count);
 }
 
+std::vector<LinearPoint> linear_points(const SourceText& source, const Request& request,
+                                       const SceneValues& scene) {
+  const Model model = read_request(source, request);
+  const Mechanics mechanics = derive(model, false);
+  std::map<std::string, Rational> point;
+  const auto add = [&point](const std::vector<std::string>& names,
+                            const std::vector<Rational>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) point[names[i]] = values[i];
+  };
+  add(element_names(model.coordinates), scene.q);
+  add(element_names(model.momenta), scene.p);
+  add(element_names(model.parameters), scene.parameters);
+  return linear_points(mechanics, choose_scheme(model, mechanics, request), point,
+                       to_double(scene.h.value()));
+}
+
 Proof verify_step(const SourceText& source, const Request& request) {
   return prove(run_stages(source, request));
 }

@@ -11,6 +11,8 @@
 #include "generator/base/source_text.hpp"
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
+#include "generator/language/scene.hpp"
+#include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
 
 namespace hamgen {
@@ -61,6 +63,12 @@ struct Request {
 // do not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.
 [[nodiscard]] std::vector<Expression> modified_hamiltonian(const SourceText& source,
                                                            const Request& request, int count);
+
+// The linear part of H at the scene's initial state, and at the origin where that is an
+// equilibrium, and what a step of the scene's h makes of it.
+[[nodiscard]] std::vector<LinearPoint> linear_points(const SourceText& source,
+                                                     const Request& request,
+                                                     const SceneValues& scene);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {

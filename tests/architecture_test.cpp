@@ -75,6 +75,10 @@ const std::vector<Rule>& rules() {
        {"generator/verify/", "generator/program/", "generator/equations/", "generator/schemes/",
         "generator/mechanics/", "generator/language/", "generator/algebra/", "generator/base/"},
        {fmt, ginac}},
+      // Eigenvalues of the linear part.
+      {"generator/verify/linear_",
+       {"generator/verify/", "generator/schemes/", "generator/mechanics/", "generator/algebra/"},
+       {fmt, eigen}},
       {"generator/", {"generator/"}, {fmt}},
       {"runtime/", {"runtime/"}, {fmt, system}},
       {"app/", {"app/", "generator/", "runtime/"}, {fmt, system, other}},

@@ -11,8 +11,9 @@
 
 namespace hamgen {
 
-// `tested`: no counterexample at many random points, which is less than a proof.
-enum class Verdict { proved, tested, refuted, not_decided };
+// `tested`: no counterexample at many random points, which is less than a proof.  `measured`: a
+// number, without a claim.
+enum class Verdict { proved, tested, refuted, not_decided, measured };
 
 struct Finding {
   std::string property;  // "symplectic"

@@ -73,6 +73,8 @@ std::string to_text(Verdict verdict) {
       return "refuted";
     case Verdict::not_decided:
       return "not decided";
+    case Verdict::measured:
+      return "measured";
   }
   return "";
 }

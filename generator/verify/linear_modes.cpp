@@ -1,0 +1,124 @@
+#include "generator/verify/linear_modes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "generator/verify/linear_eigenvalues.hpp"
+#include "generator/verify/linear_step.hpp"
+
+namespace hamgen {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool is_separable(const MatrixXd& s) {
+  const Eigen::Index n = s.rows() / 2;
+  return s.topRightCorner(n, n).isZero(0.0);
+}
+
+MatrixXd potential(const MatrixXd& s) { return s.topLeftCorner(s.rows() / 2, s.rows() / 2); }
+MatrixXd kinetic(const MatrixXd& s) { return s.bottomRightCorner(s.rows() / 2, s.rows() / 2); }
+
+Matrix2d plane(double v, double t) { return VectorXd{{v, t}}.asDiagonal(); }
+
+// The eigenvalues of L^T V L with T = L L^T; empty if T is not positive definite.
+std::optional<VectorXd> squared_frequencies(const MatrixXd& s) {
+  const Eigen::LLT<MatrixXd> cholesky(kinetic(s));
+  if (cholesky.info() != Eigen::Success) return std::nullopt;
+  const MatrixXd l = cholesky.matrixL();
+  return VectorXd(Eigen::SelfAdjointEigenSolver<MatrixXd>(
+                      MatrixXd(l.transpose() * potential(s) * l), Eigen::EigenvaluesOnly)
+                      .eigenvalues());
+}
+
+// V and T in a common orthonormal basis, if they commute.
+std::optional<std::vector<Matrix2d>> common_planes(const MatrixXd& s) {
+  const MatrixXd v = potential(s);
+  const MatrixXd t = kinetic(s);
+  const double size = v.norm() * t.norm();
+  if ((v * t - t * v).norm() > 1e-14 * size) return std::nullopt;
+  // The basis of a combination whose weight no accident makes degenerate.
+  const double weight = t.norm() > 0.0 ? 0.618034 * v.norm() / t.norm() : 0.0;
+  const MatrixXd basis =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(v + weight * t)).eigenvectors();
+  const MatrixXd v_there = basis.transpose() * v * basis;
+  const MatrixXd t_there = basis.transpose() * t * basis;
+  std::vector<Matrix2d> planes;
+  for (Eigen::Index k = 0; k < v.rows(); ++k) planes.push_back(plane(v_there(k, k), t_there(k, k)));
+  return planes;
+}
+
+}  // namespace
+
+LinearSpectrum linear_spectrum(const MatrixXd& s) {
+  const Eigen::Index n = s.rows() / 2;
+  std::vector<std::complex<double>> squares;  // of eigenvalues
+  double zero = 1e-13;  // relative to the largest; a symmetric problem has n rounding errors
+  const auto positive = is_separable(s) ? squared_frequencies(s) : std::nullopt;
+  if (positive) {
+    for (const double square : *positive) squares.emplace_back(-square);
+  } else {
+    zero = 1e-10;
+    const MatrixXd a = linear_flow(s);
+    squares = eigenvalues(a * a);
+    // Each is there twice.
+    std::ranges::sort(squares, {}, [](const auto& x) { return std::pair(x.real(), x.imag()); });
+    std::vector<std::complex<double>> half;
+    for (std::size_t k = 0; k < squares.size(); k += 2) half.push_back(squares[k]);
+    squares = std::move(half);
+  }
+  double largest = 0.0;
+  for (const auto& square : squares) largest = std::max(largest, std::abs(square));
+  zero *= static_cast<double>(n) * largest;
+  LinearSpectrum spectrum;
+  for (const auto& square : squares) {
+    if (std::abs(square) <= zero) {
+      ++spectrum.free_motions;
+    } else if (square.real() < 0.0 && std::abs(square.imag()) <= 1e-7 * std::abs(square)) {
+      spectrum.frequencies.push_back(std::sqrt(-square.real()));
+    } else {
+      ++spectrum.growing;
+      spectrum.growth_rate = std::max(spectrum.growth_rate, std::abs(std::sqrt(square).real()));
+    }
+  }
+  std::ranges::sort(spectrum.frequencies);
+  return spectrum;
+}
+
+std::optional<Scheme> scheme_of_one(const Scheme& scheme) {
+  if (!scheme.has_member()) return scheme;
+  const auto parameters = uniform_parameters(scheme.member());
+  if (!parameters) return std::nullopt;
+  Member member =
+      family_member(1, {{parameters->alpha}}, {{parameters->beta}}, {{parameters->gamma}}).member();
+  member.generating_order = scheme.member().generating_order;
+  Scheme one = scheme;
+  if (auto* composition = std::get_if<Composition>(&one.method)) {
+    composition->base = std::move(member);
+  } else {
+    one.method = std::move(member);
+  }
+  return one;
+}
+
+std::optional<std::vector<Matrix2d>> linear_modes(const MatrixXd& s, const Scheme& scheme) {
+  if (s.rows() == 2) return std::vector<Matrix2d>{s};
+  std::vector<Matrix2d> planes;
+  if (std::holds_alternative<RungeKutta>(scheme.method)) {
+    for (const double w : linear_spectrum(s).frequencies) planes.push_back(plane(w * w, 1.0));
+    return planes;
+  }
+  if (!is_separable(s) || !scheme_of_one(scheme)) return std::nullopt;
+  if (scheme.has_member() && (has_beta(scheme.member()) || has_gamma(scheme.member())))
+    return common_planes(s);
+  const auto squares = squared_frequencies(s);
+  if (!squares) return std::nullopt;
+  for (const double square : *squares) planes.push_back(plane(square, 1.0));
+  return planes;
+}
+
+}  // namespace hamgen

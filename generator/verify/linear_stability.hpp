@@ -1,0 +1,77 @@
+// Near a point the step is a linear map: do its powers stay bounded, and up to which h?
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/schemes/scheme.hpp"
+#include "generator/verify/precise.hpp"
+#include "generator/verify/proof.hpp"
+
+namespace hamgen {
+
+// H = ... + (z - z0)^T S (z - z0)/2: S row by row, 2n x 2n.
+struct QuadraticPart {
+  int degrees_of_freedom = 0;
+  std::vector<double> hessian;
+};
+
+// The flow z' = A z with A = J S, its oscillations exp(+-i w t) and the scheme's step z -> M z.
+struct LinearStability {
+  double h = 0.0;
+  std::vector<double> frequencies;  // w, ascending
+  int free_motions = 0;             // degrees of freedom with w = 0
+  int growing = 0;                  // degrees of freedom that leave exponentially
+  double growth_rate = 0.0;         // the largest real part of an eigenvalue of A
+
+  // Are the powers of M bounded on the oscillations?
+  Verdict verdict = Verdict::not_decided;
+  std::string detail;  // how it was decided, or why not
+  // Positive where bounded: of the mode that is nearest to unbounded, 1 - |trace M|/2, or of an M
+  // that is not symplectic 1 - |eigenvalue|.
+  std::optional<double> margin;
+  bool bounded_for_every_h = false;
+  // The powers are bounded for all steps below this one; empty: not found, or every_h.
+  std::optional<double> largest_h;
+
+  // theta of the eigenvalues exp(+-i theta) of M, in the order of the frequencies; empty where M is
+  // unbounded or not taken apart into modes.
+  std::vector<double> angles;
+  // By m = 3 to 6: the first h, below largest_h, at which the fastest turns by 2 pi/m a step.
+  std::map<int, double> resonant_h;
+
+  // Spectral radius of the iteration zbar <- z + h (I/2 + C) J S zbar: it contracts below 1. Empty
+  // for explicit schemes.
+  std::optional<double> iteration_radius;
+};
+
+// A member (alpha, beta, gamma) of the family on H = p^2/2 + omega^2 q^2/2: the powers of its
+// matrix are bounded iff this is positive.  With X = (1 + h beta)(1 - h omega^2 gamma) and D = X +
+// h^2 omega^2 alpha (1 - alpha) it is the smaller of D and X - h^2 omega^2 (alpha - 1/2)^2.
+[[nodiscard]] double linear_margin(double h, double omega_squared, double alpha, double beta,
+                                   double gamma);
+
+// `values` are those of the parameters, and of E0, that the scheme's coefficients use.
+[[nodiscard]] LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme,
+                                               const std::map<std::string, Precise>& values,
+                                               double h);
+
+// At one point of the phase space.
+struct LinearPoint {
+  std::string place;  // "initial state", "origin"
+  LinearStability stability;
+};
+// At the state in `point`, and at the origin if that is an equilibrium with another linear part.
+// `point` has the values of all variables and parameters.
+[[nodiscard]] std::vector<LinearPoint> linear_points(const Mechanics& mechanics,
+                                                     const Scheme& scheme,
+                                                     const std::map<std::string, Rational>& point,
+                                                     double h);
+
+// Its lines of a proof: the flow, the bound, resonances, the iteration.
+[[nodiscard]] Proof findings(const LinearPoint& point);
+
+}  // namespace hamgen
