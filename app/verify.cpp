@@ -44,17 +44,27 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
           {"iteration_radius", number(found.iteration_radius)}};
 }
 
-// Of the scene's state, or of the first scene if none is named; nothing without h.
+// Of the scene's state, or of the first scene if none is named.  A reason where there is none.
 std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
-                                     const ModifiedOptions& options) {
-  if (request.solver.starts_with("sweeps")) return {};  // the step they leave is another
+                                     const ModifiedOptions& options, Proof& proof) {
+  const auto open = [&proof](const std::string& why) {
+    proof.push_back({"linear stability", Verdict::not_decided, why});
+    return std::vector<LinearPoint>{};
+  };
+  if (request.solver.starts_with("sweeps"))
+    return open("sweeps leave the step unsolved: the linear step is another");
   const Model model = read_request(source, request);
   SceneRequest wanted{.scene = options.scene};
   if (!options.h.empty()) wanted.h = options.h;
   const SceneValues scene = scene_values(model, wanted);
-  if (!scene.h) return {};
+  if (!scene.h) return open("there is no scene with a step size and no --h");
   take_gauge_at(scene, model, request);
-  return linear_points(source, request, scene);
+  std::vector<LinearPoint> points = linear_points(source, request, scene);
+  if (points.empty()) return open("H'' is not defined at the initial state, or is too large");
+  for (const LinearPoint& point : points) {
+    for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
+  }
+  return points;
 }
 
 int verify(const VerifyOptions& options) {
@@ -69,10 +79,7 @@ int verify(const VerifyOptions& options) {
       proof.push_back(std::move(finding));
     }
   }
-  const std::vector<LinearPoint> linear = linear_part(source, request, options.modified);
-  for (const LinearPoint& point : linear) {
-    for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
-  }
+  const std::vector<LinearPoint> linear = linear_part(source, request, options.modified, proof);
   bool holds = true;
   const bool by_default = options.required.empty();
   auto rows = nlohmann::ordered_json::array();

@@ -312,6 +312,8 @@ std::vector<Expression> modified_hamiltonian(const SourceText& source, const Req
 std::vector<LinearPoint> linear_points(const SourceText& source, const Request& request,
                                        const SceneValues& scene) {
   const Model model = read_request(source, request);
+  constexpr long most = 600;  // the symmetric eigenvalue problem takes the third power
+  if (hamgen::degrees_of_freedom(model) > most) return {};
   const Mechanics mechanics = derive(model, false);
   std::map<std::string, Rational> point;
   const auto add = [&point](const std::vector<std::string>& names,

@@ -74,7 +74,7 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
   double largest = 0.0;
   for (const auto& square : squares) largest = std::max(largest, std::abs(square));
   zero *= static_cast<double>(n) * largest;
-  LinearSpectrum spectrum;
+  LinearSpectrum spectrum{.largest = std::sqrt(largest)};
   for (const auto& square : squares) {
     if (std::abs(square) <= zero) {
       ++spectrum.free_motions;

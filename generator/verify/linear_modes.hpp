@@ -15,6 +15,7 @@ struct LinearSpectrum {
   int free_motions = 0;
   int growing = 0;
   double growth_rate = 0.0;
+  double largest = 0.0;  // of the absolute values of eigenvalues of A
 };
 [[nodiscard]] LinearSpectrum linear_spectrum(const Eigen::MatrixXd& s);
 

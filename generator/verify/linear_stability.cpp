@@ -26,8 +26,14 @@ constexpr double kLast = 1e3;               // and where it ends
 // Below zero, or not finite, where the powers of M are unbounded.
 double margin_of(const MatrixXd& m, bool symplectic) {
   if (!m.allFinite()) return -1.0;
-  // det M = 1: the eigenvalues have modulus 1 and are two iff |trace| < 2.
-  if (symplectic) return 1.0 - std::abs(m.trace()) / 2.0;
+  if (symplectic) {
+    // det M = 1: the eigenvalues have modulus 1 and are two iff |trace| < 2, that is
+    // det(M + I) = 2 + trace > 0 and det(M - I) = 2 - trace > 0, the latter small for a small h.
+    const double diagonal = (m(0, 0) - 1.0) * (m(1, 1) - 1.0);
+    const double across = m(0, 1) * m(1, 0);
+    const double size = std::abs(diagonal) + std::abs(across);
+    return std::min(1.0 + 0.5 * m.trace(), size > 0.0 ? (diagonal - across) / size : 0.0);
+  }
   return 1.0 - spectral_radius(m);
 }
 
@@ -104,7 +110,7 @@ std::string cayley_text(const Scheme& scheme) {
   return "the Cayley transform (1 - hA/2)^-1 (1 + hA/2) of A = J S, and theta = 2 atan(h w/2)";
 }
 
-// Bounds a search of modes, each a plane of its own.
+// The modes of a linear part, each a plane of its own.
 class Modes {
  public:
   Modes(std::vector<Matrix2d> planes, const LinearStep& step)
@@ -123,15 +129,21 @@ class Modes {
     }
     return smallest;
   }
-  // Of the mode nearest to its bound, at one h.
+  // The mode that is unbounded, or else the fastest.
   [[nodiscard]] std::size_t critical(double h) const {
     std::vector<double> margins;
     for (const Matrix2d& s : planes_) margins.push_back(margin_of(step_.matrix(h, s), symplectic_));
-    return static_cast<std::size_t>(std::ranges::min_element(margins) - margins.begin());
+    const auto smallest = std::ranges::min_element(margins);
+    if (*smallest > kBorder) return planes_.size() - 1;
+    return static_cast<std::size_t>(smallest - margins.begin());
   }
   [[nodiscard]] double angle(std::size_t k, double h) const {
-    const double half = 0.5 * step_.matrix(h, planes_[k]).trace();
-    return std::acos(std::clamp(half, -1.0, 1.0));
+    // Of M without what it damps: 2 - trace = det(M - I) = 4 sin^2(theta/2) keeps its digits.
+    Matrix2d m = step_.matrix(h, planes_[k]);
+    m /= std::sqrt(std::abs(m.determinant()));
+    const double minus = (m(0, 0) - 1.0) * (m(1, 1) - 1.0) - m(0, 1) * m(1, 0);
+    const double plus = 2.0 + m.trace();
+    return 2.0 * std::atan2(std::sqrt(std::max(minus, 0.0)), std::sqrt(std::max(plus, 0.0)));
   }
   [[nodiscard]] const std::vector<Matrix2d>& planes() const { return planes_; }
   [[nodiscard]] bool symplectic() const { return symplectic_; }
@@ -165,13 +177,16 @@ void decide_by_modes(const Modes& modes, const LinearStep& step, LinearStability
   const std::size_t critical = modes.critical(result.h);
   const Matrix2d& s = modes.planes()[critical];
   const double w = std::sqrt(s.determinant());
-  const double margin = margin_of(step.matrix(result.h, s), modes.symplectic());
+  const MatrixXd m = step.matrix(result.h, s);
+  const double margin = margin_of(m, modes.symplectic());
   result.margin = margin;
   result.largest_h = first_below_zero([&](double h) { return modes.margin(h); }, kFirst / fastest,
                                       kLast / fastest, 1.01);
   const std::string what = modes.symplectic() ? "|trace M|/2" : "spectral radius of M";
-  const std::string value = fmt::format("{} = {:.8g} of w = {:.6g}", what, 1.0 - margin, w) +
-                            closed_form(step.scheme(), step, s, result.h);
+  const std::string value =
+      fmt::format("{} = {:.8g} of w = {:.6g}", what,
+                  modes.symplectic() ? std::abs(m.trace()) / 2.0 : 1.0 - margin, w) +
+      closed_form(step.scheme(), step, s, result.h);
   // Without det M = 1 an eigenvalue of modulus 1 is no border.
   const double border = modes.symplectic() ? kBorder : -kBorder;
   if (margin > border) {
@@ -192,13 +207,17 @@ void decide_together(const MatrixXd& s, const LinearStep& step, LinearStability&
   const double fastest = result.frequencies.back();
   result.margin = margin(result.h);
   result.largest_h = first_below_zero(margin, 10 * kFirst / fastest, kLast / 10 / fastest, 1.05);
-  const bool bounded = *result.margin > kBorder;
-  result.verdict = bounded ? Verdict::tested : Verdict::refuted;
-  result.detail = fmt::format(
-      "{}: the eigenvalues of M + M^-1, {} x {}, {}", bounded ? "bounded" : "unbounded", s.rows(),
-      s.cols(),
-      bounded ? fmt::format("are real and at most {:.6g} in size", 2.0 * (1.0 - *result.margin))
-              : "are not all real and between -2 and 2");
+  const std::string what = fmt::format("the eigenvalues of M + M^-1, {} x {},", s.rows(), s.cols());
+  if (*result.margin > kBorder) {
+    result.verdict = Verdict::tested;
+    result.detail = fmt::format("bounded: {} are real and at most {:.6g} in size", what,
+                                2.0 * (1.0 - *result.margin));
+  } else if (*result.margin < -kBorder) {
+    result.verdict = Verdict::refuted;
+    result.detail = fmt::format("unbounded: {} are not all real and between -2 and 2", what);
+  } else {
+    result.detail = fmt::format("on the border: of {} one is -2, 2 or double", what);
+  }
 }
 
 // theta of every mode, and where the fastest resonates before it becomes unbounded.
@@ -215,8 +234,17 @@ void find_resonances(const Modes& modes, LinearStability& result) {
   }
 }
 
-void find_iteration_radius(const MatrixXd& s, const LinearStep& step, LinearStability& result) {
-  const MatrixXd matrix = step.iteration(result.h, s);
+// Of a tableau and of C = 0 the iteration is linear in A, and its spectral radius that of an
+// oscillator with the largest eigenvalue of A.
+void find_iteration_radius(const MatrixXd& s, double largest, const LinearStep& step,
+                           const LinearStep& step_of_one, LinearStability& result) {
+  const Scheme& scheme = step.scheme();
+  const bool linear =
+      !scheme.has_member() || (is_cayley(scheme) && scheme.member().generating_order <= 2);
+  if (!linear && s.rows() > 2 * kMostTogether) return;
+  const MatrixXd oscillator = Eigen::Vector2d(largest * largest, 1.0).asDiagonal();
+  const MatrixXd matrix =
+      linear ? step_of_one.iteration(result.h, oscillator) : step.iteration(result.h, s);
   if (matrix.size() == 0 || !matrix.allFinite()) return;
   const double radius = spectral_radius(matrix);
   // A nilpotent matrix has eigenvalues of about the root of the rounding unit.
@@ -243,13 +271,13 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
                          .growing = spectrum.growing,
                          .growth_rate = spectrum.growth_rate};
   const LinearStep step(scheme, values);
-  find_iteration_radius(s, step, result);
+  const std::optional<Scheme> one = scheme_of_one(scheme);
+  const LinearStep step_of_one(one ? *one : scheme, values);
+  find_iteration_radius(s, spectrum.largest, step, step_of_one, result);
   if (result.frequencies.empty()) {
     result.detail = "the flow has no oscillation here that a step could make unbounded";
     return result;
   }
-  const std::optional<Scheme> one = scheme_of_one(scheme);
-  const LinearStep step_of_one(one ? *one : scheme, values);
   std::optional<Modes> modes;
   if (is_cayley(scheme)) {
     std::vector<Matrix2d> planes;

@@ -30,8 +30,7 @@ struct LinearStability {
   // Are the powers of M bounded on the oscillations?
   Verdict verdict = Verdict::not_decided;
   std::string detail;  // how it was decided, or why not
-  // Positive where bounded: of the mode that is nearest to unbounded, 1 - |trace M|/2, or of an M
-  // that is not symplectic 1 - |eigenvalue|.
+  // Positive where bounded: a distance of trace M from -2 and 2, or of an eigenvalue from 1.
   std::optional<double> margin;
   bool bounded_for_every_h = false;
   // The powers are bounded for all steps below this one; empty: not found, or every_h.

@@ -124,7 +124,7 @@ TEST(LinearStability, OfTheMidpointRuleHasNoBoundAndItsAnglesAreKnown) {
     EXPECT_EQ(found.verdict, Verdict::proved);
     EXPECT_TRUE(found.bounded_for_every_h);
     ASSERT_EQ(found.angles.size(), 1u);
-    EXPECT_NEAR(found.angles[0], 2.0 * std::atan(step * w / 2.0), 1e-7);
+    EXPECT_NEAR(found.angles[0], 2.0 * std::atan(step * w / 2.0), 1e-12);
     EXPECT_NEAR(found.iteration_radius.value(), step * w / 2.0, 1e-12 * step * w);
     for (const int m : {3, 4, 5, 6})
       EXPECT_NEAR(found.resonant_h.at(m), 2.0 * std::tan(std::numbers::pi / m) / w, 1e-9) << m;
