@@ -79,11 +79,11 @@ void write_band_matrix(CodeWriter& out, int width) {
 
 void write_sparse_matrix(CodeWriter& out) {
   out.lines(
-      R"(// A sparse matrix that is filled again and again by the same sequence of entries.  The first filling
-// finds the pattern, later ones only add values in place.
+      R"(// A sparse matrix that is filled again and again by the same sequence of entries.  The first
+// filling finds the pattern, later ones only add values in place.
 class SparseMatrix {
  public:
-  explicit SparseMatrix(int size) : size_(size), matrix_(size, size) {}
+  explicit SparseMatrix(int size) : matrix_(size, size) {}
   void clear() {
     next_ = 0;
     if (known_) std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), Real(0));
@@ -101,7 +101,9 @@ class SparseMatrix {
     solver_.factorize(matrix_);
     return solver_.info() == Eigen::Success;
   }
-  void solve(Eigen::Matrix<Real, Eigen::Dynamic, 1>& vector) { vector = solver_.solve(vector).eval(); }
+  void solve(Eigen::Matrix<Real, Eigen::Dynamic, 1>& vector) {
+    vector = solver_.solve(vector).eval();
+  }
 
  private:
   void find_pattern() {
@@ -117,7 +119,6 @@ class SparseMatrix {
     entries_.clear();
     known_ = true;
   }
-  int size_;
   bool known_ = false;
   std::size_t next_ = 0;
   std::vector<Eigen::Triplet<Real>> entries_;

@@ -91,6 +91,39 @@ TEST_P(EmittedHeader, InQuadCompilesWithoutAWarning) {
   EXPECT_EQ(messages(GetParam(), unit(models_for_every_scalar(), "quad")), "");
 }
 
+// Sums that stay loops, by the matrix of their step: a ring, every pair, a torus, and a kinetic
+// energy that couples the momenta.
+std::vector<std::pair<std::string, std::string>> large_models() {
+  return {{"ring",
+           "size N = 64\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+           "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^2/2 + q[i]^4/4)\n"},
+          {"pairs",
+           "size N = 16\ncoordinate x[1..N]\ncoordinate y[1..N]\nmomentum px[1..N]\n"
+           "momentum py[1..N]\nparameter eps = 1\n"
+           "H = sum(i = 1..N, (px[i]^2 + py[i]^2)/2) + sum(i = 1..N-1, j = i+1..N,\n"
+           "    eps/((x[i] - x[j])^2 + (y[i] - y[j])^2))\n"},
+          {"torus",
+           "size N = 256\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+           "H = sum(i = 1..N, p[i]^2/2 - cos(q[i+1] - q[i]) - cos(q[i+16] - q[i]))\n"},
+          {"coupled",
+           "size N = 40\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
+           "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1] + p[i]*p[i+1])\n"}};
+}
+
+TEST_P(EmittedHeader, OfALargeSystemCompilesWithoutAWarning) {
+  std::string text;
+  for (const auto& [name, model] : large_models()) {
+    for (Variant variant : variants()) {
+      if (!variant.request.solver.empty()) continue;  // written out
+      variant.request.name_space = name + "::" + variant.name;
+      const SourceText source = make_source(name + ".ham", "system " + name + "\n" + model);
+      text += "#line 1 \"" + name + "_" + variant.name + ".hpp\"\n";
+      text += without_pragma(generate(source, variant.request).at(0).text);
+    }
+  }
+  EXPECT_EQ(messages(GetParam(), text), "");
+}
+
 TEST_P(EmittedHeader, IsCaughtWhenItIsWrong) {
   // Negative control: a conversion that loses digits.
   EXPECT_NE(messages(GetParam(), "inline float narrow(double x) { return x; }\n"), "");
