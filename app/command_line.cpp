@@ -54,7 +54,7 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("R");
   command.add_option("--gauge", options.gauge, "locally-exact: the linear part without error")
       ->type_name("NAME");
-  add_repeated(command, "--reference", options.reference, "where it is linearised; default: 0")
+  add_repeated(command, "--reference", options.reference, "where: q=1,w=50; default: the initial state")
       ->type_name("NAME=VALUE,...");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")

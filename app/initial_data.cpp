@@ -128,16 +128,31 @@ SceneValues complete_scene(const Model& model, const SceneRequest& request) {
 
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request) {
   if (request.gauge.empty()) return;
-  const std::vector<std::string> names = element_names(model.parameters);
-  const Values defaults = read_reference(model, {});
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string base = names[i].substr(0, names[i].find('['));
-    const bool is_given = std::ranges::any_of(request.reference, [&](const auto& given) {
-      return given.first == names[i] || given.first == base;
+  const Values origin = read_reference(model, {});
+  const auto is_given = [&](const std::string& name) {
+    return std::ranges::any_of(request.reference, [&](const auto& given) {
+      return given.first == name || given.first == name.substr(0, name.find('['));
     });
-    if (is_given || scene.parameters[i] == defaults.at(names[i])) continue;
-    request.reference.emplace_back(names[i], hamgen::to_text(scene.parameters[i]));
+  };
+  std::vector<std::pair<std::string, std::string>> more;
+  const auto add = [&](const std::vector<std::string>& names, const std::vector<Rational>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (is_given(names[i]) || values[i] == origin.at(names[i])) continue;
+      const std::string exact = hamgen::to_text(values[i]);
+      const bool is_short = exact.size() <= 12;
+      more.emplace_back(names[i], is_short ? exact : runtime::number_text(to_double(values[i])));
+    }
+  };
+  add(element_names(model.parameters), scene.parameters);
+  const bool has_point = std::ranges::any_of(request.reference, [&](const auto& given) {
+    const std::string base = given.first.substr(0, given.first.find('['));
+    return std::ranges::find(model.parameters, base, &Parameter::name) == model.parameters.end();
+  });
+  if (!has_point) {
+    add(element_names(model.coordinates), scene.q);
+    add(element_names(model.momenta), scene.p);
   }
+  request.reference.insert(request.reference.end(), more.begin(), more.end());
 }
 
 runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,

@@ -15,8 +15,9 @@ namespace hamgen::app {
 // Throws UsageError with an example if something is missing.
 [[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request);
 
-// A locally exact gauge is taken at the run's own parameters, where the user has not said
-// otherwise: those that are not the model's defaults are added to the request's reference.
+// A locally exact gauge is taken at the run's own initial state and parameters, where the user has
+// not said otherwise: what differs from the origin and the model's defaults is added to the
+// request's reference; of the state, if it names no coordinate and no momentum.
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request);
 
 // The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs

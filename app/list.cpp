@@ -32,13 +32,16 @@ Json functions() {
 
 Json schemes() {
   Json rows = Json::array();
-  for (const Scheme& scheme : all_schemes())
+  const auto add = [&rows](const Scheme& scheme) {
     rows.push_back({{"name", scheme.name},
                     {"order", scheme.order},
                     {"symmetric", scheme.symmetric},
                     {"needs", scheme.needs},
                     {"description", scheme.description},
                     {"source", scheme.source}});
+  };
+  std::ranges::for_each(all_schemes(), add);
+  std::ranges::for_each(members_by_option(), add);
   return rows;
 }
 

@@ -66,6 +66,7 @@ class SceneReader {
     scene_ = find_scene();
     for (const auto& [name, value] : request_.set) add_override("--set", name, value);
     for (const auto& [name, value] : request_.initial) add_override("--initial", name, value);
+    for (const auto& [name, value] : request_.reference) add_override("--reference", name, value);
     SceneValues result;
     if (scene_ != nullptr) {
       result.name = scene_->name;
@@ -125,7 +126,8 @@ class SceneReader {
     }
     const Symbol* symbol = symbols_.find(setting.name);
     const bool is_parameter = symbol != nullptr && symbol->kind == SymbolKind::parameter;
-    if (symbol != nullptr && is_parameter != (option == "--set")) {
+    const bool takes_both = option == "--reference";
+    if (symbol != nullptr && !takes_both && is_parameter != (option == "--set")) {
       throw UsageError(fmt::format("{} {}={}: '{}' is {}; set it with {}", option, name, value,
                                    setting.name, description(symbol->kind),
                                    is_parameter ? "--set" : "--initial"));

@@ -15,6 +15,8 @@ struct SceneRequest {
   std::string scene = {};                                         // empty: the first, if any
   std::vector<std::pair<std::string, std::string>> set = {};      // --set NAME=VALUE
   std::vector<std::pair<std::string, std::string>> initial = {};  // --initial NAME=VALUE
+  // --reference NAME=VALUE: a variable or a parameter of a point that is not a run's.
+  std::vector<std::pair<std::string, std::string>> reference = {};
   std::optional<std::string> h = {};
   std::optional<std::string> steps = {};
 };

@@ -1,5 +1,7 @@
 #include "generator/schemes/all_schemes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hamgen {
@@ -28,6 +30,30 @@ std::span<const Scheme> all_schemes() {
 const Scheme* find_scheme(std::string_view name) {
   const auto it = std::ranges::find(all_schemes(), name, &Scheme::name);
   return it == all_schemes().end() ? nullptr : &*it;
+}
+
+std::vector<Scheme> members_by_option() {
+  std::vector<Scheme> list = {
+      {.name = "--alpha A --beta B --gamma C",
+       .description = "any member; order 2 and symmetric where C is odd in h",
+       .source = "Jimenez-Perez, Vilotte, Romanowicz 2015"},
+      {.name = "--gauge locally-exact",
+       .description = "the member that is exact on the linear part at --reference",
+       .order = 2,
+       .symmetric = true,
+       .needs = "any H with H'' at the reference",
+       .source = "after Cieslinski 2013, there with a moving point"}};
+  for (int order = 3; order <= kHighestOrder; ++order) {
+    const bool even = order % 2 == 0;
+    list.push_back({.name = fmt::format("--order {}", order),
+                    .description = fmt::format("a member{}, by its generating function; one solve",
+                                               even ? "" : " that is not symmetric"),
+                    .order = order,
+                    .symmetric = even,
+                    .needs = "any H of few degrees of freedom",
+                    .source = "Feng, Wu, Qin, Wang 1989; HLW VI.5.4"});
+  }
+  return list;
 }
 
 }  // namespace hamgen

@@ -13,6 +13,10 @@ namespace hamgen {
 [[nodiscard]] std::span<const Scheme> all_schemes();
 [[nodiscard]] const Scheme* find_scheme(std::string_view name);
 
+// Members that take an option instead of a name, because they depend on the system: rows for
+// people, without a method.
+[[nodiscard]] std::vector<Scheme> members_by_option();
+
 // The tables.
 [[nodiscard]] std::vector<Scheme> named_members();  // family.cpp
 [[nodiscard]] std::vector<Scheme> splittings();

@@ -88,14 +88,7 @@ Values read_reference(const Model& model,
                       const std::vector<std::pair<std::string, std::string>>& given) {
   Model without_scenes = model;
   without_scenes.scenes.clear();
-  SceneRequest request;
-  for (const auto& [name, value] : given) {
-    const std::string base = name.substr(0, name.find('['));
-    const bool is_parameter =
-        std::ranges::find(model.parameters, base, &Parameter::name) != model.parameters.end();
-    (is_parameter ? request.set : request.initial).emplace_back(name, value);
-  }
-  const SceneValues values = scene_values(without_scenes, request);
+  const SceneValues values = scene_values(without_scenes, {.reference = given});
   Values result;
   const auto add = [&](const std::vector<std::string>& names,
                        const std::vector<Rational>& numbers) {
