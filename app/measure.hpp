@@ -1,32 +1,13 @@
 // What a compiled step does, measured beside what algebra proves of it.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 
 namespace hamgen::app {
 
-// The largest change of an invariant along an orbit, looked at every ten steps.
-struct InvariantDefect {
-  std::string name;
-  double initial = 0.0;
-  double largest = 0.0;
-  long steps = 0;
-};
-[[nodiscard]] Finding finding(const InvariantDefect& defect);
-
-struct Measured {
-  Proof proof;  // the tangent map
-  std::vector<InvariantDefect> invariants;
-};
-
-// At 100 random states and parameters around the scene: the defect M^T J M - J of the compiled
-// step's tangent map M and the reversal residual of a symmetric step; along at most 10000 steps of
-// the scene the change of every invariant.
-[[nodiscard]] Measured measure(const SourceText& source, Request request,
-                               const SceneRequest& wanted, bool symmetric);
+// The tangent map of the compiled step around the scene (empty: the default one), and along the
+// scene the change of every invariant.
+[[nodiscard]] Proof measure(const SourceText& source, Request request, const std::string& scene,
+                            bool symmetric);
 
 }  // namespace hamgen::app

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "app/command_line.hpp"
-#include "generator/language/scene.hpp"
 
 namespace hamgen::app {
 
 struct ModifiedOptions {
-  std::string terms;  // K
+  std::string terms;  // K; empty: nothing is asked for
+  std::string scene;  // along whose orbit it is measured; empty: it is not
+  std::string h;      // in place of the scene's
   bool latex = false;
 };
 
@@ -25,7 +25,6 @@ struct ModifiedReport {
   nlohmann::ordered_json json;
 };
 [[nodiscard]] ModifiedReport modified_report(const SourceText& source, const Request& request,
-                                             const ModifiedOptions& options,
-                                             const std::optional<SceneValues>& scene);
+                                             const ModifiedOptions& options);
 
 }  // namespace hamgen::app

@@ -78,7 +78,7 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
   write_solve(out, context, parts, coefficients);
   if (role == StepRole::propagator) write_member_step(out, context, parts);
   write_member_propagator(out, context, parts, role);
-  if (context.options.tangent) write_tangent(out, context);
+  if (context.options.tangent) write_member_tangent(out, context, parts, role);
 }
 
 // The same for a system whose sums stay loops.
@@ -99,6 +99,7 @@ void write_scheme(CodeWriter& out, CppContext& context) {
   const Method& method = context.equations.scheme.method;
   if (std::holds_alternative<Splitting>(method)) {
     write_splitting(out, context);
+    if (context.options.tangent) write_splitting_tangent(out, context);
   } else if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
     write_runge_kutta(out, context, *tableau);
   } else {
@@ -110,6 +111,7 @@ void write_scheme(CodeWriter& out, CppContext& context) {
       write_member(out, context, role);
     }
     if (composed) write_composition(out, context);
+    if (composed && context.options.tangent) write_composition_tangent(out, context);
   }
 }
 

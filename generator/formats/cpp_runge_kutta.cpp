@@ -7,6 +7,7 @@
 #include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_stages.hpp"
 #include "generator/formats/cpp_support.hpp"
+#include "generator/formats/cpp_tangent.hpp"
 
 namespace hamgen {
 
@@ -164,6 +165,13 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
     write_explicit(out, context);
   }
   write_single_step(out);
+  if (!context.options.tangent) return;
+  if (implicit) {
+    write_stages_tangent(out);
+  } else {
+    write_stage_hessian(out, context);
+    write_explicit_tangent(out, context);
+  }
 }
 
 }  // namespace hamgen

@@ -5,6 +5,7 @@
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_tableau.hpp"
+#include "generator/formats/cpp_tangent.hpp"
 
 namespace hamgen {
 
@@ -55,27 +56,6 @@ struct StageRule {{
 
 )",
                      fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
-}
-
-// slopes[i][j] = d2H/dx_i dx_j.
-void write_stage_hessian(CodeWriter& out, CppContext& context) {
-  if (context.arrays()) return;  // hessian(par, x, put) is there
-  const Program& program = context.program;
-  out.line("// The second derivatives of H at z.");
-  write_evaluation(
-      out, context,
-      "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
-      "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
-      program.hessian,
-      [&](CodeWriter& w, const CppExpression& cpp) {
-        for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
-          const auto [i, j] = program.hessian_places[k];
-          const std::string value = cpp(program.hessian.results[k]);
-          w.line(fmt::format("values[{}][{}] = {};", i, j, value));
-          if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
-        }
-      },
-      CppContext::StateForm::array);
 }
 
 constexpr const char* kElimination =
@@ -367,17 +347,39 @@ std::string iterate_text(StageSolver solver) {
 
 }  // namespace
 
+void write_stage_hessian(CodeWriter& out, CppContext& context) {
+  if (context.arrays()) return;  // hessian(par, x, put) is there
+  const Program& program = context.program;
+  out.line("// The second derivatives of H at z.");
+  write_evaluation(
+      out, context,
+      "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
+      "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
+      program.hessian,
+      [&](CodeWriter& w, const CppExpression& cpp) {
+        for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
+          const auto [i, j] = program.hessian_places[k];
+          const std::string value = cpp(program.hessian.results[k]);
+          w.line(fmt::format("values[{}][{}] = {};", i, j, value));
+          if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
+        }
+      },
+      CppContext::StateForm::array);
+}
+
 void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tableau) {
   const StageSolver solver = *context.program.plan.stage_solver;
   const bool newton = solver != StageSolver::fixed_point;
   write_tableau(out, context.scalar, context.program.sequence.stages, tableau.c);
-  if (newton) write_stage_hessian(out, context);
+  const bool tangent = context.options.tangent;
+  if (newton || tangent) write_stage_hessian(out, context);
   out.lines(stage_rule(context.scalar));
-  if (newton) out.lines(kElimination);
+  if (newton || tangent) out.lines(kElimination);
   out.lines(step_text(context.scalar));
   out.indent();
   write_advance(out);
   out.dedent();
+  if (tangent) out.lines(stages_tangent());
   out.lines(private_text());
   if (solver != StageSolver::newton) {
     out.lines(fixed_point_text(solver == StageSolver::both, context.scalar));

@@ -1,15 +1,29 @@
-// The linearisation of an emitted step.
+// The linearisation of an emitted step: tangent(par, h, z, dz, m) for the step that moves z by dz.
 #pragma once
 
+#include <string>
+
 #include "generator/formats/cpp_context.hpp"
+#include "generator/formats/cpp_member.hpp"
 
 namespace hamgen {
 
-// Can the tangent map of this program's step be written?  For members, solved or swept, whose sums
-// are written out and that take H itself.
+// Can the tangent map of this program's step be written?  If its sums are written out, and the
+// Hessian is that of the function whose gradient the step takes.
 [[nodiscard]] bool has_tangent(const Program& program);
 
-// hessian(par, z, values), stage_matrix(par, h, values) and tangent(par, h, z, dz, m).
-void write_tangent(CodeWriter& out, CppContext& context);
+[[nodiscard]] std::string tangent_name(StepRole role);
+void write_member_tangent(CodeWriter& out, CppContext& context, const MemberParts& parts,
+                          StepRole role);
+void write_splitting_tangent(CodeWriter& out, CppContext& context);
+// The product of those of the substeps.
+void write_composition_tangent(CodeWriter& out, const CppContext& context);
+void write_explicit_tangent(CodeWriter& out, const CppContext& context);
+// Of the stages as the class Propagator has found them: its member function, and the free one.
+[[nodiscard]] std::string stages_tangent();
+void write_stages_tangent(CodeWriter& out);
+
+// hessian(par, z, values): values[i][j] of the second derivatives that are not zero.
+void write_hessian_function(CodeWriter& out, CppContext& context);
 
 }  // namespace hamgen

@@ -61,9 +61,13 @@ void build_hessian(Program& program, const Mechanics& mechanics) {
 
 }  // namespace
 
-Program with_hessian(Program program) {
-  if (!program.hessian_places.empty()) return program;
-  build_hessian(program, program.plan.equations.mechanics);
+Program with_tangent(Program program) {
+  const bool solved = program.plan.equations.scheme.has_member() && !program.plan.sweeps;
+  if (solved) {
+    program.linearisation = linearise(program.plan);
+  } else if (program.hessian_places.empty()) {
+    build_hessian(program, program.plan.equations.mechanics);
+  }
   return program;
 }
 

@@ -6,15 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "generator/program/linearisation.hpp"
 #include "generator/program/sequence.hpp"
+#include "generator/program/statement.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
-
-struct Statement {
-  std::string name;
-  Expression value;
-};
 
 // A variable of a solver's loop.
 struct LoopVariable {
@@ -66,9 +63,6 @@ struct Program {
   Evaluation energy;                   // one result
   Evaluation gradient;                 // 2n results
   Evaluation invariants;
-  // The modified Hamiltonian, functions of h too: H + ... cut off after each of these powers of h.
-  Evaluation modified_energies = {};
-  std::vector<int> modified_powers = {};
   // Of a splitting: n results each, dV/dq and dT/dp.
   Evaluation potential_gradient = {};
   Evaluation kinetic_gradient = {};
@@ -76,16 +70,18 @@ struct Program {
   Evaluation vector_field = {};
   // What stands around the instructions.
   Sequence sequence = {};
-  // Of an implicit Runge-Kutta method, and for tangent maps: the entries of the Hessian at
-  // `hessian_places`, i <= j.
+  // For the tangent map of a member that is solved.
+  std::optional<Linearisation> linearisation = {};
+  // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the
+  // Hessian at `hessian_places`, i <= j.
   Evaluation hessian = {};
   std::vector<std::pair<int, int>> hessian_places = {};
 };
 
 // Values of free symbols, computed together: what they share is computed once.
 [[nodiscard]] Evaluation evaluate_together(const std::vector<Expression>& values);
-// With the Hessian as a function of the state besides.
-[[nodiscard]] Program with_hessian(Program program);
+// With what the tangent map takes besides.
+[[nodiscard]] Program with_tangent(Program program);
 [[nodiscard]] Program build_program(const SolvePlan& plan);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);

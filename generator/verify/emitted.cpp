@@ -32,11 +32,14 @@ std::vector<Identities> straight_line_identities(const Mechanics& mechanics,
   std::vector<Identities> parts = {
       identities_of(program.energy, "the energy", {mechanics.energy}),
       identities_of(program.gradient, "component of the gradient", gradient)};
-  if (is_raised(scheme)) {
-    const Derivatives of_k(*program.plan.equations.function);
-    parts.push_back(step_identities(mechanics, of_k, scheme.member(), program));
-  } else if (scheme.has_member()) {
-    parts.push_back(step_identities(mechanics, derivatives, scheme.member(), program));
+  if (scheme.has_member()) {
+    const Derivatives of_step =
+        is_raised(scheme) ? Derivatives(*program.plan.equations.function) : derivatives;
+    parts.push_back(step_identities(mechanics, of_step, scheme.member(), program));
+    if (program.linearisation) {
+      parts.push_back(
+          tangent_identities(mechanics, of_step, scheme.member(), *program.linearisation));
+    }
   }
   if (std::holds_alternative<Splitting>(scheme.method)) {
     parts.push_back(half_gradient(program, program.potential_gradient, {gradient.begin(), middle}));

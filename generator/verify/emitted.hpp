@@ -24,6 +24,11 @@ namespace hamgen {
 // are written.
 [[nodiscard]] Identities sequence_identities(const Scheme& scheme, const Sequence& sequence);
 
+// The linearised step of a member, if it is written too.
+[[nodiscard]] Identities tangent_identities(const Mechanics& mechanics,
+                                            const Derivatives& derivatives, const Member& member,
+                                            const Linearisation& linearisation);
+
 // grad K and the Hessian that Newton's iteration takes: a gradient, and one whose step follows the
 // flow of H to its order, at random points.
 [[nodiscard]] Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,

@@ -121,6 +121,48 @@ TEST(EmittedMethods, EveryMutationIsRefuted) {
   EXPECT_EQ(by_kind.size(), 13U);
 }
 
+// The linearised step, from one without a solve to a matrix that is left to elimination.
+std::vector<Case> tangent_cases() {
+  const std::string ring =
+      "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
+  return {{"symplectic-euler-a", kPendulum}, {"implicit-midpoint", kPendulum},
+          {"implicit-midpoint", kProduct},   {"implicit-midpoint", kKepler},
+          {"implicit-midpoint", ring},       {"symplectic-euler-b", kProduct},
+          {"yoshida-4", kHenonHeiles},       {"order 3, general member", kHenonHeiles, 3}};
+}
+
+TEST(EmittedTangent, IsTheMathematicsAndEveryMutationIsRefuted) {
+  int total = 0;
+  for (const Case& c : tangent_cases()) {
+    const Mechanics mechanics = mechanics_of(c.text);
+    const Scheme scheme = scheme_of(c, mechanics);
+    const Program without = program_of(mechanics, scheme, c.solver);
+    if (!without.plan.equations.has_exact_hessian()) continue;
+    const Program original = with_tangent(without);
+    const Finding finding = prove_emitted(mechanics, scheme, original, mechanics.energy);
+    EXPECT_LE(finding.verdict, Verdict::tested) << c.name << ": " << finding.detail;
+    int of_case = 0;
+    // The step itself has its own test.
+    Program only{.plan = original.plan};
+    only.linearisation = original.linearisation;
+    for (const Mutant& mutant : mutants_of(only)) {
+      if (computes_the_same(only, mutant.program)) continue;
+      Program changed = original;
+      changed.linearisation = mutant.program.linearisation;
+      const Finding found = prove_emitted(mechanics, scheme, changed, mechanics.energy);
+      EXPECT_EQ(found.verdict, Verdict::refuted)
+          << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+          << found.detail;
+      ++of_case;
+    }
+    EXPECT_GE(of_case, 4) << c.name;
+    total += of_case;
+  }
+  fmt::print("{} mutants of linearised steps\n", total);
+  EXPECT_GE(total, 60);
+}
+
 // The program is built from the wrong K and agrees with it: only the flow can tell.
 TEST(EmittedMethods, AWrongGeneratingFunctionIsRefuted) {
   const Expression h = Expression::symbol("h", kRankOfStep);

@@ -48,6 +48,16 @@ void for_each_expression(Program& program, const std::function<void(Expression&)
     statements(evaluation->statements);
     expressions(evaluation->results);
   }
+  if (program.linearisation) {
+    statements(program.linearisation->once);
+    for (Linearisation::Stage& stage : program.linearisation->stages) {
+      statements(stage.before);
+      if (!stage.solve) continue;
+      for (auto& row : stage.solve->matrix) expressions(row);
+      expressions(stage.solve->right_side);
+    }
+    expressions(program.linearisation->results);
+  }
   for (Substep& substep : program.sequence.substeps) visit(substep.length);
   for (auto& row : program.sequence.stages.coupling) expressions(row);
   expressions(program.sequence.stages.weight);
@@ -176,6 +186,7 @@ class Interpreter {
         run(e->statements);
         for (const Expression& result : e->results) results_.push_back(value(result));
       }
+      if (program.linearisation) run(*program.linearisation);
       for (const Substep& substep : program.sequence.substeps) {
         results_.push_back(static_cast<double>(substep.kind));
         results_.push_back(value(substep.length));
@@ -191,6 +202,18 @@ class Interpreter {
   }
 
  private:
+  void run(const Linearisation& linearisation) {
+    run(linearisation.once);
+    for (const Linearisation::Stage& stage : linearisation.stages) {
+      run(stage.before);
+      if (!stage.solve) continue;
+      for (const auto& row : stage.solve->matrix) {
+        for (const Expression& e : row) results_.push_back(value(e));
+      }
+      for (const Expression& e : stage.solve->right_side) results_.push_back(value(e));
+    }
+    for (const Expression& e : linearisation.results) results_.push_back(value(e));
+  }
   void run(const std::vector<Statement>& statements) {
     for (const Statement& s : statements) pending_.insert(s.name);
     for (const Statement& s : statements) {
