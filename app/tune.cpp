@@ -166,9 +166,16 @@ class Tuner {
     runtime::ProgressBar bar("map");
     const auto progress = bar_of(bar, options_.quiet);
     const double cells = static_cast<double>(b.count) * c.count;
-    return energy_map(integrator_, b, c, h_, setting_.steps, [&](std::size_t done) {
+    EnergyMap map = energy_map(integrator_, b, c, h_, setting_.steps, [&](std::size_t done) {
       if (progress) progress(static_cast<double>(done) / cells);
     });
+    map.fitted = {pair[0], pair[1]};
+    // With beta = -h or gamma = h the bound is h < r, so -b h^2 and c h^2 are to be below r^2.
+    const StabilityBound of_b = stability_bound(orbit_, setting_.shape, {-1.0, 0.0});
+    const StabilityBound of_c = stability_bound(orbit_, setting_.shape, {0.0, 1.0});
+    if (of_b.known && of_b.below) map.lowest_b = -std::pow(*of_b.below / h_, 2);
+    if (of_c.known && of_c.below) map.highest_c = std::pow(*of_c.below / h_, 2);
+    return map;
   }
 
  private:
@@ -262,7 +269,7 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
   csv.replace_extension(".csv");
   fs::path script = options.map;
   script.replace_extension(".gp");
-  const std::string title = fmt::format("{}{}: h = {}, {} steps", report.model,
+  const std::string title = fmt::format("{}{}: energy spread, h = {}, {} steps", report.model,
                                         report.scene.empty() ? "" : ", scene " + report.scene,
                                         runtime::number_text(report.h), report.steps);
   const std::string header = fmt::format("# made by   hamgen " HAMGEN_VERSION

@@ -49,12 +49,6 @@ void for_all_cells(std::size_t count, const std::function<void(std::size_t)>& fu
   on_progress(done);
 }
 
-std::string gnuplot_text(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 }  // namespace
 
 EnergyMap energy_map(const GaugedIntegrator& integrator, const MapAxis& b, const MapAxis& c,
@@ -90,34 +84,6 @@ std::string map_csv(const EnergyMap& map, const std::string& header) {
     }
   }
   return text;
-}
-
-std::string map_script(const EnergyMap& map, const std::string& title, const std::string& output) {
-  const bool svg = output.ends_with(".svg");
-  std::string text = fmt::format(
-      "# Drawn by: gnuplot THIS_FILE\n"
-      "set terminal {} enhanced font 'Sans,11' background rgb 'white'\n"
-      "set output {}\n"
-      "set title {} noenhanced\n"
-      "set xlabel 'b, {{/Symbol b}} = b h'\nset ylabel 'c, {{/Symbol g}} = c h'\n"
-      "set cblabel 'max H - min H'\nset logscale cb\nset format cb '10^{{%T}}'\n"
-      "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n"
-      "set tics out nomirror\n"
-      "set xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n",
-      svg ? "svg size 640,480" : "pngcairo size 1280,960 fontscale 1.7", gnuplot_text(output),
-      gnuplot_text(title), map.b.at(0), map.b.at(map.b.count - 1), map.c.at(0),
-      map.c.at(map.c.count - 1));
-  text += "$map << EOD\n";
-  std::size_t i = 0;
-  for (int row = 0; row < map.c.count; ++row) {
-    for (int column = 0; column < map.b.count; ++column, ++i) {
-      const bool shown = std::isfinite(map.spread[i]) && map.spread[i] > 0.0;
-      text += fmt::format("{:.9g} {:.9g} {}\n", map.b.at(column), map.c.at(row),
-                          shown ? fmt::format("{:.9g}", map.spread[i]) : "NaN");
-    }
-    text += "\n";
-  }
-  return text + "EOD\nplot $map using 1:2:3 with image notitle\nunset output\n";
 }
 
 }  // namespace hamgen::app

@@ -8,6 +8,8 @@
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
 #include "app/load_integrator.hpp"
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
 #include "runtime/extrapolation.hpp"
 
 namespace hamgen::app {
@@ -64,7 +66,11 @@ double eigenvalue_bound(const SquareMatrix& x, const SquareMatrix& y, double sig
 
 Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
                    const OrbitRequest& request) {
-  Request method{.scheme = "implicit-midpoint", .observe_curvature = true, .scalar = "quad"};
+  // Both are symmetric and of order 2; the explicit one solves no equations in quad numbers.
+  const bool separable = derive(read_model(source, request.method.sizes)).is_separable();
+  Request method{.scheme = separable ? "stormer-verlet" : "implicit-midpoint",
+                 .observe_curvature = true,
+                 .scalar = "quad"};
   method.fold = request.method.fold;
   method.sizes = request.method.sizes;
   const PluginSource plugin = generate_plugin(source, method);

@@ -97,7 +97,9 @@ std::string verdict_of(const TuneReport& report) {
     text += fmt::format(";\n              the state error {} by a factor of {:.3g}",
                         ratio > 1.0 ? "grows" : "shrinks", std::max(ratio, 1.0 / ratio));
   }
-  return text + (worth ? "; the gauge fits this orbit, not others" : "");
+  if (best.stability.below && report.h > *best.stability.below)
+    text += ";\n              this h is beyond the bound of its linear part: it may not last";
+  return text + (worth ? ";\n              the gauge fits this orbit, not others" : "");
 }
 
 std::string tune_text(const TuneReport& report) {

@@ -120,7 +120,11 @@ TEST(Tune, DrawsTheMapOfTheEnergySpread) {
   ASSERT_EQ(spreads.size(), 25u);
   // The grid goes from 0 to twice the pair: the pair itself is in the middle.
   EXPECT_EQ(std::ranges::min_element(spreads) - spreads.begin(), 12);
-  EXPECT_TRUE(contains(read(scratch.path("map.gp")), "with image"));
+  const std::string script = read(scratch.path("map.gp"));
+  for (const char* part : {"with image", "midpoint rule", "fitted: -0.0024978, -0.083333",
+                           "best cell", "sure to stay bounded for b > -100)"})
+    EXPECT_TRUE(contains(script, part)) << part;
+  EXPECT_FALSE(contains(script, "set arrow")) << "the bound is far outside";
 }
 
 TEST(Tune, RefusesWhatMakesNoSense) {
