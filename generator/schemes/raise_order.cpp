@@ -11,7 +11,8 @@ Scheme raise_order(Scheme scheme, int order) {
   if (member == nullptr) {
     throw UsageError(
         fmt::format("--order {}: {} has order {}, and only the members of the family can be "
-                    "raised\nhelp: leave --scheme out, or name a member of the family",
+                    "raised; the coefficients of a composition are those for a member of order 2\n"
+                    "help: leave --scheme out, or name a member of the family",
                     order, scheme.name, scheme.order));
   }
   if (order < scheme.order || order > kHighestOrder) {

@@ -151,13 +151,14 @@ TEST(Order, OfTheDoublePendulumIsObserved) {
 }
 
 class AnyOrder : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(All, AnyOrder, ::testing::Values(2, 3, 4, 5, 6));
+INSTANTIATE_TEST_SUITE_P(All, AnyOrder, ::testing::Values(2, 3, 4, 5, 6, 8, 9));
 
 TEST_P(AnyOrder, OfAMemberThatIsNotSymmetricIsObserved) {
   Problem finer = a2;
   finer.steps = 32;
   expect_order(finer, {"3/10", "1/5", "-1/10"}, GetParam(), 0.2);
   expect_order(finer, {"3/10", "1/5 + h/3", "-h/10"}, GetParam(), 0.2);
+  if (GetParam() > 6) return;  // its K is long, and the test is not about its length
   finer = a8;
   finer.steps = 32;
   expect_order(finer, {"0", "0", "0"}, GetParam(), 0.3);

@@ -47,6 +47,22 @@ TEST_P(HenonHeiles, KeepsItsEnergy) {
   EXPECT_LE(worst_energy(emitted, {0.1L, 0.2L, 0.3L, -0.1L}, 0.1L, 10000), GetParam().most);
 }
 
+// A gauge that depends on h, raised: the generating function takes its series in h.
+TEST(RaisedOrder, OfALocallyExactGaugeIsObserved) {
+  const std::string text = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+  const Vector start = {2.0L, 0.0L};
+  const Vector exact =
+      Emitted(text, {.scheme = "gauss-16", .scalar = "long-double"}).after(128, start, 0x1p-5L);
+  for (const int order : {4, 6}) {
+    const Emitted member(text, {.order = order, .gauge = "locally-exact", .scalar = "long-double"});
+    std::vector<long double> errors;
+    for (int k = 2; k <= 4; ++k) {
+      errors.push_back(distance(member.after(4 << k, start, std::ldexp(1.0L, -k)), exact));
+    }
+    EXPECT_NEAR(observed_orders(errors).back(), order, 0.2);
+  }
+}
+
 // Newton with the Hessian of H, its linear system reduced to the positions: the step is still
 // solved to round-off, as the exact conservation of angular momentum shows.
 TEST(Kepler, KeepsItsAngularMomentumAtOrderEight) {
