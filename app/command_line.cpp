@@ -196,6 +196,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--namespace", request.name_space);
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
+  if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
   return on_one_line(runtime::command_text(words));
 }
 

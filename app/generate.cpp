@@ -8,6 +8,7 @@
 
 #include "app/command_line.hpp"
 #include "app/difference.hpp"
+#include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/names.hpp"
@@ -22,6 +23,7 @@ struct GenerateOptions {
   std::string format;
   std::string name_space;
   std::string require;
+  std::string watch_modified;
   bool tangent = false;
   bool check = false;
 };
@@ -95,6 +97,8 @@ int generate_files(const GenerateOptions& options) {
   request.name_space = options.name_space;
   request.require = options.require;
   request.tangent = options.tangent;
+  if (!options.watch_modified.empty())
+    request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
   record_origin(options.method, source, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, request.command);
@@ -116,6 +120,10 @@ Command add_generate(CLI::App& app) {
                    "only if proved: symplectic,symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
   parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
+  parser
+      ->add_option("--watch-modified", options->watch_modified,
+                   "emit K terms of the modified Hamiltonian too")
+      ->type_name("K");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");
   add_method_options(*parser, options->method);

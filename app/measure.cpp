@@ -13,36 +13,37 @@
 namespace hamgen::app {
 namespace {
 
-void measure_invariants(const PluginSource& plugin, const runtime::LoadedPlugin& loaded,
-                        const runtime::InitialValues& start, long steps, Proof& proof) {
-  if (plugin.invariant_names.empty()) return;
+constexpr long kOrbit = 10000;  // steps along which invariants are watched
+
+std::vector<InvariantDefect> invariant_defects(const PluginSource& plugin,
+                                               const runtime::LoadedPlugin& loaded,
+                                               const runtime::InitialValues& start, long steps) {
+  if (plugin.invariant_names.empty()) return {};
   runtime::Integrator integrator(loaded.library, start);
+  std::vector<InvariantDefect> defects;
   const std::vector<double> before = integrator.invariants();
-  std::vector<double> worst(before.size(), 0.0);
-  long done = 0;
-  for (const long most = std::min(steps, 10000L); done < most; done += 10) {
+  for (std::size_t i = 0; i < before.size(); ++i)
+    defects.push_back({.name = plugin.invariant_names[i], .initial = before[i] + 0.0});  // no -0
+  const long most = std::min(steps, kOrbit);
+  for (long done = 0; done < most;) {
     const long now = std::min(10L, most - done);
     if (integrator.advance(now, false).status != runtime::Status::done) break;
+    done += now;
     const std::vector<double> after = integrator.invariants();
-    for (std::size_t i = 0; i < worst.size(); ++i) {
-      worst[i] = std::max(worst[i], std::abs(after[i] - before[i]));
+    for (std::size_t i = 0; i < defects.size(); ++i) {
+      defects[i].largest = std::max(defects[i].largest, std::abs(after[i] - before[i]));
+      defects[i].steps = done;
     }
   }
-  for (std::size_t i = 0; i < worst.size(); ++i) {
-    proof.push_back({plugin.invariant_names[i] + " measured", Verdict::not_decided,
-                     fmt::format("changes by at most {:.2e} from {:.6g} in {} steps of the scene",
-                                 worst[i], before[i], done)});
-  }
+  return defects;
 }
 
 }  // namespace
 
-Proof measure(const SourceText& source, Request request, const std::string& scene_name,
-              bool symmetric) {
+Measured measure(const SourceText& source, Request request, const SceneRequest& wanted,
+                 bool symmetric) {
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
-  SceneRequest wanted;
-  wanted.scene = scene_name;
   const SceneValues scene = complete_scene(plugin.model, wanted);
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "");
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
@@ -54,8 +55,13 @@ Proof measure(const SourceText& source, Request request, const std::string& scen
                      "emitted for sums that are written out, and with --order R where Newton's "
                      "iteration takes the Hessian of K itself"});
   }
-  measure_invariants(plugin, loaded, start, scene.steps.value_or(1000), proof);
-  return proof;
+  return {std::move(proof), invariant_defects(plugin, loaded, start, *scene.steps)};
+}
+
+Finding finding(const InvariantDefect& defect) {
+  return {defect.name + " measured", Verdict::measured,
+          fmt::format("changes by at most {:.2e} from {:.6g} in {} steps of the scene",
+                      defect.largest, defect.initial, defect.steps)};
 }
 
 }  // namespace hamgen::app

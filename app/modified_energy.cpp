@@ -27,14 +27,10 @@ struct WatchedOrbit {
 };
 
 // The orbit in quad precision: what is left of the variation is that of the step, not of rounding.
-WatchedOrbit watch_orbit(const SourceText& source, Request request, const ModifiedOptions& options,
+WatchedOrbit watch_orbit(const SourceText& source, Request request, const SceneValues& scene,
                          const std::vector<Expression>& terms) {
   request.scalar = "quad";
   const Model model = read_request(source, request);
-  SceneRequest scene_request;
-  scene_request.scene = options.scene;
-  if (!options.h.empty()) scene_request.h = options.h;
-  const SceneValues scene = complete_scene(model, scene_request);
   const PluginSource plugin = generate_plugin(source, request);
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "");
   runtime::Integrator integrator(loaded.library, initial_values(plugin, scene, *loaded.library));
@@ -72,7 +68,8 @@ int modified_term_count(const std::string& option, const std::string& text) {
 }
 
 ModifiedReport modified_report(const SourceText& source, const Request& request,
-                               const ModifiedOptions& options) {
+                               const ModifiedOptions& options,
+                               const std::optional<SceneValues>& scene) {
   const std::vector<Expression> terms =
       modified_hamiltonian(source, request, modified_term_count("--terms", options.terms));
   ModifiedReport report;
@@ -86,13 +83,13 @@ ModifiedReport modified_report(const SourceText& source, const Request& request,
                                  : fmt::format("  h^{}  {}\n", j, formula);
     report.json["terms"].push_back({{"power", j}, {"value", formula}});
   }
-  if (options.scene.empty()) return report;
-  const WatchedOrbit orbit = watch_orbit(source, request, options, terms);
+  if (!scene) return report;
+  const WatchedOrbit orbit = watch_orbit(source, request, *scene, terms);
   report.text += fmt::format(
       "along scene {}, h = {}, {} steps in quad precision:\n"
       "  terms to  max |Ht - Ht(0)|\n",
-      options.scene, orbit.h, orbit.steps);
-  report.json["scene"] = options.scene;
+      scene->name, orbit.h, orbit.steps);
+  report.json["scene"] = scene->name;
   report.json["h"] = orbit.h;
   report.json["steps"] = orbit.steps;
   report.json["variation"] = nlohmann::ordered_json::array();

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "app/command_line.hpp"
+#include "generator/language/scene.hpp"
 
 namespace hamgen::app {
 
 struct ModifiedOptions {
-  std::string terms;  // K; empty: nothing is asked for
-  std::string scene;  // along whose orbit it is measured; empty: it is not
-  std::string h;      // in place of the scene's
+  std::string terms;  // K
   bool latex = false;
 };
 
@@ -25,6 +25,7 @@ struct ModifiedReport {
   nlohmann::ordered_json json;
 };
 [[nodiscard]] ModifiedReport modified_report(const SourceText& source, const Request& request,
-                                             const ModifiedOptions& options);
+                                             const ModifiedOptions& options,
+                                             const std::optional<SceneValues>& scene);
 
 }  // namespace hamgen::app

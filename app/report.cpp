@@ -1,6 +1,7 @@
 // hamgen report: all there is to know of a model and a method, on one page.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
+#include "app/modified_energy.hpp"
 #include "app/report_page.hpp"
 #include "app/scheme_spec.hpp"
 #include "app/terminal.hpp"
@@ -67,6 +69,31 @@ BenchMethod chosen_method(const ReportOptions& options, const SourceText& source
   return method;
 }
 
+// Of a member with few degrees of freedom; null where there is none, or its terms are too long.
+nlohmann::ordered_json modified_hamiltonian_of(const SourceText& source, const Request& request,
+                                               SceneValues scene) {
+  constexpr long most_degrees_of_freedom = 4;
+  constexpr long most_steps = 20'000;
+  if (degrees_of_freedom(read_request(source, request)) > most_degrees_of_freedom) return nullptr;
+  scene.steps = std::min(*scene.steps, most_steps);
+  for (const char* terms : {"3", "2"}) {
+    try {
+      return modified_report(source, request, {.terms = terms}, scene).json;
+    } catch (const UsageError&) {
+      continue;  // no member, or too long
+    }
+  }
+  return nullptr;
+}
+
+Proof linear_part(const SourceText& source, const Request& request, const SceneValues& scene) {
+  Proof proof;
+  for (const LinearPoint& point : linear_points(source, request, scene)) {
+    for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
+  }
+  return proof;
+}
+
 int report(const ReportOptions& options) {
   const SourceText source = read_model_source(options.method);
   SizesAndRest set = split_sizes(read_model(source), options.method.set);
@@ -104,6 +131,8 @@ int report(const ReportOptions& options) {
                               .scene = &scene,
                               .bench = &bench,
                               .proof = verify_step(source, request),
+                              .linear = linear_part(source, request, scene),
+                              .modified = modified_hamiltonian_of(source, request, scene),
                               .orbit = drawn.orbit,
                               .pictures = draw_all(drawn.figures, directory),
                               .command = request.command};

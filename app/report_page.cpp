@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostEquations = 8;
 constexpr std::size_t kMostValues = 12;
+constexpr std::size_t kLongestFormula = 400;
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits =
@@ -151,9 +152,9 @@ std::string system_section(const ReportContent& content) {
          values_table(content);
 }
 
-std::string proof_section(const ReportContent& content) {
-  std::string text = "<h2>What is proved</h2>\n<div class='wide'><table>\n";
-  for (const Finding& finding : content.proof) {
+std::string findings_table(const Proof& proof) {
+  std::string text = "<div class='wide'><table>\n";
+  for (const Finding& finding : proof) {
     const bool proved = finding.verdict == Verdict::proved;
     const bool refuted = finding.verdict == Verdict::refuted;
     text += fmt::format("<tr><td>{}</td><td class='{}'>{}</td><td>{}</td></tr>\n",
@@ -162,6 +163,54 @@ std::string proof_section(const ReportContent& content) {
                         : refuted ? "refuted"
                                   : "open",
                         to_text(finding.verdict), html_text(finding.detail));
+  }
+  return text + "</table></div>\n";
+}
+
+std::string proof_section(const ReportContent& content) {
+  std::string text = "<h2>What is proved</h2>\n" + findings_table(content.proof);
+  if (!content.linear.empty())
+    text += "<h2>Linear stability</h2>\n" + findings_table(content.linear);
+  return text;
+}
+
+// Ht term by term, and a table of how constant it is with more and more of them.
+std::string modified_section(const ReportContent& content) {
+  if (content.modified.is_null()) return "";
+  std::vector<std::string> names = {"E0"};
+  for (const Quantity& variable : content.mechanics->variables) names.push_back(variable.name);
+  for (const Quantity& parameter : content.mechanics->parameters) names.push_back(parameter.name);
+  const std::string tilde = "<mover><mi>H</mi><mo>~</mo></mover>";
+  std::string text =
+      "<h2>The modified Hamiltonian</h2>\n<p>What the step conserves instead of H, as a formal "
+      "series in h.</p>\n";
+  std::string sum;
+  std::string terms;
+  for (const auto& term : content.modified.at("terms")) {
+    const int power = term.at("power");
+    const std::string value = term.at("value");
+    const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
+    sum += power == 0 ? std::string("<mi>H</mi>")
+                      : fmt::format("<mo>+</mo><msup><mi>h</mi><mn>{}</mn></msup>{}", power, name);
+    if (power == 0) continue;
+    terms += value.size() > kLongestFormula
+                 ? fmt::format(
+                       "<p class='note'>{} has {} characters: hamgen verify --terms prints "
+                       "it.</p>\n",
+                       inline_formula(name), value.size())
+                 : formula(name + "<mo>=</mo>" +
+                           math_markup(read_expression("modified Hamiltonian", value, names)));
+  }
+  text += formula(tilde + "<mo>=</mo>" + sum + "<mo>+</mo><mo>…</mo>") + terms;
+  if (!content.modified.contains("variation")) return text;
+  text += fmt::format(
+      "<p>Along the orbit, {} steps of {} in quad precision, each further term takes the variation "
+      "down by its power of h:</p>\n<div class='wide'><table>\n<tr><th>terms to</th>"
+      "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
+      content.modified.at("steps").get<long>(), number_cell(content.modified.at("h")));
+  for (const auto& row : content.modified.at("variation")) {
+    text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{:.3e}</td></tr>\n",
+                        row.at("power").get<int>(), row.at("max").get<double>());
   }
   return text + "</table></div>\n";
 }
@@ -273,8 +322,8 @@ std::string report_page(const ReportContent& content) {
              html_text(model.name), html_text(content.plugin->scheme_name), kReportStyle,
              HAMGEN_VERSION, html_text(model.source.path)) +
          introduction(model) + system_section(content) + proof_section(content) +
-         figures_section(content) + bench_section(content) + code_section(content) +
-         "</main>\n</body>\n</html>\n";
+         modified_section(content) + figures_section(content) + bench_section(content) +
+         code_section(content) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace hamgen::app

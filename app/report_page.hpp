@@ -1,6 +1,7 @@
 // The web page of `hamgen report`: one file that needs no other.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ReportContent {
   const SceneValues* scene = nullptr;
   const Bench* bench = nullptr;
   Proof proof;
+  Proof linear;                     // the lines of the linear part
+  nlohmann::ordered_json modified;  // of modified_report; null without it
   OrbitSummary orbit;
   std::vector<ReportPicture> pictures;
   std::string command;  // that emits the header

@@ -156,12 +156,11 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
-  record_origin(options.method, source, request);
-
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
     request.step = *scene.h;
   }
+  record_origin(options.method, source, request);
 
   RunReport report;
   report.path = options.method.model;

@@ -15,7 +15,10 @@ namespace {
 
 struct VerifyOptions {
   MethodOptions method;
-  ModifiedOptions modified;  // its scene is also where the compiled step is measured
+  ModifiedOptions modified;  // no terms: nothing is asked for
+  // Where the step is measured and the linear part is taken; empty: the first, and the model's.
+  std::string scene;
+  std::string h;
   std::string required;
   bool measure = false;
   bool json = false;
@@ -44,9 +47,15 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
           {"iteration_radius", number(found.iteration_radius)}};
 }
 
+SceneRequest scene_request(const VerifyOptions& options) {
+  SceneRequest wanted{.scene = options.scene};
+  if (!options.h.empty()) wanted.h = options.h;
+  return wanted;
+}
+
 // Of the scene's state, or of the first scene if none is named.  A reason where there is none.
 std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
-                                     const ModifiedOptions& options, Proof& proof) {
+                                     const VerifyOptions& options, Proof& proof) {
   const auto open = [&proof](const std::string& why) {
     proof.push_back({"linear stability", Verdict::not_decided, why});
     return std::vector<LinearPoint>{};
@@ -54,9 +63,7 @@ std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
   if (request.solver.starts_with("sweeps"))
     return open("sweeps leave the step unsolved: the linear step is another");
   const Model model = read_request(source, request);
-  SceneRequest wanted{.scene = options.scene};
-  if (!options.h.empty()) wanted.h = options.h;
-  const SceneValues scene = scene_values(model, wanted);
+  const SceneValues scene = scene_values(model, scene_request(options));
   if (!scene.h) return open("there is no scene with a step size and no --h");
   take_gauge_at(scene, model, request);
   std::vector<LinearPoint> points = linear_points(source, request, scene);
@@ -67,20 +74,31 @@ std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
   return points;
 }
 
+// Below what is proved of the same name.
+void add_beside(Proof& proof, const Finding& measured) {
+  const std::string name = measured.property.substr(0, measured.property.find(' '));
+  const auto last = std::find_if(proof.rbegin(), proof.rend(), [&name](const Finding& f) {
+    return f.property.starts_with(name + " ");
+  });
+  proof.insert(last.base(), measured);  // at the end if nothing is said of it
+}
+
 int verify(const VerifyOptions& options) {
   const SourceText source = read_model_source(options.method);
   Request request = request_with_sizes(options.method, source);
   request.tangent = options.measure;  // then it is read back as well
   Proof proof = verify_step(source, request);
+  std::vector<InvariantDefect> defects;
   if (options.measure) {
     const bool symmetric = std::ranges::any_of(proof, [](const Finding& f) {
       return f.property == "symmetric" && f.verdict == Verdict::proved;
     });
-    for (Finding& finding : measure(source, request, options.modified.scene, symmetric)) {
-      proof.push_back(std::move(finding));
-    }
+    Measured measured = measure(source, request, scene_request(options), symmetric);
+    std::ranges::move(measured.proof, std::back_inserter(proof));
+    for (const InvariantDefect& defect : measured.invariants) add_beside(proof, finding(defect));
+    defects = std::move(measured.invariants);
   }
-  const std::vector<LinearPoint> linear = linear_part(source, request, options.modified, proof);
+  const std::vector<LinearPoint> linear = linear_part(source, request, options, proof);
   bool holds = true;
   const bool by_default = options.required.empty();
   auto rows = nlohmann::ordered_json::array();
@@ -88,6 +106,11 @@ int verify(const VerifyOptions& options) {
     rows.push_back({{"property", finding.property},
                     {"verdict", to_text(finding.verdict)},
                     {"detail", finding.detail}});
+    for (const InvariantDefect& defect : defects) {
+      if (finding.property == defect.name + " measured")
+        rows.back().update(
+            {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
+    }
     const bool needed =
         finding.property == "emitted code" || (by_default && finding.property == "symplectic");
     if (needed && finding.verdict == Verdict::refuted) holds = false;
@@ -95,7 +118,10 @@ int verify(const VerifyOptions& options) {
   for (const LinearPoint& point : linear) rows.push_back(json_of(point));
   std::string text = to_text(proof);
   if (!options.modified.terms.empty()) {
-    const ModifiedReport report = modified_report(source, request, options.modified);
+    std::optional<SceneValues> scene;  // without one by name only the terms are printed
+    if (!options.scene.empty())
+      scene = complete_scene(read_request(source, request), scene_request(options));
+    const ModifiedReport report = modified_report(source, request, options.modified, scene);
     rows.push_back(report.json);
     text += report.text;
   }
@@ -116,9 +142,9 @@ Command add_verify(CLI::App& app) {
       ->type_name("SIZE=N");
   parser->add_option("--terms", modified.terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
-  parser->add_option("--scene", modified.scene, "measure along this scene's orbit")
+  parser->add_option("--scene", options->scene, "measure along this scene's orbit")
       ->type_name("NAME");
-  parser->add_option("--h", modified.h, "with this step; default: the scene's")->type_name("H");
+  parser->add_option("--h", options->h, "with this step; default: the scene's")->type_name("H");
   parser->add_flag("--latex", modified.latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser

@@ -159,7 +159,8 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
                      .model_digest = request.model_digest,
                      .scalar = request.scalar,
                      .name_space = request.name_space,
-                     .tangent = request.tangent && has_tangent(program)};
+                     .tangent = request.tangent && has_tangent(program),
+                     .watched_step = request.step};
   if (options.name_space.empty()) {
     const StepEquations& equations = program.plan.equations;
     std::string scheme = equations.scheme.name;
@@ -193,17 +194,20 @@ std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme&
   return modified_hamiltonian(mechanics, member.c, member.generating_order, last + 1);
 }
 
-// Adds Ht, cut off after each of its terms, to the invariants: "modified_energy_4" goes to h^4.
-void watch_modified(Mechanics& mechanics, const Scheme& scheme, const Request& request) {
-  const std::vector<Expression> terms = modified_terms(mechanics, scheme, request.watch_modified);
+// Ht, cut off after each of its terms, as functions of h and the state.
+void watch_modified(Program& program, const std::vector<Expression>& terms) {
+  const Expression h = step_size();
+  std::vector<Expression> sums;
   Expression sum;
-  Rational power = 1;
+  Expression power(1);
   for (std::size_t j = 0; j < terms.size(); ++j) {
-    sum += Expression(power) * terms[j];
-    power *= request.step;
+    sum += power * terms[j];
+    power = power * h;
     if (j == 0 || terms[j].is_zero()) continue;
-    mechanics.invariants.push_back({fmt::format("modified_energy_{}", j), sum});
+    sums.push_back(sum);
+    program.modified_powers.push_back(static_cast<int>(j));
   }
+  program.modified_energies = evaluate_together(sums);
 }
 
 Stages run_stages(const SourceText& source, const Request& request) {
@@ -218,7 +222,6 @@ Stages run_stages(const SourceText& source, const Request& request) {
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
-  if (request.watch_modified > 0) watch_modified(mechanics, scheme, request);
   StepEquations equations = discretise(mechanics, scheme);
   SolvePlan plan = plan_solve(equations, request.solver);
   if (request.scalar == "quad" && plan.arrays && uses_sparse_matrix(*plan.arrays)) {
@@ -229,6 +232,8 @@ Stages run_stages(const SourceText& source, const Request& request) {
   }
   Program program = build_program(plan);
   if (request.tangent && has_tangent(program)) program = with_tangent(std::move(program));
+  if (request.watch_modified > 0)
+    watch_modified(program, modified_terms(mechanics, scheme, request.watch_modified));
   return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
           std::move(program)};
 }
@@ -353,6 +358,8 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   for (const NamedExpression& invariant : stages.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);
   }
+  for (const int power : stages.program.modified_powers)
+    plugin.invariant_names.push_back(fmt::format("modified_energy_{}", power));
   plugin.singular_steps = singular_steps(stages.equations.scheme);
   plugin.needs_eigen = needs_eigen(stages.program);
   plugin.needs_quadmath = request.scalar == "quad";

@@ -39,10 +39,12 @@ struct Request {
   bool tangent = false;               // the linearised step too, where it can be written
   std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;  // other integer constants than the file's
-  int watch_modified = 0;             // terms of the modified Hamiltonian among the invariants,
-  Rational step;                      // at this h; as many for a symmetric step are even powers
-  std::string command;                // as the user typed it, for the header; may be empty
-  std::string model_digest;           // SHA-256 of the model's text, for the header; may be empty
+  // Terms of the modified Hamiltonian, as many for a symmetric step are even powers of h: emitted
+  // as functions of h, which a plugin adds to its invariants at this step.
+  int watch_modified = 0;
+  Rational step;
+  std::string command;       // as the user typed it, for the header; may be empty
+  std::string model_digest;  // SHA-256 of the model's text, for the header; may be empty
 };
 
 // The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma

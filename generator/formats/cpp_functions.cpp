@@ -6,6 +6,8 @@ namespace hamgen {
 
 namespace {
 
+constexpr const char* kParameters = "[[maybe_unused]] const Parameters& par";
+constexpr const char* kState = "[[maybe_unused]] const State& z";
 constexpr const char* kArguments =
     "[[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z";
 
@@ -44,6 +46,7 @@ void write_functions(CodeWriter& out, CppContext& context) {
                      w.line("return " + cpp(program.energy.results[0]) + ";");
                    });
   write_invariants(out, context);
+  write_modified_energies(out, context);
   if (!context.options.gradient) return;
   out.line("// grad H, the derivatives by q first.");
   write_evaluation(
@@ -65,6 +68,31 @@ void write_invariants(CodeWriter& out, CppContext& context) {
       context.program.invariants, [&](CodeWriter& w, const CppExpression& cpp) {
         write_results(w, cpp, context.program.invariants);
       });
+}
+
+void write_modified_energies(CodeWriter& out, CppContext& context) {
+  const std::vector<int>& powers = context.program.modified_powers;
+  if (powers.empty()) return;
+  std::string list;
+  for (const int power : powers) list += fmt::format("{}h^{}", list.empty() ? "" : ", ", power);
+  out.lines(
+      fmt::format("// The modified Hamiltonian H + h^{} (...) + ..., which steps of size h "
+                  "conserve as a formal\n// series, cut off after {}.\n",
+                  powers.front(), list));
+  write_evaluation(out, context,
+                   fmt::format("inline void modified_energies({}, [[maybe_unused]] Real h, {}, "
+                               "Real (&values)[{}])",
+                               kParameters, kState, powers.size()),
+                   context.program.modified_energies, [&](CodeWriter& w, const CppExpression& cpp) {
+                     write_results(w, cpp, context.program.modified_energies);
+                   });
+  out.line(fmt::format("// Cut off after h^{}.", powers.back()));
+  out.open("inline Real modified_energy(const Parameters& par, Real h, const State& z)");
+  out.line(fmt::format("Real values[{}];", powers.size()));
+  out.line("modified_energies(par, h, z, values);");
+  out.line(fmt::format("return values[{}];", powers.size() - 1));
+  out.close();
+  out.line();
 }
 
 }  // namespace hamgen

@@ -12,6 +12,8 @@ namespace hamgen {
 void write_functions(CodeWriter& out, CppContext& context);
 // invariants(par, z, values), if the model has any.
 void write_invariants(CodeWriter& out, CppContext& context);
+// modified_energies(par, h, z, values) and modified_energy(par, h, z), if the program has them.
+void write_modified_energies(CodeWriter& out, CppContext& context);
 
 // values[i] = result i.
 void write_results(CodeWriter& out, const CppExpression& cpp, const Evaluation& evaluation);

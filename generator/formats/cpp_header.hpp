@@ -18,6 +18,8 @@ struct CppOptions {
   std::string proved, tested, refuted;
   bool gradient = false;  // emit gradient() too
   bool tangent = false;   // emit the linearised step too
+  // Where a plugin, whose interface has no h there, adds the modified energies to its invariants.
+  Rational watched_step = {};
   bool builtins = false;  // functions of the compiler instead of <cmath>
 };
 

@@ -152,32 +152,43 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
       "read_state(state, nullptr)));");
   out.close();
   out.line();
-  auto vector_function = [&](const std::string& name, const std::string& function,
-                             std::size_t count) {
+  // Fills values from `first` on with what the call leaves in the named array.
+  const auto fill_values = [&out](const std::string& array, std::size_t count, std::size_t first,
+                                  const std::string& call) {
+    if (count == 0) return;
+    out.line(fmt::format("Real {}[{}];", array, count));
+    out.line(call);
+    out.line(fmt::format("for (int i = 0; i < {}; ++i) values[{}i] = static_cast<double>({}[i]);",
+                         count, first == 0 ? "" : fmt::format("{} + ", first), array));
+  };
+  const auto open_vector_function = [&out](const std::string& name) {
     out.open(
         fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
                     "double* state, [[maybe_unused]] double* values)",
                     name));
-    if (count != 0) {
-      out.line(fmt::format("Real result[{}];", count));
-      const bool flat = context.arrays() && function == "gradient";
-      out.line(fmt::format(
-          "{}(read_parameters(parameters, nullptr), read_state(state, nullptr){}, result);",
-          function, flat ? ".q" : ""));
-      out.line(fmt::format(
-          "for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);", count));
-    }
-    out.close();
-    out.line();
   };
-  vector_function("invariants_of", "invariants", context.mechanics.invariants.size());
-  vector_function("gradient_of", "gradient", static_cast<std::size_t>(2 * context.n()));
+  const std::string arguments = "read_parameters(parameters, nullptr), ";
+  const std::string state = "read_state(state, nullptr)";
+  const std::size_t invariants = context.mechanics.invariants.size();
+  const std::size_t modified = context.program.modified_powers.size();
+  open_vector_function("invariants_of");
+  fill_values("result", invariants, 0, "invariants(" + arguments + state + ", result);");
+  fill_values("modified", modified, invariants,
+              fmt::format("modified_energies({}{}, {}, modified);", arguments,
+                          literal(context.options.watched_step, context.scalar), state));
+  out.close();
+  out.line();
+  open_vector_function("gradient_of");
+  fill_values("result", static_cast<std::size_t>(2 * context.n()), 0,
+              "gradient(" + arguments + state + (context.arrays() ? ".q" : "") + ", result);");
+  out.close();
+  out.line();
   if (context.options.tangent) write_tangent_interface(out, context);
   out.line(
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
                   "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
                   "gradient_of, {}}};",
-                  context.n(), context.parameters.size(), context.mechanics.invariants.size(),
+                  context.n(), context.parameters.size(), invariants + modified,
                   context.scalar.digits, description, context.program.plan.solver,
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();

@@ -63,6 +63,9 @@ struct Program {
   Evaluation energy;                   // one result
   Evaluation gradient;                 // 2n results
   Evaluation invariants;
+  // The modified Hamiltonian, functions of h too: H + ... cut off after each of these powers of h.
+  Evaluation modified_energies = {};
+  std::vector<int> modified_powers = {};
   // Of a splitting: n results each, dV/dq and dT/dp.
   Evaluation potential_gradient = {};
   Evaluation kinetic_gradient = {};

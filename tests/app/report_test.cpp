@@ -30,8 +30,10 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, directory + "/report.html\n");
   const std::string page = read(directory + "/report.html");
-  for (const char* part : {"<math", "symplectic", "proved", "max |H − H(0)|", "ns/step",
-                           "The emitted step", "cost", "torn out", "hamgen generate"})
+  for (const char* part :
+       {"<math", "symplectic", "proved", "max |H − H(0)|", "ns/step", "The emitted step", "cost",
+        "torn out", "hamgen generate", "Linear stability", "theta = 2 atan(h w/2)",
+        "The modified Hamiltonian", "h<sup>4</sup>"})
     EXPECT_TRUE(contains(page, part)) << part;
   for (const char* name :
        {"portrait", "energy", "energy_zoom", "state", "bench_energy", "bench_state"}) {

@@ -1,0 +1,137 @@
+// hamgen verify, on every model that comes with it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/hamgen_command.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::filesystem::path models = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians";
+
+Json findings(const std::string& model, std::vector<std::string> options, int status = 0) {
+  options.insert(options.begin(), {"verify", model, "--json"});
+  const Result result = hamgen(options);
+  EXPECT_EQ(result.status, status) << model << result.err;
+  return Json::parse(result.out);
+}
+
+Json find(const Json& rows, const std::string& property) {
+  const auto it =
+      std::ranges::find_if(rows, [&](const Json& row) { return row.at("property") == property; });
+  if (it == rows.end()) return {{"verdict", "missing"}};
+  return *it;
+}
+
+// Not an invariant: the energy of the stiff springs is constant to O(1/w) only.
+bool is_adiabatic(const std::string& model, const std::string& property) {
+  return model == "stiff_fpu.ham" && property == "I invariant";
+}
+
+TEST(Verify, ProvesOfEveryShippedModelWhatHolds) {
+  int seen = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(models)) {
+    const std::string model = entry.path().filename().string();
+    const Json midpoint = findings(entry.path().string(), {});
+    EXPECT_EQ(find(midpoint, "symplectic").at("verdict"), "proved") << model;
+    EXPECT_EQ(find(midpoint, "symmetric").at("verdict"), "proved") << model;
+    EXPECT_EQ(find(midpoint, "order 2").at("verdict"), "proved") << model;
+    for (const Json& row : midpoint) {
+      const std::string property = row.at("property");
+      EXPECT_NE(row.at("verdict"), "refuted") << model << ' ' << row;
+      if (property.ends_with(" invariant") && !is_adiabatic(model, property)) {
+        EXPECT_EQ(row.at("verdict"), "proved") << model << ' ' << row;
+      }
+    }
+    // Another member is symplectic too, and of order 1; what it does not conserve may be refuted.
+    const Json third = findings(entry.path().string(), {"--alpha", "1/3"});
+    EXPECT_EQ(find(third, "symplectic").at("verdict"), "proved") << model;
+    EXPECT_EQ(find(third, "symmetric").at("verdict"), "refuted") << model;
+    EXPECT_EQ(find(third, "order 1").at("verdict"), "proved") << model;
+    for (const Json& proof : {midpoint, third}) {
+      const std::string emitted = find(proof, "emitted code").at("verdict");
+      EXPECT_TRUE(emitted == "proved" || emitted == "tested") << model << ' ' << emitted;
+      EXPECT_TRUE(std::ranges::any_of(proof, [](const Json& row) {
+        return row.at("property") == "linear stability" && row.contains("place");
+      })) << model;
+    }
+    ++seen;
+  }
+  EXPECT_GE(seen, 20);
+}
+
+TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
+  const std::string model = (models / "harmonic.ham").string();
+  const Json euler =
+      find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "1/2"}), "linear stability");
+  EXPECT_EQ(euler.at("verdict"), "tested");
+  EXPECT_EQ(euler.at("frequencies"), Json::array({1.0}));
+  EXPECT_NEAR(euler.at("largest_h").get<double>(), 2.0, 1e-9);
+  // cos theta = 1 - h^2 w^2/2.
+  EXPECT_NEAR(euler.at("angles").at(0).get<double>(), std::acos(1.0 - 0.125), 1e-12);
+  EXPECT_TRUE(euler.at("iteration_radius").is_null());
+  const Json beyond =
+      find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "2.5"}), "linear stability");
+  EXPECT_EQ(beyond.at("verdict"), "refuted");
+  EXPECT_LT(beyond.at("margin").get<double>(), 0.0);
+  const Json midpoint = find(findings(model, {"--h", "5"}), "linear stability");
+  EXPECT_EQ(midpoint.at("verdict"), "proved");
+  EXPECT_TRUE(midpoint.at("bounded_for_every_h"));
+  EXPECT_NEAR(midpoint.at("iteration_radius").get<double>(), 2.5, 1e-12);
+  const Json sweeps = find(findings(model, {"--solver", "sweeps:2"}, 5), "linear stability");
+  EXPECT_EQ(sweeps.at("verdict"), "not decided");
+}
+
+// The midpoint rule conserves the quadratic angular momentum, up to rounding: 10000 steps of about
+// 2e-16 each, all of one sign at worst.  It turns the ellipse: the Laplace vector moves.
+TEST(Verify, MeasuresTheDefectOfEveryInvariantBesideItsProof) {
+  const Json rows = findings((models / "kepler.ham").string(), {"--measure"});
+  const Json kept = find(rows, "L measured");
+  EXPECT_EQ(kept.at("verdict"), "measured");
+  EXPECT_EQ(kept.at("steps"), 10000);
+  EXPECT_LT(kept.at("defect").get<double>(), 2e-12);
+  const Json moved = find(rows, "A2 measured");
+  EXPECT_GT(moved.at("defect").get<double>(), 1e-3);
+  // The last row of a name.
+  const auto place = [&rows](const std::string& property) {
+    return std::ranges::find_if(rows,
+                                [&](const Json& row) { return row.at("property") == property; }) -
+           rows.begin();
+  };
+  EXPECT_EQ(place("L measured"), place("L conserved by the step") + 1);
+  EXPECT_EQ(place("A2 measured"), place("A2 conserved by the step") + 1);
+}
+
+// With alpha = 1/2 -+ 1/6 for x and y the angular momentum is not conserved, and it shows.
+TEST(Verify, MeasuresTheDefectOfAnInvariantThatIsRefuted) {
+  const Json rows = findings((models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
+  EXPECT_EQ(find(rows, "L conserved by the step").at("verdict"), "refuted");
+  EXPECT_GT(find(rows, "L measured").at("defect").get<double>(), 1e-6);
+}
+
+TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
+  const Scratch scratch;
+  const Result result =
+      hamgen({"run", (models / "pendulum.ham").string(), "--watch-modified", "3", "--steps", "2000",
+              "--json", "--quiet", "--keep", scratch.path("k")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json invariants = Json::parse(result.out).at("invariants");
+  // In double the h^2 truncation still shows its h^4 error, at most 1.74e-11; that to h^4 is at
+  // rounding, some units of 0.03.
+  EXPECT_LT(std::abs(invariants.at("modified_energy_2").at("final_error").get<double>()), 1.8e-11);
+  EXPECT_LT(std::abs(invariants.at("modified_energy_4").at("final_error").get<double>()), 1e-15);
+  const std::string header = read(scratch.path("k") + "/pendulum.hpp");
+  EXPECT_TRUE(contains(header, "--watch-modified 3"));
+  EXPECT_TRUE(contains(header,
+                       "inline Real modified_energy(const Parameters& par, Real h, "
+                       "const State& z)"));
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
