@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
 #include "app/load_integrator.hpp"
+#include "app/processor_time.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/trajectory.hpp"
 
@@ -26,30 +26,13 @@ runtime::InitialValues start_of(const BenchMethod& method, const SceneValues& sc
 // Without a chance to stop for at most so many steps.
 constexpr long long kStepsAtOnce = 1 << 20;
 
-// Of this thread: on a machine with other work to do, the clock on the wall measures that work too.
-// The steps wait for nothing, so on an idle machine the two are the same.
-double processor_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
+// The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
 double timed_run(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
   runtime::Integrator integrator(method.loaded.library, start);
-  const double begin = processor_seconds();
+  const double begin = thread_seconds();
   for (long long left = steps; left > 0 && !interrupt_flag(); left -= kStepsAtOnce)
     static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
-  return processor_seconds() - begin;
-}
-
-double euclidean_distance(const std::vector<runtime::Wide>& x,
-                          const std::vector<runtime::Wide>& y) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double difference = (x[i].hi - y[i].hi) + (x[i].lo - y[i].lo);
-    sum += difference * difference;
-  }
-  return std::sqrt(sum);
+  return thread_seconds() - begin;
 }
 
 std::string outcome_of(const runtime::RunSummary& summary) {
@@ -121,8 +104,7 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
     row.energy_error = summary.energy->max_error();
     row.energy_spread = summary.energy->spread();
   }
-  if (!reference.state.empty())
-    row.state_error = euclidean_distance(integrator.state(), reference.state);
+  if (!reference.state.empty()) row.state_error = distance(integrator.state(), reference.state);
   const double once = timed_run(method, start, row.steps);
   row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / once), 1.0, 1e5));
 }

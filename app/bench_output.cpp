@@ -102,15 +102,6 @@ std::string csv_number(const std::optional<double>& value) {
   return value ? runtime::number_text(*value) : "";
 }
 
-// A text as one cell.
-std::string csv_cell(std::string text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
-    text.insert(at, 1, '"');
-  std::ranges::replace(text, '\n', ' ');
-  return '"' + text + '"';
-}
-
 }  // namespace
 
 std::string table_text(const Bench& bench) {
@@ -160,8 +151,8 @@ std::string csv_text(const Bench& bench) {
       return timed ? runtime::number_text(value) : std::string();
     };
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{}", csv_cell(bench.methods[row.method].spec),
-        runtime::number_text(to_double(row.h)), row.steps, csv_cell(row.outcome),
+        "{},{},{},{},{},{},{},{},{},{},{}", runtime::csv_cell(bench.methods[row.method].spec),
+        runtime::number_text(to_double(row.h)), row.steps, runtime::csv_cell(row.outcome),
         if_timed(time.seconds_per_time), if_timed(time.spread), if_timed(time.nanoseconds_per_step),
         runtime::number_text(row.iterations_per_step), csv_number(row.energy_error),
         csv_number(row.energy_spread), csv_number(row.state_error));

@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
+#include <memory>
 
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
 #include "app/load_integrator.hpp"
+#include "app/processor_time.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/schemes/all_schemes.hpp"
@@ -28,38 +30,35 @@ std::string exact_text(const runtime::Wide& value) {
   return fmt::format("{:a} {:a}\n", value.hi, value.lo);
 }
 
-// A number, then hi and lo of each component: hexadecimal, so nothing is rounded.
-std::string text_of(double first, const std::vector<runtime::Wide>& values) {
-  std::string text = fmt::format("{:a}\n", first);
+// Numbers, then hi and lo of each component: hexadecimal, so nothing is rounded.
+std::string text_of(const std::vector<double>& numbers, const std::vector<runtime::Wide>& values) {
+  std::string text = fmt::format("{}\n", numbers.size());
+  for (const double number : numbers) text += fmt::format("{:a}\n", number);
   for (const auto& value : values) text += exact_text(value);
   return text;
 }
 
-struct NumberAndValues {
-  double first = 0.0;
+struct NumbersAndValues {
+  std::vector<double> numbers;
   std::vector<runtime::Wide> values;
 };
 
-NumberAndValues read_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  const char* at = text.c_str();
+NumbersAndValues read_numbers(const std::string& text) {
+  char* at = nullptr;
+  const unsigned long count = std::strtoul(text.c_str(), &at, 10);
+  std::vector<double> all;
   for (char* end = nullptr;; at = end) {
     const double value = std::strtod(at, &end);
     if (end == at) break;
-    numbers.push_back(value);
+    all.push_back(value);
   }
-  NumberAndValues result{.first = numbers.empty() ? 0.0 : numbers.front()};
-  for (std::size_t i = 1; i + 1 < numbers.size(); i += 2)
-    result.values.push_back({.hi = numbers[i], .lo = numbers[i + 1]});
+  NumbersAndValues result;
+  for (std::size_t i = 0; i < std::min<std::size_t>(count, all.size()); ++i)
+    result.numbers.push_back(all[i]);
+  for (std::size_t i = count; i + 1 < all.size(); i += 2)
+    result.values.push_back({.hi = all[i], .lo = all[i + 1]});
   return result;
 }
-
-// The integrator that is extrapolated, and where it starts.
-struct BaseRule {
-  PluginSource plugin;
-  runtime::LoadedPlugin loaded;
-  runtime::InitialValues start;
-};
 
 // Both rules are symmetric and of order 2; the explicit one needs no iterations.
 std::string base_scheme(const SourceText& source, const ReferenceRequest& request) {
@@ -68,28 +67,15 @@ std::string base_scheme(const SourceText& source, const ReferenceRequest& reques
                                                                : "implicit-midpoint";
 }
 
-BaseRule load_base_rule(const SourceText& source, const SceneValues& scene,
-                        const ReferenceRequest& request) {
-  Request quad;
-  quad.scheme = base_scheme(source, request);
-  quad.scalar = "quad";
-  quad.sizes = request.sizes;
-  quad.fold = request.fold;
-  BaseRule base{.plugin = generate_plugin(source, quad)};
-  base.loaded = load_integrator(base.plugin, request.compiler);
-  base.start = initial_values(base.plugin, scene, *base.loaded.library);
-  return base;
-}
-
-std::string reference_key(const BaseRule& base, const std::string& what,
-                          const runtime::Wide& time) {
+std::string reference_key(const ReferenceRule& rule, const runtime::InitialValues& start,
+                          const std::string& what, const std::vector<Rational>& times) {
   runtime::Sha256 hash;
-  hash.update_field("reference 1");
+  hash.update_field("reference 2");
   hash.update_field(what);
-  hash.update_field(base.plugin.text);
-  for (const auto& value : base.start.parameters) hash.update_field(exact_text(value));
-  for (const auto& value : base.start.state) hash.update_field(exact_text(value));
-  hash.update_field(exact_text(time));
+  hash.update_field(rule.plugin.text);
+  for (const auto& value : start.parameters) hash.update_field(exact_text(value));
+  for (const auto& value : start.state) hash.update_field(exact_text(value));
+  for (const Rational& time : times) hash.update_field(exact_text(wide(time)));
   return hash.hex();
 }
 
@@ -99,6 +85,42 @@ double largest_difference(const std::vector<runtime::Wide>& x,
   for (std::size_t i = 0; i < x.size(); ++i)
     largest = std::max(largest, std::fabs((x[i].hi - y[i].hi) + (x[i].lo - y[i].lo)));
   return largest;
+}
+
+// Both tolerances side by side from time to time, until one of them fails or the time is over.
+ReferenceTrack compute_track(const std::shared_ptr<const runtime::Library>& library,
+                             const runtime::InitialValues& start,
+                             const std::vector<Rational>& times, double seconds) {
+  const double begin = thread_seconds();
+  std::atomic<bool> late = false;
+  runtime::ExtrapolationOptions options{.stop = &late};
+  options.on_progress = [&](double) {
+    late = late || thread_seconds() - begin > seconds || interrupt_flag();
+  };
+  ReferenceTrack track;
+  runtime::InitialValues coarse = start;
+  runtime::InitialValues fine = start;
+  Rational before = 0;
+  for (const Rational& time : times) {
+    for (auto [values, tolerance] :
+         {std::pair{&coarse, kCoarseTolerance}, std::pair{&fine, kTolerance}}) {
+      options.tolerance = tolerance;
+      const runtime::Extrapolation next =
+          runtime::extrapolate(library, *values, wide(time - before), options);
+      if (!next.failure.empty()) {
+        track.missing =
+            fmt::format("the reference ends at t = {:.4g}: {}", to_double(before) + next.reached,
+                        late ? fmt::format("{:.2g} s are over", seconds)
+                             : std::string("no step is small enough"));
+        return track;
+      }
+      values->state = next.state;
+    }
+    track.states.push_back(fine.state);
+    track.errors.push_back(largest_difference(fine.state, coarse.state));
+    before = time;
+  }
+  return track;
 }
 
 ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::InitialValues& start,
@@ -128,61 +150,74 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
 
 }  // namespace
 
+ReferenceRule reference_rule(const SourceText& source, const ReferenceRequest& request) {
+  Request quad;
+  quad.scheme = base_scheme(source, request);
+  quad.scalar = "quad";
+  quad.sizes = request.sizes;
+  quad.fold = request.fold;
+  ReferenceRule rule{.plugin = generate_plugin(source, quad)};
+  rule.loaded = load_integrator(rule.plugin, request.compiler);
+  return rule;
+}
+
 ReferenceSolution reference_solution(const SourceText& source, const SceneValues& scene,
                                      const Rational& time, const ReferenceRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  BaseRule base;
+  ReferenceRule rule;
   try {
-    base = load_base_rule(source, scene, request);
-  } catch (const runtime::ToolError& error) {  // quad numbers may be more than the compiler can do
+    rule = reference_rule(source, request);
+  } catch (const runtime::ToolError& error) {
     return {.failure = error.failure().message};
   }
-  const runtime::Wide end = wide(time);
-  const std::string key = reference_key(base, "end", end);
+  const runtime::InitialValues start = initial_values(rule.plugin, scene, *rule.loaded.library);
+  const std::string key = reference_key(rule, start, "end", {time});
   const runtime::Cache cache = runtime::open_cache();
   ReferenceSolution reference;
   if (const auto text = runtime::find_text(cache, key)) {
-    NumberAndValues kept = read_numbers(*text);
-    reference = {.state = std::move(kept.values), .error = kept.first, .from_cache = true};
+    NumbersAndValues kept = read_numbers(*text);
+    reference = {.state = std::move(kept.values), .error = kept.numbers.at(0), .from_cache = true};
   } else {
-    reference = compute(base.loaded, base.start, end, request);
+    reference = compute(rule.loaded, start, wide(time), request);
     if (reference.failure.empty() && cache.usable())
-      runtime::publish_text(cache, key, text_of(reference.error, reference.state));
+      runtime::publish_text(cache, key, text_of({reference.error}, reference.state));
   }
   reference.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return reference;
 }
 
-std::vector<std::vector<runtime::Wide>> reference_track(const SourceText& source,
-                                                        const SceneValues& scene,
-                                                        const Rational& interval, int count,
-                                                        const ReferenceRequest& request) {
-  BaseRule base = load_base_rule(source, scene, request);
-  const std::size_t size = base.start.state.size();
-  const std::string key = reference_key(base, fmt::format("track {}", count), wide(interval));
+ReferenceTrack reference_track(const ReferenceRule& rule, const runtime::InitialValues& start,
+                               const std::vector<Rational>& times, double seconds) {
+  const std::string key = reference_key(rule, start, fmt::format("track {:a}", seconds), times);
   const runtime::Cache cache = runtime::open_cache();
-  std::vector<runtime::Wide> all;
+  const std::size_t size = start.state.size();
+  ReferenceTrack track;
   if (const auto text = runtime::find_text(cache, key)) {
-    all = read_numbers(*text).values;
-  } else {
-    runtime::ExtrapolationOptions options{.tolerance = kTolerance, .stop = &interrupt_flag()};
-    std::string failure;
-    for (int i = 0; i < count && failure.empty(); ++i) {
-      const runtime::Extrapolation next =
-          runtime::extrapolate(base.loaded.library, base.start, wide(interval), options);
-      failure = next.failure;
-      if (!failure.empty()) break;
-      all.insert(all.end(), next.state.begin(), next.state.end());
-      base.start.state = next.state;
-      if (request.on_progress) request.on_progress((i + 1.0) / count);
+    const NumbersAndValues kept = read_numbers(*text);
+    track.errors = kept.numbers;
+    for (std::size_t i = 0; i < kept.numbers.size(); ++i) {
+      const auto at = kept.values.begin() + static_cast<std::ptrdiff_t>(i * size);
+      track.states.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
     }
-    if (failure.empty() && cache.usable()) runtime::publish_text(cache, key, text_of(0.0, all));
+    track.missing = text->substr(text->find('#') + 1);
+    return track;
   }
-  std::vector<std::vector<runtime::Wide>> track;
-  for (auto at = all.begin(); at != all.end(); at += static_cast<std::ptrdiff_t>(size))
-    track.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+  track = compute_track(rule.loaded.library, start, times, seconds);
+  if (!cache.usable() || interrupt_flag()) return track;
+  std::vector<runtime::Wide> all;
+  for (const auto& state : track.states) all.insert(all.end(), state.begin(), state.end());
+  runtime::publish_text(cache, key, text_of(track.errors, all) + "#" + track.missing);
   return track;
+}
+
+double distance(const std::vector<runtime::Wide>& x, const std::vector<runtime::Wide>& y) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double difference = (x[i].hi - y[i].hi) + (x[i].lo - y[i].lo);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace hamgen::app

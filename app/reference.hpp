@@ -9,6 +9,7 @@
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 #include "runtime/integrator.hpp"
+#include "runtime/load_plugin.hpp"
 
 namespace hamgen::app {
 
@@ -34,10 +35,31 @@ struct ReferenceSolution {
                                                    const SceneValues& scene, const Rational& time,
                                                    const ReferenceRequest& request);
 
-// The states at interval, 2 interval, ..., count interval, of the finer tolerance alone; fewer
-// where the solution ends.  Cached alike.
-[[nodiscard]] std::vector<std::vector<runtime::Wide>> reference_track(
-    const SourceText& source, const SceneValues& scene, const Rational& interval, int count,
-    const ReferenceRequest& request);
+// What references extrapolate: a symmetric rule of order 2 for the same model in quad numbers.
+struct ReferenceRule {
+  PluginSource plugin;
+  runtime::LoadedPlugin loaded;
+};
+// Throws ToolError where the compiler fails: quad numbers may be more than it can do.
+[[nodiscard]] ReferenceRule reference_rule(const SourceText& source,
+                                           const ReferenceRequest& request);
+
+// The states at some times, each with the largest difference between two tolerances.
+struct ReferenceTrack {
+  std::vector<std::vector<runtime::Wide>> states;  // at the first of the times: all, or fewer
+  std::vector<double> errors;
+  std::string missing;  // why the other times have none; empty if there are all
+};
+
+// Times ascend in absolute value, from 0 in one direction.  After `seconds` of the
+// thread's processor time the rest is missing.
+// Cached like a reference solution.
+[[nodiscard]] ReferenceTrack reference_track(const ReferenceRule& rule,
+                                             const runtime::InitialValues& start,
+                                             const std::vector<Rational>& times, double seconds);
+
+// Euclidean.
+[[nodiscard]] double distance(const std::vector<runtime::Wide>& x,
+                              const std::vector<runtime::Wide>& y);
 
 }  // namespace hamgen::app

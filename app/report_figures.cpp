@@ -14,8 +14,9 @@ namespace {
 
 constexpr long kPortraitSteps = 5000;
 constexpr long kZoomSteps = 400;
-constexpr long kBins = 800;  // of the energy error over all the time
-constexpr int kTrack = 40;   // times at which the state error is looked at
+constexpr long kBins = 800;             // of the energy error over all the time
+constexpr int kTrack = 40;              // times at which the state error is looked at
+constexpr double kTrackSeconds = 20.0;  // for the reference at these times
 
 runtime::InitialValues starting_values(const BenchMethod& method, const SceneValues& scene) {
   return initial_values(method.plugin, scene, *method.loaded.library);
@@ -138,13 +139,7 @@ PlotSeries error_over_time(const BenchMethod& method, const SceneValues& scene, 
   for (const std::vector<runtime::Wide>& exact : track) {
     if (integrator.advance(chunk, false).status != runtime::Status::done) break;
     time += to_double(*scene.h) * static_cast<double>(chunk);
-    const std::vector<runtime::Wide> state = integrator.state();
-    double sum = 0.0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      const double difference = (state[i].hi - exact[i].hi) + (state[i].lo - exact[i].lo);
-      sum += difference * difference;
-    }
-    series.points.push_back({time, std::sqrt(sum)});
+    series.points.push_back({time, distance(integrator.state(), exact)});
   }
   return series;
 }
@@ -154,7 +149,12 @@ Figure state_over_time(const SceneValues& scene, const SourceText& source, const
   const long steps = std::min(*scene.steps, std::lround(bench.time / to_double(*scene.h)));
   const long chunk = std::max(1L, steps / kTrack);
   const int count = static_cast<int>(std::min<long>(kTrack, steps / chunk));
-  const auto track = reference_track(source, scene, *scene.h * chunk, count, request);
+  std::vector<Rational> times;
+  for (int i = 1; i <= count; ++i) times.push_back(*scene.h * chunk * i);
+  const ReferenceRule rule = reference_rule(source, request);
+  const auto track = reference_track(rule, initial_values(rule.plugin, scene, *rule.loaded.library),
+                                     times, kTrackSeconds)
+                         .states;
   PlotPanel panel{.x_label = "t", .y_label = "|z - z*|", .logarithmic_y = true};
   for (const BenchMethod& method : bench.methods) {
     if (method.refusal.empty())

@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <thread>
 
 #include "app/interrupt.hpp"
 #include "app/plot.hpp"
 #include "app/stress_grid.hpp"
+#include "app/stress_references.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
+#include "runtime/compile.hpp"
+#include "runtime/compiler.hpp"
 #include "runtime/progress.hpp"
 
 namespace hamgen::app {
@@ -23,22 +27,52 @@ namespace {
 constexpr unsigned kThreads = 2;
 
 StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
-  StressMap map{.model = grid.plugin().model.name,
-                .scene = grid.scene_name(),
-                .method = grid.plugin().scheme_name,
-                .axes = grid.axes(),
-                .steps = limits.steps};
+  StressMap map{
+      .model = grid.plugin().model.name,
+      .scene = grid.scene_name(),
+      .method = grid.plugin().scheme_name,
+      .axes = grid.axes(),
+      .steps = limits.steps,
+      .compiler = fmt::format("{} {}", runtime::compiler_version(runtime::find_compiler()),
+                              fmt::join(runtime::compile_flags({}, {}), " "))};
   map.cells.resize(map.columns() * map.rows());
   return map;
 }
 
-// All cells, on two threads; the calling one draws the bar.
-void run_all(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
+// work(0), work(1), ... on two threads; the calling one draws the bar.
+void run_all(const std::string& label, std::size_t count, bool quiet,
+             const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> finished = 0;
+  static_cast<void>(interrupt_flag());  // its handler is installed before there are threads
+  std::vector<std::jthread> threads;
+  for (unsigned i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&] {
+      for (std::size_t k = next++; k < count && !interrupt_flag(); k = next++) {
+        work(k);
+        ++finished;
+      }
+    });
+  }
+  runtime::ProgressBar bar(label);
+  const auto begin = std::chrono::steady_clock::now();
+  while (finished < count && !interrupt_flag()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (quiet) continue;
+    bar.update(
+        {.steps_done = static_cast<long long>(finished.load()),
+         .steps = static_cast<long long>(count),
+         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+         .show_rate = false});
+  }
+  bar.remove();
+}
+
+void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
   std::vector<std::optional<runtime::InitialValues>> starts;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     StressCell& cell = map.cells[i];
-    std::vector<double> at = {map.axes[0].values[i % map.columns()]};
-    if (map.axes.size() > 1) at.push_back(map.axes[1].values[i / map.columns()]);
+    const std::vector<double> at = map.place(i);
     std::ranges::copy(at, cell.at.begin());
     starts.push_back(grid.start_at(at));
     if (starts.back()) cell.h = starts.back()->h.hi;
@@ -47,33 +81,20 @@ void run_all(StressGrid& grid, const StressLimits& limits, StressMap& map, bool 
       cell.linear_bounded = linear->margin > 0.0;
     }
   }
-  std::atomic<std::size_t> next = 0;
-  std::atomic<std::size_t> finished = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < map.cells.size() && !interrupt_flag(); i = next++) {
-      if (starts[i]) {
-        run_stress_cell(grid.library(), *starts[i], limits, map.cells[i]);
-      } else {
-        map.cells[i].outcome = StressOutcome::left_domain;
-      }
-      ++finished;
+  StressReferences references(grid, map, limits);
+  run_all(map.model + ", references", references.count(), quiet,
+          [&](std::size_t i) { references.compute(i); });
+  map.references = references.method();
+  run_all(map.model, map.cells.size(), quiet, [&](std::size_t i) {
+    StressCell& cell = map.cells[i];
+    if (starts[i]) {
+      const auto state = run_stress_cell(grid.library(), *starts[i], limits, cell);
+      references.compare(i, starts[i]->state, state, cell);
+    } else {
+      cell.outcome = StressOutcome::left_domain;
+      cell.state_missing = to_text(cell.outcome);
     }
-  };
-  static_cast<void>(interrupt_flag());  // its handler is installed before there are threads
-  std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < kThreads; ++i) threads.emplace_back(work);
-  runtime::ProgressBar bar(map.model);
-  const auto begin = std::chrono::steady_clock::now();
-  while (finished < map.cells.size() && !interrupt_flag()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    if (quiet) continue;
-    bar.update(
-        {.steps_done = static_cast<long long>(finished.load()),
-         .steps = static_cast<long long>(map.cells.size()),
-         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-         .show_rate = false});
-  }
-  bar.remove();
+  });
 }
 
 void write_stress_files(const StressOptions& options, const StressMap& map) {
@@ -110,9 +131,11 @@ int run_stress(const StressOptions& options) {
   limits.steps = integer_value("--steps " + options.steps, options.steps, 1);
   limits.time = std::chrono::duration<double>(
       static_cast<double>(integer_value("--seconds " + options.seconds, options.seconds, 1)));
+  limits.reference_time = std::chrono::duration<double>(static_cast<double>(integer_value(
+      "--reference-seconds " + options.reference_seconds, options.reference_seconds, 0)));
   StressGrid grid(options);
   StressMap map = empty_map(grid, limits);
-  run_all(grid, limits, map, options.quiet);
+  run_cells(grid, limits, map, options.quiet);
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
     return interrupted;
@@ -141,6 +164,10 @@ Command add_stress(CLI::App& app) {
       ->type_name("NAME=LOW:HIGH[:COUNT]");
   parser->add_option("--steps", options->steps, "of each cell; default 1000")->type_name("N");
   parser->add_option("--seconds", options->seconds, "for each cell at most; default 1")
+      ->type_name("N");
+  parser
+      ->add_option("--reference-seconds", options->reference_seconds,
+                   "for all state errors; 0: none; default 10")
       ->type_name("N");
   parser->add_option("-o,--output", options->output, "write stress.csv, .json, .gp and .svg there")
       ->type_name("DIRECTORY");

@@ -32,10 +32,13 @@ struct StressCell {
   double h = 0.0;
   long steps_done = 0;
   StressOutcome outcome = StressOutcome::done;
-  bool bounded = true;        // no component grew beyond 1000 times the largest at the start, or 1
-  double energy_scale = 0.0;  // see energy_scale_of
-  double energy_error = 0.0;  // max |H - H(0)| over the states that were reached
-  int iterations_median = 0;  // a step
+  bool bounded = true;                // no component grew beyond 1000 times its size at the start
+  double energy_scale = 0.0;          // see energy_scale_of
+  double energy_error = 0.0;          // max |H - H(0)| over the states that were reached
+  std::optional<double> state_error;  // |z - z*| after all steps, Euclidean
+  double state_scale = 0.0;           // the larger of |z| at the start and |z*|
+  std::string state_missing;          // why there is no state error
+  int iterations_median = 0;          // a step
   int iterations_max = 0;
   std::optional<double> h_omega;  // of the fastest linear oscillation at the initial state
   std::optional<bool> linear_bounded;
@@ -43,7 +46,8 @@ struct StressCell {
 
 struct StressLimits {
   long steps = 1000;
-  std::chrono::duration<double> time{1.0};
+  std::chrono::duration<double> time{1.0};             // of a cell
+  std::chrono::duration<double> reference_time{10.0};  // of all state errors
 };
 
 // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what
@@ -52,10 +56,10 @@ struct StressLimits {
                                      const std::vector<double>& parameters,
                                      const std::vector<double>& state);
 
-// Runs one cell within the limits; every failure is an outcome.
-void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
-                     const runtime::InitialValues& start, const StressLimits& limits,
-                     StressCell& cell);
+// Runs one cell within the limits; every failure is an outcome.  Returns the last good state.
+std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
+                                           const runtime::InitialValues& start,
+                                           const StressLimits& limits, StressCell& cell);
 
 // omega^2 of the fastest linear oscillation around a state, whose quadratic part of H is
 // differentiated numerically; empty if the fastest motion there is not an oscillation.
@@ -75,9 +79,17 @@ struct StressMap {
   std::vector<StressCell> cells;                    // the first axis runs fastest
   std::vector<std::array<double, 2>> linear_bound;  // points of its border in the plane of the axes
   long steps = 0;
+  std::string references;  // how the states for the state errors were found
+  std::string compiler;    // its identity and flags
 
   [[nodiscard]] std::size_t columns() const { return axes[0].values.size(); }
   [[nodiscard]] std::size_t rows() const { return axes.size() > 1 ? axes[1].values.size() : 1; }
+  // The axes' values in a cell.
+  [[nodiscard]] std::vector<double> place(std::size_t cell) const {
+    std::vector<double> at = {axes[0].values[cell % columns()]};
+    if (axes.size() > 1) at.push_back(axes[1].values[cell / columns()]);
+    return at;
+  }
 };
 
 // A map in characters for the terminal, with its legend and the counts of outcomes.

@@ -5,22 +5,36 @@
 
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
+#include "app/processor_time.hpp"
 #include "app/stress.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
 namespace {
 
-constexpr double kBounded = 1e3;     // times the largest component at the start, or 1
+constexpr double kBounded = 1e3;     // sizes, see Sizes
 constexpr double kFarAway = 1e6;     // likewise: farther than any bounded motion of interest
+constexpr double kHugeState = 1e50;  // likewise: beyond, a value that is not finite is an overflow
 constexpr double kJump = 10.0;       // energy scales
-constexpr double kHugeState = 1e50;  // beyond, a value that is not finite is an overflow
 
 double largest_component(std::span<const double> state) {
   double largest = 0.0;
   for (const double value : state) largest = std::max(largest, std::fabs(value));
   return largest;
 }
+
+// What the components of a state are compared with: the largest at the start, or 1; momenta also
+// with that of a mass of 1 that has all the energy of the scale as kinetic energy.
+struct Sizes {
+  double q = 1.0;
+  double p = 1.0;
+
+  [[nodiscard]] double of(const std::vector<double>& state) const {
+    const std::span<const double> z(state);
+    return std::max(largest_component(z.first(z.size() / 2)) / q,
+                    largest_component(z.last(z.size() / 2)) / p);
+  }
+};
 
 double norm_of(std::span<const double> values) {
   double sum = 0.0;
@@ -80,18 +94,19 @@ double energy_scale_of(const runtime::Library& library, const std::vector<double
                    half_product(z.last(n), slope.last(n))});
 }
 
-void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
-                     const runtime::InitialValues& start, const StressLimits& limits,
-                     StressCell& cell) {
-  const auto begin = std::chrono::steady_clock::now();
+std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
+                                           const runtime::InitialValues& start,
+                                           const StressLimits& limits, StressCell& cell) {
+  const double begin = thread_seconds();
   const std::vector<double> initial = rounded(start.state);
   const std::vector<double> parameters = rounded(start.parameters);
-  const double size = std::max(1.0, largest_component(initial));
   const double energy = library->energy(parameters, initial);
   cell.energy_scale = energy_scale_of(*library, parameters, initial);
+  const double size = std::max(1.0, largest_component(initial));
+  const Sizes sizes{.q = size, .p = std::max(size, std::sqrt(2.0 * cell.energy_scale))};
   runtime::Integrator integrator(library, start);
   std::vector<int> iterations;
-  double largest = size;
+  double largest = 0.0;  // in sizes
   while (cell.steps_done < limits.steps) {
     const runtime::Report report = integrator.advance(1, true);
     if (report.status != runtime::Status::done) {
@@ -101,14 +116,14 @@ void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
     }
     ++cell.steps_done;
     iterations.push_back(report.last_iterations);
-    largest = std::max(largest, largest_component(integrator.rounded_state()));
+    largest = std::max(largest, sizes.of(integrator.rounded_state()));
     cell.energy_error = std::max(cell.energy_error, std::fabs(report.energy->last - energy));
     const bool kept = cell.energy_error <= cell.energy_scale;
-    if (largest > kFarAway * size && kept) {
+    if (largest > kFarAway && kept) {
       cell.outcome = StressOutcome::escaped;
       break;
     }
-    if (std::chrono::steady_clock::now() - begin > limits.time || interrupt_flag()) {
+    if (thread_seconds() - begin > limits.time.count() || interrupt_flag()) {
       cell.outcome = StressOutcome::out_of_time;
       break;
     }
@@ -116,12 +131,13 @@ void run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
   if (cell.steps_done == limits.steps || cell.outcome == StressOutcome::out_of_time) {
     if (cell.energy_error > kJump * cell.energy_scale) cell.outcome = StressOutcome::jumped;
   }
-  cell.bounded = largest <= kBounded * size && cell.outcome != StressOutcome::overflow;
-  if (iterations.empty()) return;
+  cell.bounded = largest <= kBounded && cell.outcome != StressOutcome::overflow;
+  if (iterations.empty()) return integrator.state();
   const auto middle = iterations.begin() + static_cast<std::ptrdiff_t>(iterations.size() / 2);
   std::ranges::nth_element(iterations, middle);
   cell.iterations_median = *middle;
   cell.iterations_max = *std::ranges::max_element(iterations);
+  return integrator.state();
 }
 
 }  // namespace hamgen::app

@@ -20,6 +20,7 @@ struct StressOptions {
   std::optional<std::string> h;
   std::string steps = "1000";
   std::string seconds = "1";
+  std::string reference_seconds = "10";
   std::string output, csv, plot;
   bool json = false;
   bool quiet = false;
@@ -38,6 +39,9 @@ class StressGrid {
 
   // Empty if H or its gradient is not defined at the initial state.
   [[nodiscard]] std::optional<runtime::InitialValues> start_at(const std::vector<double>& at) const;
+  // The scene with the axes' values in place of its own.
+  [[nodiscard]] SceneValues scene_at(const std::vector<double>& at) const;
+  [[nodiscard]] const std::map<std::string, long>& sizes() const { return set_.sizes; }
 
   // h omega of the fastest linear oscillation and its margin, see
   // generator/verify/linear_stability.hpp; empty where there is no oscillation, or the method is no
@@ -51,7 +55,6 @@ class StressGrid {
   [[nodiscard]] std::vector<std::array<double, 2>> linear_bound();
 
  private:
-  [[nodiscard]] SceneValues scene_at(const std::vector<double>& at) const;
   StressOptions options_;
   SizesAndRest set_;
   PluginSource plugin_;

@@ -11,8 +11,15 @@
 namespace hamgen::app {
 namespace {
 
-// A digit d says an energy error of about 10^-d of the energy scale, + more than a tenth of it.
-char mark_of(const StressCell& cell) {
+// A digit d says an error of about 10^-d of its scale, + more than a tenth of it.
+char digit_of(double error, double scale) {
+  if (!(error > 0.0)) return '0';
+  const double digits = -std::log10(error / scale);
+  if (!(digits >= 1.0)) return '+';
+  return digits >= 10.0 ? '*' : static_cast<char>('0' + static_cast<int>(digits));
+}
+
+char energy_mark(const StressCell& cell) {
   switch (cell.outcome) {
     case StressOutcome::done:
       break;
@@ -29,10 +36,36 @@ char mark_of(const StressCell& cell) {
     case StressOutcome::out_of_time:
       return 't';
   }
-  if (!(cell.energy_error > 0.0)) return '0';
-  const double digits = -std::log10(cell.energy_error / cell.energy_scale);
-  if (!(digits >= 1.0)) return '+';
-  return digits >= 10.0 ? '*' : static_cast<char>('0' + static_cast<int>(digits));
+  return digit_of(cell.energy_error, cell.energy_scale);
+}
+
+// A point where the state error is not known.
+char state_mark(const StressCell& cell) {
+  return cell.state_error ? digit_of(*cell.state_error, cell.state_scale) : '.';
+}
+
+using Mark = char (*)(const StressCell&);
+
+std::string rows_text(const StressMap& map, Mark mark) {
+  std::string text;
+  for (std::size_t row = 0; row < map.rows(); ++row) {
+    std::string line;
+    for (std::size_t column = 0; column < map.columns(); ++column)
+      line += mark(map.cells[row * map.columns() + column]);
+    const std::string label =
+        map.axes.size() > 1 ? fmt::format("{:.4g}", map.axes[1].values[row]) : "";
+    text += fmt::format("  {:>10}  {}\n", label, line);
+  }
+  return text;
+}
+
+// The second map, unless all of it is unknown.
+std::string states_text(const StressMap& map) {
+  const auto known = std::ranges::count_if(
+      map.cells, [](const StressCell& cell) { return cell.state_error.has_value(); });
+  std::string text = fmt::format("  state error {}; known in {} of {} cells\n", map.references,
+                                 known, map.cells.size());
+  return known == 0 ? text : text + rows_text(map, state_mark);
 }
 
 std::string axis_text(const StressAxis& axis) {
@@ -53,14 +86,7 @@ std::string stress_text(const StressMap& map) {
   text += "  across      " + axis_text(map.axes[0]) + "\n";
   if (map.axes.size() > 1) text += "  down        " + axis_text(map.axes[1]) + "\n";
   text += "  energy      digits: error 10^-d of its scale; * below 1e-10, + above 0.1\n";
-  for (std::size_t row = 0; row < map.rows(); ++row) {
-    std::string line;
-    for (std::size_t column = 0; column < map.columns(); ++column)
-      line += mark_of(map.cells[row * map.columns() + column]);
-    const std::string label =
-        map.axes.size() > 1 ? fmt::format("{:.4g}", map.axes[1].values[row]) : "";
-    text += fmt::format("  {:>10}  {}\n", label, line);
-  }
+  text += rows_text(map, energy_mark);
   constexpr std::array marks = {'.', 'j', 'e', 'n', 'd', 'o', 't'};
   for (int i = 0; i < kStressOutcomes; ++i) {
     const auto outcome = static_cast<StressOutcome>(i);
@@ -76,10 +102,12 @@ std::string stress_text(const StressMap& map) {
     median = std::max(median, cell.iterations_median);
     most = std::max(most, cell.iterations_max);
   }
-  return text + fmt::format(
-                    "  iterations a step: at most {} in the median of a cell, {} in one "
-                    "step\n",
-                    median, most);
+  return text +
+         fmt::format(
+             "  iterations a step: at most {} in the median of a cell, {} in one "
+             "step\n",
+             median, most) +
+         states_text(map);
 }
 
 std::string stress_csv(const StressMap& map) {
@@ -87,16 +115,19 @@ std::string stress_csv(const StressMap& map) {
   if (map.axes.size() > 1) text += "," + map.axes[1].label;
   text +=
       ",step_size,steps_done,outcome,bounded,energy_error,energy_scale,iterations_median,"
-      "iterations_max,h_omega,linear_bounded\n";
+      "iterations_max,h_omega,linear_bounded,state_error,state_scale,state_missing\n";
   for (const StressCell& cell : map.cells) {
     text += runtime::number_text(cell.at[0]);
     if (map.axes.size() > 1) text += "," + runtime::number_text(cell.at[1]);
     text += fmt::format(
-        ",{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h), cell.steps_done,
+        ",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h), cell.steps_done,
         to_text(cell.outcome), cell.bounded ? "yes" : "no", runtime::number_text(cell.energy_error),
         runtime::number_text(cell.energy_scale), cell.iterations_median, cell.iterations_max,
         cell.h_omega ? runtime::number_text(*cell.h_omega) : "",
-        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "");
+        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "",
+        cell.state_error ? runtime::number_text(*cell.state_error) : "",
+        cell.state_error ? runtime::number_text(cell.state_scale) : "",
+        runtime::csv_cell(cell.state_missing));
   }
   return text;
 }
@@ -120,13 +151,18 @@ std::string stress_json(const StressMap& map) {
          {"h_omega",
           cell.h_omega ? number_or_null(*cell.h_omega) : nlohmann::ordered_json(nullptr)},
          {"linear_bounded", cell.linear_bounded ? nlohmann::ordered_json(*cell.linear_bounded)
-                                                : nlohmann::ordered_json(nullptr)}});
+                                                : nlohmann::ordered_json(nullptr)},
+         {"state_error", cell.state_error ? nlohmann::ordered_json(*cell.state_error)
+                                          : nlohmann::ordered_json(nullptr)},
+         {"state_scale", cell.state_error ? nlohmann::ordered_json(cell.state_scale)
+                                          : nlohmann::ordered_json(nullptr)},
+         {"state_missing", cell.state_error ? nlohmann::ordered_json(nullptr)
+                                            : nlohmann::ordered_json(cell.state_missing)}});
   }
-  const nlohmann::ordered_json json = {{"model", map.model},
-                                       {"scene", map.scene},
-                                       {"method", map.method},
-                                       {"steps", map.steps},
-                                       {"cells", cells}};
+  const nlohmann::ordered_json json = {
+      {"model", map.model}, {"scene", map.scene},           {"method", map.method},
+      {"steps", map.steps}, {"references", map.references}, {"compiler", map.compiler},
+      {"cells", cells}};
   return json.dump(2) + "\n";
 }
 

@@ -114,15 +114,6 @@ std::function<void(double)> bar_of(runtime::ProgressBar& bar, bool quiet) {
   };
 }
 
-double state_distance(const std::vector<runtime::Wide>& x, const std::vector<runtime::Wide>& y) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double difference = (x[i].hi - y[i].hi) + (x[i].lo - y[i].lo);
-    sum += difference * difference;
-  }
-  return std::sqrt(sum);
-}
-
 class Tuner {
  public:
   Tuner(const TuneOptions& options, const TuneSetting& setting)
@@ -208,7 +199,7 @@ class Tuner {
     gauge.predicted_spread = h_ * h_ * bracket_spread(orbit_, setting_.shape, coefficients);
     gauge.measured = integrator_.measure(coefficients, h_, setting_.steps);
     if (gauge.measured.failure.empty() && !reference_.state.empty())
-      gauge.state_error = state_distance(gauge.measured.state, reference_.state);
+      gauge.state_error = distance(gauge.measured.state, reference_.state);
     gauge.stability = stability_bound(orbit_, setting_.shape, coefficients);
     report_.gauges.push_back(std::move(gauge));
   }

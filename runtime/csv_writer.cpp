@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -82,6 +83,14 @@ void CsvWriter::publish(std::string_view last_remark) {
     file_.write(line_);
   }
   file_.publish();
+}
+
+std::string csv_cell(std::string text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '"');
+  std::ranges::replace(text, '\n', ' ');
+  return '"' + text + '"';
 }
 
 }  // namespace hamgen::runtime

@@ -41,4 +41,7 @@ class CsvWriter {
 // The fewest digits that read back to the same double; empty if it is not finite.
 [[nodiscard]] std::string number_text(double value);
 
+// A text as one cell, quoted where it must be; line breaks become blanks.
+[[nodiscard]] std::string csv_cell(std::string text);
+
 }  // namespace hamgen::runtime

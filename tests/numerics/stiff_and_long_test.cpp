@@ -1,5 +1,6 @@
 // Stiff problems far beyond the step that would resolve them, and rounding errors over millions of
-// steps.
+// steps.  What is measured is recorded: scripts/stress-suite takes it into docs/stability.md.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,11 @@ struct Iterations {
   int median = 0;
   int most = 0;
 };
+
+// As a property of the running test, in the XML that --gtest_output writes.
+void record(const std::string& name, double value) {
+  testing::Test::RecordProperty(name, fmt::format("{:.3g}", value));
+}
 
 // Throws if a step fails.
 Iterations iterations_of(runtime::Integrator run, int steps) {
@@ -35,6 +41,8 @@ TEST(StiffAndLong, NewtonConvergesForASpringPendulumAtAHundredRadiansAStep) {
   const Emitted pendulum = Emitted::shipped("spring_pendulum", {});
   // k = 1e6, h sqrt(k) = 100.
   const Iterations iterations = iterations_of(pendulum.start({1, 0, 0, 0}, 0.1L, {1e6L}), 20000);
+  record("median_iterations", iterations.median);
+  record("most_iterations", iterations.most);
   EXPECT_LE(iterations.median, 6) << "most: " << iterations.most;
 }
 
@@ -42,6 +50,8 @@ TEST(StiffAndLong, NewtonConvergesForAStiffFpuChainAtThirtyRadiansAStep) {
   const Emitted chain = Emitted::shipped("stiff_fpu", {});
   const Vector start = {1, 0, 0, 1 / 300.0L, 0, 0, 1, 0, 0, 1, 0, 0};
   const Iterations iterations = iterations_of(chain.start(start, 0.1L, {300}), 20000);
+  record("median_iterations", iterations.median);
+  record("most_iterations", iterations.most);
   EXPECT_LE(iterations.median, 6) << "most: " << iterations.most;
 }
 
@@ -49,6 +59,7 @@ TEST(StiffAndLong, NewtonConvergesForAStiffFpuChainAtThirtyRadiansAStep) {
 //   cos theta = (1 - x^2)/(1 + x^2),  sin theta = 2 x/(1 + x^2).
 TEST(StiffAndLong, LinearModesTurnByTheExactAngleEvenAtAMillionRadiansAStep) {
   const Emitted oscillator = Emitted::shipped("harmonic", {});
+  double worst = 0.0;  // in ulp
   for (const long double h_omega : {1e-3L, 1.0L, 1e3L, 1e6L}) {
     const long double h = 0.125L;
     const long double omega = h_omega / h;
@@ -60,12 +71,14 @@ TEST(StiffAndLong, LinearModesTurnByTheExactAngleEvenAtAMillionRadiansAStep) {
       // An ulp of the amplitude: what cancels to less cannot be known better.
       const long double amplitude = std::hypot(start[0], start[1] / omega);
       const long double ulp = std::numeric_limits<double>::epsilon() * amplitude;
-      EXPECT_LE(std::abs(z[0] - (cosine * start[0] + sine * start[1] / omega)), 4 * ulp)
-          << "h omega = " << h_omega;
-      EXPECT_LE(std::abs(z[1] - (cosine * start[1] - sine * start[0] * omega)), 4 * ulp * omega)
-          << "h omega = " << h_omega;
+      const long double q_error = std::abs(z[0] - (cosine * start[0] + sine * start[1] / omega));
+      const long double p_error = std::abs(z[1] - (cosine * start[1] - sine * start[0] * omega));
+      EXPECT_LE(q_error, 4 * ulp) << "h omega = " << h_omega;
+      EXPECT_LE(p_error, 4 * ulp * omega) << "h omega = " << h_omega;
+      worst = std::max(worst, static_cast<double>(std::max(q_error, p_error / omega) / ulp));
     }
   }
+  record("largest_error_in_ulp", worst);
 }
 
 Quad angular_momentum(const runtime::Integrator& run) {
@@ -95,12 +108,14 @@ TEST(StiffAndLong, TheAngularMomentumOfKeplerWalksAtRandom) {
       squares[static_cast<std::size_t>(look)] += error * error / starts;
     }
   }
+  record("rms_error", std::sqrt(squares.back()));
   EXPECT_LE(std::sqrt(squares.back()), 2e-15);
   // Slope of log rms against log steps by least squares; the abscissae are -4..4 powers of two.
   double slope = 0.0;
   for (int look = 0; look < looks; ++look) {
     slope += (look - 4) * 0.5 * std::log2(squares[static_cast<std::size_t>(look)]) / 60;
   }
+  record("growth_exponent", slope);
   EXPECT_NEAR(slope, 0.5, 0.1);
 }
 
@@ -112,6 +127,7 @@ TEST(StiffAndLong, AMillionStepsForthAndBackReturnToTheStart) {
   const Vector start = {0.8L, 0};
   const Vector there = pendulum.after(1'000'000, start, 0.1L);
   const Vector back = pendulum.after(1'000'000, there, -0.1L);
+  record("distance", static_cast<double>(distance(back, start)));
   EXPECT_LE(distance(back, start), 1e-11L);
 }
 
