@@ -67,13 +67,7 @@ Command add_bench(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("bench", "measures error against run time, method by method");
   parser->add_option("MODEL", options->request.model, "a .ham file")->required();
-  parser->add_option("--scene", options->request.scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(*parser, "--set", options->request.set, "a parameter, or a size, of the model")
-      ->type_name("NAME=VALUE");
-  add_repeated(*parser, "--initial", options->request.initial,
-               "initial state, for example q=3.1,p=0")
-      ->type_name("NAME=VALUE,...");
+  add_scene_options(*parser, options->request.scene);
   parser
       ->add_option("--schemes", options->request.schemes,
                    "names, with options: gauss-4,alpha=1/2:beta=-h/9")

@@ -64,14 +64,10 @@ long step_count(const Rational& time, const Rational& h) {
 Setting read_setting(const BenchRequest& options) {
   Setting setting;
   setting.source = read_model_source({.model = options.model});
-  SizesAndRest set = split_sizes(read_model(setting.source), options.set);
+  SizesAndRest set = split_sizes(read_model(setting.source), options.scene.set);
   setting.base.sizes = set.sizes;
   setting.model = read_model(setting.source, set.sizes);
-  SceneRequest request{.scene = options.scene, .set = std::move(set.rest)};
-  for (const std::string& text : options.initial) {
-    for (Assignment& assignment : split_assignments("--initial", text))
-      request.initial.push_back(std::move(assignment));
-  }
+  SceneRequest request = scene_request(options.scene, std::move(set.rest));
   // Given steps and time, the scene needs to have neither.
   if (!options.time.empty()) request.steps = "1";
   for (const std::string& h :
@@ -198,7 +194,8 @@ void add_steps_for_target(const Setting& setting, Bench& bench, double target) {
     const auto h = step_for_target(bench.rows, m, bench.observed, target);
     if (!h) continue;
     const double direction = setting.time > 0 ? 1.0 : -1.0;
-    if (to_double(setting.time) * direction / *h > static_cast<double>(kMostSteps)) continue;
+    const double steps = to_double(setting.time) * direction / *h;
+    if (steps > static_cast<double>(kMostSteps) || steps < 1.0) continue;
     bench.rows.push_back(row_of(m, setting.time, from_double(direction * *h)));
   }
 }

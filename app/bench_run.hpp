@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "app/bench_output.hpp"
+#include "app/command_line.hpp"
 
 namespace hamgen::app {
 
 // Texts as on the command line; empty means the default.
 struct BenchRequest {
-  std::string model, scene, schemes, h, time, target, compiler;
-  std::vector<std::string> set, initial;
+  std::string model;
+  SceneOptions scene;
+  std::string schemes, h, time, target, compiler;
   std::string observe = "state";
   std::string rounds = "9";
   bool quiet = false;

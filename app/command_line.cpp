@@ -65,6 +65,28 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("NAME");
 }
 
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("--scene", options.scene, "of the model; default: its first")
+      ->type_name("NAME");
+  add_repeated(command, "--set", options.set, "a parameter, or a size, of the model")
+      ->type_name("NAME=VALUE");
+  add_repeated(command, "--initial", options.initial, "initial state, for example q=3.1,p=0")
+      ->type_name("NAME=VALUE,...");
+}
+
+void add_step_option(CLI::App& command, std::optional<std::string>& h) {
+  command.add_option("--h", h, "step size; default: the scene's")->type_name("H");
+}
+
+SceneRequest scene_request(const SceneOptions& options, std::vector<Assignment> set) {
+  SceneRequest request{.scene = options.scene, .set = std::move(set)};
+  for (const std::string& text : options.initial) {
+    for (Assignment& assignment : split_assignments("--initial", text))
+      request.initial.push_back(std::move(assignment));
+  }
+  return request;
+}
+
 CLI::Option* add_repeated(CLI::App& command, const std::string& name,
                           std::vector<std::string>& values, const std::string& help) {
   return command.add_option(name, values, help)->expected(1)->take_all()->allow_extra_args(false);

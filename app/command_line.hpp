@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 
 namespace hamgen::app {
@@ -56,6 +58,19 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& name,
                           std::vector<std::string>& values, const std::string& help);
 
 using Assignment = std::pair<std::string, std::string>;
+
+// Which initial values are meant; the texts are kept as typed.
+struct SceneOptions {
+  std::string scene;
+  std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
+};
+
+// Adds --scene, --set and --initial.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+// Adds --h of one step size.
+void add_step_option(CLI::App& command, std::optional<std::string>& h);
+// The request for the scene's values, with `set` those of --set that are no sizes.
+[[nodiscard]] SceneRequest scene_request(const SceneOptions& options, std::vector<Assignment> set);
 
 // "eps=0.1" into its two sides, blanks at the ends dropped; throws UsageError naming the option.
 [[nodiscard]] Assignment split_assignment(std::string_view option, std::string_view text);

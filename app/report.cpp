@@ -24,8 +24,8 @@ namespace {
 
 struct ReportOptions {
   MethodOptions method;
-  std::string scene, output, schemes, compiler;
-  std::vector<std::string> initial;
+  SceneOptions scene;
+  std::string output, schemes, compiler;
   std::string rounds = "5";
   bool quiet = false;
 };
@@ -96,16 +96,12 @@ Proof linear_part(const SourceText& source, const Request& request, const SceneV
 
 int report(const ReportOptions& options) {
   const SourceText source = read_model_source(options.method);
-  SizesAndRest set = split_sizes(read_model(source), options.method.set);
+  SizesAndRest set = split_sizes(read_model(source), options.scene.set);
   Request request = request_of(options.method);
   request.sizes = set.sizes;
   const Model model = read_model(source, set.sizes);
-  SceneRequest wanted{.scene = options.scene, .set = std::move(set.rest)};
-  for (const std::string& text : options.initial) {
-    for (Assignment& assignment : split_assignments("--initial", text))
-      wanted.initial.push_back(std::move(assignment));
-  }
-  const SceneValues scene = complete_scene(model, wanted);
+  const SceneValues scene =
+      complete_scene(model, scene_request(options.scene, std::move(set.rest)));
   take_gauge_at(scene, model, request);
   record_origin(options.method, source, request);
   const BenchMethod method = chosen_method(options, source, request);
@@ -115,8 +111,6 @@ int report(const ReportOptions& options) {
                                  .scene = options.scene,
                                  .schemes = options.schemes,
                                  .compiler = options.compiler,
-                                 .set = options.method.set,
-                                 .initial = options.initial,
                                  .rounds = options.rounds,
                                  .quiet = options.quiet});
   if (interrupt_flag()) return interrupted;
@@ -148,12 +142,7 @@ int report(const ReportOptions& options) {
 Command add_report(CLI::App& app) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* parser = app.add_subcommand("report", "writes a page about a model and a method");
-  parser->add_option("--scene", options->scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
-      ->type_name("NAME=VALUE");
-  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
-      ->type_name("NAME=VALUE,...");
+  add_scene_options(*parser, options->scene);
   parser
       ->add_option("-o,--output", options->output,
                    "report.html, pictures and scripts; default: MODEL-report")

@@ -30,8 +30,7 @@ using Clock = std::chrono::steady_clock;
 struct RunOptions {
   MethodOptions method;
   std::string compiler;
-  std::string scene;
-  std::vector<std::string> initial;
+  SceneOptions scene;
   std::optional<std::string> h, steps;
   std::string every;
   std::string watch_modified;
@@ -43,19 +42,6 @@ struct RunOptions {
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-SceneRequest scene_request(const RunOptions& options, std::vector<Assignment> set) {
-  SceneRequest request;
-  request.scene = options.scene;
-  request.set = std::move(set);
-  for (const std::string& text : options.initial) {
-    const std::vector<Assignment> more = split_assignments("--initial", text);
-    request.initial.insert(request.initial.end(), more.begin(), more.end());
-  }
-  request.h = options.h;
-  request.steps = options.steps;
-  return request;
 }
 
 // The distance of records: the option, else the scene's, else 1; the last two unless that makes a
@@ -149,11 +135,14 @@ int run(const RunOptions& options) {
         "FILE.csv");
   const SourceText source = read_model_source(options.method);
   Request request = request_of(options.method);
-  SizesAndRest set = split_sizes(read_model(source), options.method.set);
+  SizesAndRest set = split_sizes(read_model(source), options.scene.set);
   request.sizes = set.sizes;
   const Model model = read_request(source, request);
   if (!model.warnings.empty() && !options.quiet) print_error(render(model.warnings, source));
-  const SceneValues scene = complete_scene(model, scene_request(options, std::move(set.rest)));
+  SceneRequest wanted = scene_request(options.scene, std::move(set.rest));
+  wanted.h = options.h;
+  wanted.steps = options.steps;
+  const SceneValues scene = complete_scene(model, wanted);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
   if (!options.watch_modified.empty()) {
@@ -213,13 +202,8 @@ Command add_run(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
-  parser->add_option("--scene", options->scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
-      ->type_name("NAME=VALUE");
-  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
-      ->type_name("NAME=VALUE,...");
-  parser->add_option("--h", options->h, "step size; default: the scene's")->type_name("H");
+  add_scene_options(*parser, options->scene);
+  add_step_option(*parser, options->h);
   parser->add_option("--steps", options->steps, "their number; default: the scene's")
       ->type_name("N");
   parser

@@ -152,13 +152,8 @@ Command add_stress(CLI::App& app) {
   const auto options = std::make_shared<StressOptions>();
   CLI::App* parser =
       app.add_subcommand("stress", "maps where a step stays bounded, cell by cell of a grid");
-  parser->add_option("--scene", options->scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(*parser, "--set", options->method.set, "a parameter, or a size, of the model")
-      ->type_name("NAME=VALUE");
-  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
-      ->type_name("NAME=VALUE,...");
-  parser->add_option("--h", options->h, "step size; default: the scene's")->type_name("H");
+  add_scene_options(*parser, options->scene);
+  add_step_option(*parser, options->h);
   add_repeated(*parser, "--vary", options->vary,
                "an axis: a parameter, h, scale, alpha, beta, gamma; twice at most")
       ->type_name("NAME=LOW:HIGH[:COUNT]");

@@ -124,7 +124,7 @@ StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(
   options_.method = with_run_time_members(options.method, axes_);
   const SourceText source = read_model_source(options_.method);
   Request request = request_of(options_.method);
-  set_ = split_sizes(read_model(source), options_.method.set);
+  set_ = split_sizes(read_model(source), options_.scene.set);
   request.sizes = set_.sizes;
   plugin_ = generate_plugin(source, request);
   const std::vector<std::string> known = element_names(plugin_.model.parameters);
@@ -144,11 +144,7 @@ StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(
 }
 
 SceneValues StressGrid::scene_at(const std::vector<double>& at) const {
-  SceneRequest request{.scene = options_.scene, .set = set_.rest};
-  for (const std::string& text : options_.initial) {
-    for (Assignment& assignment : split_assignments("--initial", text))
-      request.initial.push_back(std::move(assignment));
-  }
+  SceneRequest request = scene_request(options_.scene, set_.rest);
   request.h = options_.h;
   request.steps = options_.steps;
   double factor = 1.0;

@@ -15,8 +15,8 @@ namespace hamgen::app {
 
 struct StressOptions {
   MethodOptions method;
-  std::string scene;
-  std::vector<std::string> initial, vary;
+  SceneOptions scene;
+  std::vector<std::string> vary;
   std::optional<std::string> h;
   std::string steps = "1000";
   std::string seconds = "1";

@@ -25,11 +25,12 @@ namespace hamgen::app {
 namespace {
 
 struct TuneOptions {
-  std::string model, scene, h, time, compiler, scalar, map, map_beta, map_gamma;
+  std::string model;
+  SceneOptions scene;
+  std::string h, time, compiler, scalar, map, map_beta, map_gamma;
   std::string form = "scalar";
   std::string samples = "1000";
   std::string grid = "41";
-  std::vector<std::string> set, initial;
   bool polish = false;
   bool json = false;
   bool quiet = false;
@@ -63,14 +64,10 @@ GaugeForm form_of(const std::string& text) {
 TuneSetting tune_setting(const TuneOptions& options) {
   TuneSetting setting;
   setting.source = read_model_source({.model = options.model});
-  SizesAndRest set = split_sizes(read_model(setting.source), options.set);
+  SizesAndRest set = split_sizes(read_model(setting.source), options.scene.set);
   setting.base.sizes = set.sizes;
   setting.base.scalar = options.scalar;
-  setting.request = {.scene = options.scene, .set = std::move(set.rest)};
-  for (const std::string& text : options.initial) {
-    for (Assignment& assignment : split_assignments("--initial", text))
-      setting.request.initial.push_back(std::move(assignment));
-  }
+  setting.request = scene_request(options.scene, std::move(set.rest));
   const Model model = read_model(setting.source, set.sizes);
   setting.shape = {.form = form_of(options.form), .n = static_cast<int>(degrees_of_freedom(model))};
   if (setting.shape.n == 0) throw UsageError(fmt::format("{} has no coordinates", options.model));
@@ -309,12 +306,7 @@ Command add_tune(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("tune", "finds constant beta, gamma that flatten the energy of one orbit");
   parser->add_option("MODEL", options->model, "a .ham file")->required();
-  parser->add_option("--scene", options->scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(*parser, "--set", options->set, "a parameter, or a size, of the model")
-      ->type_name("NAME=VALUE");
-  add_repeated(*parser, "--initial", options->initial, "initial state, for example q=3.1,p=0")
-      ->type_name("NAME=VALUE,...");
+  add_scene_options(*parser, options->scene);
   parser->add_option("--h", options->h, "step size; default: the scene's")->type_name("H");
   parser->add_option("--time", options->time, "default: the scene's, at most 5000 steps")
       ->type_name("T");
