@@ -10,6 +10,7 @@
 #include "app/load_integrator.hpp"
 #include "app/processor_time.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/schemes/all_schemes.hpp"
 #include "runtime/trajectory.hpp"
 
 namespace hamgen::app {
@@ -77,6 +78,24 @@ BenchTime time_of(const BenchRow& row) {
           .spread = (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / median};
 }
 
+double gradients_per_step(const Method& method, double iterations_per_step) {
+  struct Count {
+    double iterations;
+    double operator()(const Member&) const { return iterations > 0.0 ? iterations : 1.0; }
+    double operator()(const Composition& composition) const {
+      return iterations > 0.0 ? iterations : static_cast<double>(composition.substeps.size());
+    }
+    double operator()(const Splitting& splitting) const {
+      const bool closed = splitting.kicks.size() > splitting.drifts.size();
+      return static_cast<double>(splitting.kicks.size() - (closed ? 1 : 0));
+    }
+    double operator()(const RungeKutta& rule) const {
+      return static_cast<double>(rule.b.size()) * (rule.is_explicit() ? 1.0 : iterations);
+    }
+  };
+  return std::visit(Count{iterations_per_step}, method);
+}
+
 void measure_errors(const BenchMethod& method, const SceneValues& scene,
                     const ReferenceSolution& reference, BenchRow& row) {
   if (!method.refusal.empty()) {
@@ -99,6 +118,9 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   const runtime::RunSummary summary = runtime::integrate(integrator, options);
   row.outcome = outcome_of(summary);
   row.iterations_per_step = summary.iterations_per_step();
+  const Scheme* scheme = find_scheme(method.request.scheme);
+  row.gradients_per_step =
+      gradients_per_step(scheme != nullptr ? scheme->method : Member(), row.iterations_per_step);
   if (!row.ok()) return;
   if (summary.energy) {
     row.energy_error = summary.energy->max_error();

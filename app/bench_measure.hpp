@@ -33,6 +33,7 @@ struct BenchRow {
   long steps = 0;
   std::string outcome = "done";  // or how it failed, and where
   double iterations_per_step = 0.0;
+  double gradients_per_step = 0.0;       // see gradients_per_step
   std::optional<double> energy_error;    // max |H - H(0)| over all steps
   std::optional<double> energy_spread;   // max H - min H
   std::optional<double> state_error;     // |z - z*| at the end, Euclidean
@@ -50,6 +51,11 @@ struct BenchTime {
   double spread = 0.0;  // (third quartile - first quartile) / median
 };
 [[nodiscard]] BenchTime time_of(const BenchRow& row);
+
+// Evaluations of the gradient a step: of V in a splitting, of K in a member of raised order.  An
+// iteration for a stage evaluates it once, a step without iterations as often as it has stages; a
+// splitting that begins and ends with a kick keeps the last gradient for the next step.
+[[nodiscard]] double gradients_per_step(const Method& method, double iterations_per_step);
 
 // Fills errors and outcome by one run that watches the energy, and `runs_per_sample`, so that a
 // sample takes about 2 ms or more.

@@ -92,6 +92,7 @@ OrderedJson row_json(const Bench& bench, const BenchRow& row) {
           {"time_spread", if_timed(time.spread)},
           {"ns_per_step", if_timed(time.nanoseconds_per_step)},
           {"iterations_per_step", row.iterations_per_step},
+          {"gradients_per_step", row.gradients_per_step},
           {"max_energy_error", finite(row.energy_error)},
           {"energy_spread", finite(row.energy_spread)},
           {"state_error", finite(row.state_error)},
@@ -109,8 +110,8 @@ std::string table_text(const Bench& bench) {
   std::string text = fmt::format("{}{}: T = {:.10g}\n  reference  {}\n", bench.model,
                                  bench.scene.empty() ? "" : ", scene " + bench.scene, bench.time,
                                  reference_text(bench));
-  std::vector<Cells> lines = {{"scheme", "h", "s/time", "+-", "ns/step", "it/step", "energy error",
-                               "energy spread", "state error", ""}};
+  std::vector<Cells> lines = {{"scheme", "h", "s/time", "+-", "ns/step", "it/step", "grad/step",
+                               "energy error", "energy spread", "state error", ""}};
   for (std::size_t i = 0; i < bench.rows.size(); ++i) {
     const BenchRow& row = bench.rows[i];
     const BenchTime time = time_of(row);
@@ -121,6 +122,7 @@ std::string table_text(const Bench& bench) {
          timed ? fmt::format("{:.0f} %", 100.0 * time.spread) : "-",
          timed ? fmt::format("{:.0f}", time.nanoseconds_per_step) : "-",
          row.iterations_per_step > 0.0 ? fmt::format("{:.2f}", row.iterations_per_step) : "-",
+         row.gradients_per_step > 0.0 ? fmt::format("{:.3g}", row.gradients_per_step) : "-",
          error_cell(row.energy_error), error_cell(row.energy_spread), error_cell(row.state_error),
          remark(bench, i, front)});
   }
@@ -135,6 +137,7 @@ std::string csv_text(const Bench& bench) {
   std::string text = fmt::format(
       "# made by   hamgen {}\n# model     {}\n# time      {}\n# reference {}\n# compiler  {}\n"
       "scheme,h,steps,outcome,s_per_time,time_spread,ns_per_step,iterations_per_step,"
+      "gradients_per_step,"
       "max_energy_error,energy_spread,state_error",
       HAMGEN_VERSION, bench.path, runtime::number_text(bench.time), reference_text(bench),
       bench.compiler);
@@ -151,11 +154,11 @@ std::string csv_text(const Bench& bench) {
       return timed ? runtime::number_text(value) : std::string();
     };
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{}", runtime::csv_cell(bench.methods[row.method].spec),
+        "{},{},{},{},{},{},{},{},{},{},{},{}", runtime::csv_cell(bench.methods[row.method].spec),
         runtime::number_text(to_double(row.h)), row.steps, runtime::csv_cell(row.outcome),
         if_timed(time.seconds_per_time), if_timed(time.spread), if_timed(time.nanoseconds_per_step),
-        runtime::number_text(row.iterations_per_step), csv_number(row.energy_error),
-        csv_number(row.energy_spread), csv_number(row.state_error));
+        runtime::number_text(row.iterations_per_step), runtime::number_text(row.gradients_per_step),
+        csv_number(row.energy_error), csv_number(row.energy_spread), csv_number(row.state_error));
     for (std::size_t i = 0; i < names.size(); ++i)
       text += row.ok() ? "," + runtime::number_text(row.invariant_errors[i]) : ",";
     text += "\n";

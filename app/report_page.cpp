@@ -251,7 +251,8 @@ std::string bench_section(const ReportContent& content) {
       "medians of samples taken in turn, to be compared within this page only. {}</p>\n"
       "<div class='wide'><table>\n<tr><th>method</th><th class='number'>h</th>"
       "<th class='number'>ns/step</th><th class='number'>µs/unit time</th>"
-      "<th class='number'>iterations</th><th class='number'>energy error</th>"
+      "<th class='number'>iterations</th><th class='number'>gradients</th><th "
+      "class='number'>energy error</th>"
       "<th class='number'>state error</th></tr>\n",
       bench.time,
       bench.reference.state.empty()
@@ -266,17 +267,18 @@ std::string bench_section(const ReportContent& content) {
                     std::ranges::find(front, i) != front.end() ? " class='front'" : "",
                     html_text(bench.methods[row.method].spec), to_double(row.h));
     if (!row.ok()) {
-      text += begin + "<td colspan='5'>" + html_text(row.outcome) + "</td></tr>\n";
+      text += begin + "<td colspan='6'>" + html_text(row.outcome) + "</td></tr>\n";
       continue;
     }
     const BenchTime time = time_of(row);
-    text +=
-        begin + fmt::format(
-                    "<td class='number'>{:.0f}</td><td class='number'>{:.3g}</td>"
-                    "<td class='number'>{:.2f}</td><td class='number'>{}</td>"
-                    "<td class='number'>{}</td></tr>\n",
-                    time.nanoseconds_per_step, 1e6 * time.seconds_per_time, row.iterations_per_step,
-                    error_text(row.energy_error), error_text(row.state_error));
+    text += begin + fmt::format(
+                        "<td class='number'>{:.0f}</td><td class='number'>{:.3g}</td>"
+                        "<td class='number'>{:.2f}</td><td class='number'>{:.3g}</td>"
+                        "<td class='number'>{}</td>"
+                        "<td class='number'>{}</td></tr>\n",
+                        time.nanoseconds_per_step, 1e6 * time.seconds_per_time,
+                        row.iterations_per_step, row.gradients_per_step,
+                        error_text(row.energy_error), error_text(row.state_error));
   }
   return text + fmt::format(
                     "</table></div>\n<p class='note'>Bold: nothing else is both faster and "

@@ -47,6 +47,31 @@ TEST(Bench, ErrorsFallWithTheOrderOfTheMethod) {
   EXPECT_GT(result["rows"][0]["ns_per_step"].get<double>(), 0.0);
 }
 
+// rk4 has four stages, Gauss of order 4 two in each iteration; Stormer-Verlet keeps the gradient of
+// its last kick.
+TEST(Bench, CountsTheGradientsOfAStep) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.1",
+                                  "--schemes", "rk4,gauss-4,stormer-verlet,implicit-midpoint"});
+  const json& rows = result["rows"];
+  EXPECT_EQ(rows[0]["gradients_per_step"], 4.0);
+  EXPECT_EQ(rows[1]["gradients_per_step"].get<double>(),
+            2.0 * rows[1]["iterations_per_step"].get<double>());
+  EXPECT_EQ(rows[2]["gradients_per_step"], 1.0);
+  EXPECT_EQ(rows[3]["gradients_per_step"], rows[3]["iterations_per_step"]);
+  EXPECT_GT(rows[3]["gradients_per_step"], 1.0);
+}
+
+// Where the largest step is better than asked for, a larger one is tried.
+TEST(Bench, TriesLargerStepsForATarget) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h",
+                                  "0.1,0.05", "--target", "1e-4", "--schemes", "gauss-4"});
+  const json& row = result["rows"][result["answer"]["row"].get<std::size_t>()];
+  EXPECT_GT(row["h"], 0.2);
+  EXPECT_LE(row["state_error"], 1e-4);
+}
+
 TEST(Bench, TakesMembersOfTheFamilyAsMethods) {
   const Scratch scratch;
   const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.1",
