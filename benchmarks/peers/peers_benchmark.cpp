@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <map>
 #include <optional>
 
 #include "app/bench_measure.hpp"
 #include "app/initial_data.hpp"
+#include "app/processor_time.hpp"
 #include "app/scheme_spec.hpp"
 #include "benchmarks/peers/peer.hpp"
 #include "generator/language/read_model.hpp"
@@ -38,18 +38,18 @@ struct Result {
   std::vector<double> seconds;  // of the whole time, one a round
   std::function<double()> sample;
 
-  [[nodiscard]] double median() const {
+  [[nodiscard]] double median() const { return quantile(seconds.size() / 2); }
+  // Distance of the quartiles, relative to the median.
+  [[nodiscard]] double spread() const {
+    const std::size_t quarter = seconds.size() / 4;
+    return (quantile(seconds.size() - 1 - quarter) - quantile(quarter)) / median();
+  }
+  [[nodiscard]] double quantile(std::size_t place) const {
     std::vector<double> sorted = seconds;
     std::ranges::sort(sorted);
-    return sorted[sorted.size() / 2];
+    return sorted[place];
   }
 };
-
-double processor_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double distance(const std::vector<double>& z, const std::vector<runtime::Wide>& reference) {
   double sum = 0.0;
@@ -145,9 +145,9 @@ void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& sta
     if (!done || !std::isfinite(result.state_error)) continue;
     const auto once = [peer, &flow, &start, time, setting] {
       std::vector<double> state = start;
-      const double begin = processor_seconds();
+      const double begin = app::thread_seconds();
       peer.integrate(flow, state, time, setting, {});
-      return processor_seconds() - begin;
+      return app::thread_seconds() - begin;
     };
     const int runs = static_cast<int>(std::clamp(std::ceil(2e-3 / once()), 1.0, 1e4));
     result.sample = [once, runs] {
@@ -232,6 +232,13 @@ void compare(const Case& chosen, bool all_rows) {
   const double time = problem.time.get_d();
   fmt::print("\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}\n", chosen.path,
              problem.scene.name, time, problem.reference.error);
+  std::vector<double> spreads;
+  for (const Result& result : results) spreads.push_back(result.spread());
+  std::ranges::sort(spreads);
+  fmt::print(
+      "  medians of {} rounds; their quartiles are {:.0f} % apart in half of the rows, {:.0f} % "
+      "at most\n",
+      kRounds, 100.0 * spreads[spreads.size() / 2], 100.0 * spreads.back());
   if (all_rows) {
     fmt::print("  {:<26} {:>9} {:>12} {:>13} {:>12}\n", "method", "h or tol", "us/unit time",
                "energy error", "state error");
