@@ -15,6 +15,7 @@ namespace {
 constexpr long kPortraitSteps = 5000;
 constexpr long kZoomSteps = 400;
 constexpr long kBins = 800;             // of the energy error over all the time
+constexpr std::size_t kBodies = 8;      // colours
 constexpr int kTrack = 40;              // times at which the state error is looked at
 constexpr double kTrackSeconds = 20.0;  // for the reference at these times
 
@@ -44,6 +45,29 @@ PlotSeries path(const std::vector<std::vector<double>>& states, std::size_t x, s
   return series;
 }
 
+// The bodies' paths where the first two coordinates are arrays of the same range, else the first
+// two coordinates.
+Figure orbit_picture(const Model& model, const std::vector<std::vector<double>>& states,
+                     const std::string& what) {
+  const auto& coordinates = model.coordinates;
+  const bool bodies = coordinates.size() > 1 && coordinates[0].range && coordinates[1].range &&
+                      coordinates[0].range->size() == coordinates[1].range->size();
+  const std::vector<std::string> names = element_names(coordinates);
+  const std::size_t count =
+      bodies ? static_cast<std::size_t>(coordinates[0].range->size()) : std::size_t{1};
+  const std::string x = bodies ? coordinates[0].name : names[0];
+  const std::string y = bodies ? coordinates[1].name : names[1];
+  PlotPanel plane{.x_label = x, .y_label = y, .square = true};
+  for (std::size_t i = 0; i < std::min(count, kBodies); ++i)
+    plane.series.push_back(path(states, i, bodies ? count + i : 1, static_cast<int>(i)));
+  const std::string shown = count > kBodies ? fmt::format(" of the first {} bodies", kBodies)
+                            : bodies        ? fmt::format(" of the {} bodies", count)
+                                            : "";
+  return {"orbit",
+          fmt::format("The orbit{} in {} and {}: {}.", shown, x, y, what),
+          {.panels = {plane}}};
+}
+
 // One degree of freedom: the scene's orbit among those that start nearer to the origin.  More: the
 // first two coordinates, and the first coordinate with its momentum.
 std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scene) {
@@ -68,13 +92,7 @@ std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scen
   }
   phase.series.push_back(path(states, 0, n, 0));
   std::vector<Figure> figures = {{"portrait", caption, {.panels = {phase}}}};
-  if (n > 1) {
-    PlotPanel plane{.x_label = q[0], .y_label = q[1], .square = true};
-    plane.series.push_back(path(states, 0, 1, 0));
-    figures.insert(figures.begin(), {"orbit",
-                                     fmt::format("The orbit in {} and {}: {}.", q[0], q[1], what),
-                                     {.panels = {plane}}});
-  }
+  if (n > 1) figures.insert(figures.begin(), orbit_picture(model, states, what));
   return figures;
 }
 
