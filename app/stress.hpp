@@ -18,7 +18,8 @@ enum class StressOutcome {
   done,
   jumped,         // an energy error beyond the energy scale: a singularity was stepped across, or
                   // the step is far too large for this solution
-  escaped,        // far away from where it began, with its energy kept
+  escaped,        // far away from where it began, with its energy kept beside the terms of H there;
+                  // perhaps to infinity in finite time, where no step can follow
   not_converged,  // the equations of a step were not solved
   left_domain,    // H or its gradient is not defined where the step went
   overflow,       // beyond the numbers there are

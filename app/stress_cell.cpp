@@ -48,6 +48,14 @@ double half_product(std::span<const double> x, std::span<const double> y) {
   return std::fabs(0.5 * sum);
 }
 
+// The energy error is small beside the terms of H where the state is now.
+bool keeps_energy(const runtime::Library& library, const std::vector<double>& parameters,
+                  const std::vector<double>& state, const StressCell& cell) {
+  constexpr double small = 0.01;
+  const double scale = energy_scale_of(library, parameters, state);
+  return cell.energy_error <= small * std::max(scale, cell.energy_scale);
+}
+
 StressOutcome failure_of(runtime::Status status, double largest) {
   switch (status) {
     case runtime::Status::not_converged:
@@ -111,15 +119,18 @@ std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::
     const runtime::Report report = integrator.advance(1, true);
     if (report.status != runtime::Status::done) {
       iterations.push_back(report.last_iterations);
-      cell.outcome = failure_of(report.status, largest);
+      // An orbit that reaches infinity in finite time ends so, however small the step.
+      const bool escaped = largest > kBounded &&
+                           keeps_energy(*library, parameters, integrator.rounded_state(), cell);
+      cell.outcome = escaped ? StressOutcome::escaped : failure_of(report.status, largest);
       break;
     }
     ++cell.steps_done;
     iterations.push_back(report.last_iterations);
     largest = std::max(largest, sizes.of(integrator.rounded_state()));
     cell.energy_error = std::max(cell.energy_error, std::fabs(report.energy->last - energy));
-    const bool kept = cell.energy_error <= cell.energy_scale;
-    if (largest > kFarAway && kept) {
+    if (largest > kFarAway &&
+        keeps_energy(*library, parameters, integrator.rounded_state(), cell)) {
       cell.outcome = StressOutcome::escaped;
       break;
     }

@@ -138,8 +138,9 @@ std::string panel_text(const StressMap& map, const StressAxis& down, const Panel
                                   shade(i).colour, shade(i).label));
   }
   if (!map.linear_bound.empty())
-    plots.push_back(fmt::format("$bound using 1:2 with points pt 7 ps 0.35 lc rgb 'black' {}",
-                                key.empty() ? "notitle" : "title 'linear bound'"));
+    plots.emplace_back("$bound using 1:2 with points pt 7 ps 0.35 lc rgb 'black' notitle");
+  if (!map.linear_bound.empty() && !key.empty())
+    plots.emplace_back("keyentry with lines lw 3 lc rgb 'black' title 'linear bound'");
   return text + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
 }
 

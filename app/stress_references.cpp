@@ -48,11 +48,14 @@ StressReferences::StressReferences(const StressGrid& grid, const StressMap& map,
       orbits_.push_back({.place = place, .scene = scene});
       orbit = orbits_.end() - 1;
     }
-    // h ascends along either axis, and without it there is one time.
-    const Rational time = *scene.h * limits.steps;
-    if (orbit->times.empty() || orbit->times.back() != time) orbit->times.push_back(time);
     places_.push_back({.orbit = static_cast<std::size_t>(orbit - orbits_.begin()),
-                       .time = orbit->times.size() - 1});
+                       .time = *scene.h * limits.steps});
+    orbit->times.push_back(places_.back().time);
+  }
+  for (Orbit& orbit : orbits_) {
+    std::ranges::sort(orbit.times, {}, [](const Rational& time) { return Rational(abs(time)); });
+    const auto rest = std::ranges::unique(orbit.times);
+    orbit.times.erase(rest.begin(), rest.end());
   }
   // On two threads.
   seconds_ = 2.0 * limits.reference_time.count() / static_cast<double>(orbits_.size());
@@ -79,17 +82,20 @@ void StressReferences::compare(std::size_t cell, const std::vector<runtime::Wide
     return;
   }
   const Place& place = places_[cell];
-  const ReferenceTrack& track = orbits_[place.orbit].track;
-  if (place.time >= track.states.size()) {
+  const Orbit& orbit = orbits_[place.orbit];
+  const ReferenceTrack& track = orbit.track;
+  const auto at =
+      static_cast<std::size_t>(std::ranges::find(orbit.times, place.time) - orbit.times.begin());
+  if (at >= track.states.size()) {
     result.state_missing = track.missing;
     return;
   }
-  const std::vector<runtime::Wide>& exact = track.states[place.time];
+  const std::vector<runtime::Wide>& exact = track.states[at];
   const double error = distance(state, exact);
   result.state_scale = std::max(length(start), length(exact));
   // A reference that is wrong in the last digit of the error, or of a double, still serves.
   constexpr double rounding = 1e-16;
-  const double own = track.errors[place.time];
+  const double own = track.errors[at];
   if (!(own <= std::max(0.01 * error, rounding * result.state_scale))) {
     result.state_missing = fmt::format("the reference is known to {:.1e} only", own);
     return;

@@ -35,7 +35,7 @@ class StressReferences {
   };
   struct Place {
     std::size_t orbit = 0;
-    std::size_t time = 0;
+    Rational time;
   };
 
   std::string method_;

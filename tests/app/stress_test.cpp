@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
@@ -27,7 +28,8 @@ TEST(Stress, TheRunsOfAnOscillatorAreBoundedWhereTheLinearBoundSaysSo) {
   for (const std::vector<std::string>& axes :
        {std::vector<std::string>{"--vary", "beta=-19:19:9", "--vary", "gamma=-19:19:9"},
         std::vector<std::string>{"--vary", "h=1.7:100:9", "--vary", "alpha=0.03:0.97:7"}}) {
-    std::vector<std::string> arguments = {models + "harmonic.ham", "--steps", "2000"};
+    std::vector<std::string> arguments = {models + "harmonic.ham", "--steps", "2000",
+                                          "--reference-seconds", "0"};
     arguments.insert(arguments.end(), axes.begin(), axes.end());
     int unbounded = 0;
     for (const Json& cell : cells_of(arguments)) {
@@ -36,6 +38,34 @@ TEST(Stress, TheRunsOfAnOscillatorAreBoundedWhereTheLinearBoundSaysSo) {
     }
     EXPECT_GT(unbounded, 5);
   }
+}
+
+// After N steps of h the midpoint rule has turned (q, p) by 2 N atan(h/2) in place of N h: a chord
+// of the unit circle.  Rounding over 300 steps stays below 1e-13.
+TEST(Stress, TheStateErrorOfAnOscillatorIsThatOfItsAngle) {
+  constexpr double steps = 300;
+  for (const Json& cell : cells_of({models + "harmonic.ham", "--steps", "300", "--vary",
+                                    "h=0.01:100:5", "--vary", "alpha=0.5:0.6:2"})) {
+    if (cell.at("at").at("alpha") != 0.5) continue;
+    const double h = cell.at("h");
+    const double angle = steps * (2.0 * std::atan(h / 2.0) - h);
+    EXPECT_NEAR(cell.at("state_error"), 2.0 * std::fabs(std::sin(angle / 2.0)), 1e-12) << cell;
+    EXPECT_TRUE(cell.at("state_missing").is_null());
+  }
+}
+
+TEST(Stress, AStateErrorThatIsNotKnownSaysWhy) {
+  const Scratch scratch;
+  const std::string path = scratch.write("collapse.ham", collapse);
+  int ended = 0;
+  for (const Json& cell : cells_of({path, "--vary", "h=1:100:5", "--steps", "1000"})) {
+    EXPECT_NE(cell.at("state_error").is_null(), cell.at("state_missing").is_null()) << cell;
+    if (!cell.at("state_missing").is_null()) ++ended;
+  }
+  EXPECT_EQ(ended, 5);  // the solution ends before any of the cells
+  for (const Json& cell : cells_of({models + "pendulum.ham", "--vary", "h=1:2:2", "--steps", "10",
+                                    "--reference-seconds", "0"}))
+    EXPECT_EQ(cell.at("state_missing"), "references are not asked for");
 }
 
 TEST(Stress, EveryFailureIsAnOutcomeWithAName) {
