@@ -49,17 +49,17 @@ double half_product(std::span<const double> x, std::span<const double> y) {
 }
 
 // The energy error is small beside p H_p/2 or q H_q/2 where the state is now.  A step that is
-// unstable on a quadratic H errs by these.
+// unstable on a quadratic H errs by their sum.
 bool keeps_energy(const runtime::Library& library, const std::vector<double>& parameters,
                   const std::vector<double>& state, const StressCell& cell) {
-  constexpr double small = 0.01;
+  constexpr double small = 0.1;
   const std::vector<double> gradient = library.gradient(parameters, state);
   const std::size_t n = state.size() / 2;
   const std::span<const double> z(state);
   const std::span<const double> slope(gradient);
   const double scale =
       std::max(half_product(z.first(n), slope.first(n)), half_product(z.last(n), slope.last(n)));
-  return cell.energy_error <= small * std::max(scale, cell.energy_scale);
+  return std::isfinite(scale) && cell.energy_error <= small * std::max(scale, cell.energy_scale);
 }
 
 StressOutcome failure_of(runtime::Status status, double largest) {
