@@ -166,8 +166,10 @@ Command add_stress(CLI::App& app) {
       ->type_name("N");
   parser->add_option("-o,--output", options->output, "write stress.csv, .json, .gp and .svg there")
       ->type_name("DIRECTORY");
-  parser->add_option("--csv", options->csv, "the cells as CSV")->type_name("FILE");
-  parser->add_option("--plot", options->plot, "a picture, .svg or .png, and its script .gp")
+  parser->add_option("--csv", options->csv, "")->type_name("FILE");
+  parser
+      ->add_option("--plot", options->plot,
+                   "the cells as CSV; a picture, .svg or .png, and its script .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "the cells as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no progress, no names of files");
