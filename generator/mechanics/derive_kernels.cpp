@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <list>
 #include <set>
 
 #include "generator/language/scene.hpp"
@@ -13,8 +14,10 @@ namespace hamgen {
 
 namespace {
 
-// At most this many instances at the boundaries of a sum are written out one by one.
+// At most this many instances at the boundaries of a sum are written out one by one, together where
+// they have no more elements than this.
 constexpr std::size_t kMostPeeled = 64;
+constexpr std::size_t kMostTogether = 8;
 
 using Indices = std::map<std::string, long>;
 
@@ -43,12 +46,37 @@ bool contains_sum(const NodePtr& node) {
   return found;
 }
 
-// A term of H: ranges, a body without sums, and constant factors (divided by, if so marked).
-struct Term {
-  std::vector<SumRange> ranges;
+// What is summed: a body without sums and factors (divided by, if so marked).
+struct Summand {
   NodePtr body;
   std::vector<std::pair<NodePtr, bool>> factors;
   bool negative = false;
+};
+
+// Which variables an expression mentions.
+struct Touch {
+  bool coordinates = false;
+  bool momenta = false;
+  [[nodiscard]] bool both() const { return coordinates && momenta; }
+  bool operator==(const Touch&) const = default;
+};
+
+// A sum of H: what is summed over the same indices and depends on the same part of the state
+// becomes one loop.
+struct Term {
+  std::vector<KernelRange> ranges;
+  Touch touch;
+  std::vector<Summand> summands;
+};
+
+// Single instances that are written out together.
+struct Boundary {
+  Boundary(const Model& model, const Touch& what) : converter(model, table), touch(what) {}
+  SymbolTable table;
+  TreeConverter converter;
+  Touch touch;
+  std::set<std::string> elements;
+  GiNaC::ex value;
 };
 
 class KernelBuilder {
@@ -65,57 +93,119 @@ class KernelBuilder {
   }
 
   std::optional<std::vector<Kernel>> build() {
-    if (!split(model_.hamiltonian, {})) return std::nullopt;
     for (const Variable& momentum : model_.momenta) {
       if (momentum.is_time) return std::nullopt;
     }
+    if (!split(model_.hamiltonian, {}, {})) return std::nullopt;
     for (const Term& term : terms_) {
-      if (!add(term)) return std::nullopt;
+      if (add(term)) continue;
+      // Together their boundaries may be too many.
+      for (const Summand& summand : term.summands) {
+        if (!add({term.ranges, term.touch, {summand}})) return std::nullopt;
+      }
     }
+    for (Boundary& boundary : boundaries_) finish(boundary);
     return std::move(kernels_);
   }
 
  private:
   // Splits H at plus and minus and at sums.  False if a sum stands where it cannot be split.
-  bool split(const NodePtr& node, Term term) {
+  bool split(const NodePtr& node, std::vector<SumRange> ranges, Summand summand) {
     if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
-      term.negative = !term.negative;
-      return split(negate->operand, term);
+      summand.negative = !summand.negative;
+      return split(negate->operand, ranges, summand);
     }
     if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
       const bool difference = binary->operation == BinaryOperator::subtract;
       if (difference || binary->operation == BinaryOperator::add) {
-        Term right = term;
+        Summand right = summand;
         if (difference) right.negative = !right.negative;
-        return split(binary->left, term) && split(binary->right, right);
+        return split(binary->left, ranges, summand) && split(binary->right, ranges, right);
       }
       if (contains_sum(node)) {
         const bool left_sum = contains_sum(binary->left);
         if (left_sum && contains_sum(binary->right)) return false;
-        if (binary->operation == BinaryOperator::multiply) {
-          term.factors.emplace_back(left_sum ? binary->right : binary->left, false);
-          return split(left_sum ? binary->left : binary->right, term);
-        }
-        if (binary->operation == BinaryOperator::divide && left_sum) {
-          term.factors.emplace_back(binary->right, true);
-          return split(binary->left, term);
-        }
-        return false;
+        return split_factor(*binary, left_sum, ranges, summand);
+      }
+      // (T + V)*c is T*c + V*c: what is separable becomes separate loops.
+      const bool left_varies = touch(binary->left) != Touch{};
+      if (touch(node).both() && !(left_varies && touch(binary->right) != Touch{}) &&
+          (binary->operation == BinaryOperator::multiply ||
+           (binary->operation == BinaryOperator::divide && left_varies))) {
+        return split_factor(*binary, left_varies, ranges, summand);
       }
     }
     if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
-      for (const Definition& definition : model_.definitions) {
-        if (definition.name == name->name) return split(definition.value, term);
+      if (const Definition* definition = find_definition(name->name)) {
+        return split(definition->value, ranges, summand);
       }
     }
     if (const auto* sum = std::get_if<SumNode>(&node->value)) {
-      term.ranges.insert(term.ranges.end(), sum->ranges.begin(), sum->ranges.end());
-      return split(sum->body, term);
+      ranges.insert(ranges.end(), sum->ranges.begin(), sum->ranges.end());
+      return split(sum->body, ranges, summand);
     }
     if (contains_sum(node)) return false;
-    term.body = node;
-    terms_.push_back(term);
+    summand.body = node;
+    return place(ranges, summand);
+  }
+
+  // A product or quotient, of which one side is split and the other a factor.
+  bool split_factor(const BinaryNode& binary, bool left, const std::vector<SumRange>& ranges,
+                    Summand summand) {
+    const bool divides = binary.operation == BinaryOperator::divide;
+    if (!divides && binary.operation != BinaryOperator::multiply) return false;
+    if (divides && !left) return false;
+    summand.factors.emplace_back(left ? binary.right : binary.left, divides);
+    return split(left ? binary.left : binary.right, ranges, summand);
+  }
+
+  // Puts the summand to those with the same ranges and variables.
+  bool place(const std::vector<SumRange>& sum_ranges, const Summand& summand) {
+    std::vector<KernelRange> ranges;
+    std::vector<std::string> indices;
+    for (const SumRange& range : sum_ranges) {
+      const auto lower = affine(range.lower, indices);
+      const auto upper = affine(range.upper, indices);
+      if (!lower || !upper) return false;
+      ranges.push_back({range.index, *lower, *upper});
+      indices.push_back(range.index);
+    }
+    Touch mentioned = touch(summand.body);
+    for (const auto& [factor, divides] : summand.factors) {
+      const Touch more = touch(factor);
+      mentioned = {mentioned.coordinates || more.coordinates, mentioned.momenta || more.momenta};
+    }
+    const auto same = std::ranges::find_if(
+        terms_, [&](const Term& term) { return term.ranges == ranges && term.touch == mentioned; });
+    if (same != terms_.end()) {
+      same->summands.push_back(summand);
+    } else {
+      terms_.push_back({ranges, mentioned, {summand}});
+    }
     return true;
+  }
+
+  [[nodiscard]] const Definition* find_definition(const std::string& name) const {
+    const auto it = std::ranges::find(model_.definitions, name, &Definition::name);
+    return it == model_.definitions.end() ? nullptr : &*it;
+  }
+
+  [[nodiscard]] Touch touch(const NodePtr& node) const {
+    Touch result;
+    auto also = [&](const Touch& more) {
+      result = {result.coordinates || more.coordinates, result.momenta || more.momenta};
+    };
+    if (const auto* name = std::get_if<NameNode>(&node->value)) {
+      if (const auto it = variables_.find(name->name); it != variables_.end()) {
+        const bool momentum = it->second.second >= degrees_of_freedom(model_);
+        also({!momentum, momentum});
+      } else if (const Definition* definition = find_definition(name->name)) {
+        also(touch(definition->value));
+      }
+      return result;
+    }
+    for_children(node, [&](const NodePtr& child) { also(touch(child)); });
+    return result;
   }
 
   [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const {
@@ -201,28 +291,23 @@ class KernelBuilder {
 
   bool add(const Term& term) {
     std::vector<std::string> indices;
-    std::vector<KernelRange> ranges;
-    for (const SumRange& range : term.ranges) {
-      const auto lower = affine(range.lower, indices);
-      const auto upper = affine(range.upper, indices);
-      if (!lower || !upper) return false;
-      ranges.push_back({range.index, *lower, *upper});
-      indices.push_back(range.index);
-    }
+    for (const KernelRange& range : term.ranges) indices.push_back(range.index);
     std::vector<Reference> references;
     std::set<std::string> lets;
-    if (!collect(term.body, indices, references, lets)) return false;
-    for (const auto& [factor, divides] : term.factors) {
-      if (!collect(factor, indices, references, lets)) return false;
+    for (const Summand& summand : term.summands) {
+      if (!collect(summand.body, indices, references, lets)) return false;
+      for (const auto& [factor, divides] : summand.factors) {
+        if (!collect(factor, indices, references, lets)) return false;
+      }
     }
-    if (ranges.empty()) {
+    if (term.ranges.empty()) {
       instance(term, {});
       return true;
     }
-    if (ranges.size() == 1) return add_single(term, ranges[0], references);
+    if (term.ranges.size() == 1) return add_single(term, term.ranges[0], references);
     // Several indices: boundaries are not peeled, every instance must be regular.
-    if (!all_regular(ranges, 0, {}, references)) return false;
-    regular(term, ranges, references);
+    if (!all_regular(term.ranges, 0, {}, references)) return false;
+    regular(term, term.ranges, references);
     return true;
   }
 
@@ -266,21 +351,35 @@ class KernelBuilder {
     return true;
   }
 
-  GiNaC::ex body(const Term& term, TreeConverter& converter, const Indices& indices) {
-    GiNaC::ex value = converter.convert_at(term.body, indices);
-    for (const auto& [factor, divides] : term.factors) {
-      const GiNaC::ex f = converter.convert_at(factor, indices);
-      value = divides ? value / f : value * f;
+  static GiNaC::ex body(const Term& term, TreeConverter& converter, const Indices& indices) {
+    GiNaC::ex sum = 0;
+    for (const Summand& summand : term.summands) {
+      GiNaC::ex value = converter.convert_at(summand.body, indices);
+      for (const auto& [factor, divides] : summand.factors) {
+        const GiNaC::ex f = converter.convert_at(factor, indices);
+        value = divides ? value / f : value * f;
+      }
+      sum += summand.negative ? GiNaC::ex(-value) : value;
     }
-    return term.negative ? GiNaC::ex(-value) : value;
+    return sum;
   }
 
   // One instance with concrete elements.
   void instance(const Term& term, const Indices& indices) {
     SymbolTable table;
     TreeConverter converter(model_, table);
-    const GiNaC::ex value = body(term, converter, indices);
-    Kernel kernel{.value = from_ginac(value, table)};
+    const std::set<std::string> used = symbols(from_ginac(body(term, converter, indices), table));
+    if (boundaries_.empty() || boundaries_.back().touch != term.touch ||
+        boundaries_.back().elements.size() + used.size() > kMostTogether) {
+      boundaries_.emplace_back(model_, term.touch);
+    }
+    Boundary& boundary = boundaries_.back();
+    boundary.value += body(term, boundary.converter, indices);
+    boundary.elements.insert(used.begin(), used.end());
+  }
+
+  void finish(Boundary& boundary) {
+    Kernel kernel{.value = from_ginac(boundary.value, boundary.table)};
     std::set<std::string> names = symbols(kernel.value);
     for (const auto& [name, entry] : variables_) {
       const auto& [variable, position] = entry;
@@ -292,7 +391,7 @@ class KernelBuilder {
                                 position >= degrees_of_freedom(model_)});
       }
     }
-    finish(std::move(kernel), value, table);
+    finish(std::move(kernel), boundary.value, boundary.table);
   }
 
   // The loop over regular instances.
@@ -358,7 +457,9 @@ class KernelBuilder {
       kernel.gradient.push_back(from_ginac(gradient.back(), table));
     }
     for (std::size_t i = 0; i < kernel.slots.size(); ++i) {
+      const std::set<std::string> present = symbols(kernel.gradient[i]);
       for (std::size_t j = i; j < kernel.slots.size(); ++j) {
+        if (!present.contains(kernel.slots[j].symbol)) continue;
         const GiNaC::ex entry = gradient[i].diff(table.find(kernel.slots[j].symbol));
         if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
       }
@@ -371,6 +472,7 @@ class KernelBuilder {
   std::map<std::string, long> sizes_;
   std::vector<Term> terms_;
   std::vector<Kernel> kernels_;
+  std::list<Boundary> boundaries_;
 };
 
 }  // namespace

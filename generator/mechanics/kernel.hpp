@@ -5,6 +5,7 @@
 // taken by slot and scattered.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@ struct AffineIndex {
 struct KernelRange {
   std::string index;
   AffineIndex lower, upper;  // in the indices of the ranges before it
+  bool operator==(const KernelRange&) const = default;
 };
 
 struct Slot {
@@ -51,5 +53,14 @@ struct Kernel {
 // Which part of the state the kernel's slots lie in.
 [[nodiscard]] bool uses_coordinates(const Kernel& kernel);
 [[nodiscard]] bool uses_momenta(const Kernel& kernel);
+
+// "2*i + 1"
+[[nodiscard]] std::string to_text(const AffineIndex& index);
+// Its value where the indices of the ranges, in their order, are these.
+[[nodiscard]] long value_at(const AffineIndex& index, const std::vector<KernelRange>& ranges,
+                            const std::vector<long>& indices);
+// The indices of every instance: one empty list if there are no ranges.
+void for_each_instance(const std::vector<KernelRange>& ranges,
+                       const std::function<void(const std::vector<long>&)>& use);
 
 }  // namespace hamgen

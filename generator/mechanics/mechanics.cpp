@@ -27,25 +27,13 @@ Expression Mechanics::variable(int i) const {
 
 namespace {
 
-std::string affine_text(const AffineIndex& a) {
-  std::string text;
-  for (const auto& [index, factor] : a.factors) {
-    const std::string term = factor == 1 ? index : fmt::format("{}*{}", factor, index);
-    text += (text.empty() || factor < 0 ? "" : " + ") + term;
-  }
-  if (text.empty() || a.constant != 0) {
-    text += (text.empty() ? "" : " + ") + std::to_string(a.constant);
-  }
-  return text;
-}
-
 std::string kernels_text(const Mechanics& mechanics) {
   std::string text = "H is a sum of loops:\n";
   for (const Kernel& kernel : mechanics.kernels) {
     text += "  ";
     for (const KernelRange& range : kernel.ranges) {
-      text += fmt::format("sum {} = {}..{}: ", range.index, affine_text(range.lower),
-                          affine_text(range.upper));
+      text += fmt::format("sum {} = {}..{}: ", range.index, to_text(range.lower),
+                          to_text(range.upper));
     }
     text += to_text(kernel.value) + "\n";
   }
@@ -53,14 +41,6 @@ std::string kernels_text(const Mechanics& mechanics) {
 }
 
 }  // namespace
-
-bool uses_coordinates(const Kernel& kernel) {
-  return std::ranges::any_of(kernel.slots, [](const Slot& s) { return !s.is_momentum; });
-}
-
-bool uses_momenta(const Kernel& kernel) {
-  return std::ranges::any_of(kernel.slots, &Slot::is_momentum);
-}
 
 std::string to_text(const Mechanics& mechanics) {
   const int n = mechanics.degrees_of_freedom;
