@@ -15,6 +15,7 @@
 //             expansion of the sums: 32 degrees of freedom stay loops
 //             Eigen: the matrix has bandwidth 1
 //             32 of the unknowns: torn out
+//             masses as an array: all are 1
 #pragma once
 #include <cmath>
 
@@ -146,114 +147,70 @@ struct History {
 };
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, const State& z) {
-  const Real* x = z.q;  // p follows q
+inline Real energy(const Parameters& par, const State& z) {
   Real sum = 0;
   for (int i = 1; i <= 32; ++i) {
-    const Real p_i = x[i + 31];
+    const Real p_i = z.p[i - 1];
     sum += 0.5 * (p_i * p_i);
   }
-  {
-    const Real q_1 = x[0];
-    sum += 0.5 * (q_1 * q_1);
-  }
-  {
-    const Real q_32 = x[31];
-    sum += 0.5 * (q_32 * q_32);
-  }
   for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = x[i];
-    const Real q_i = x[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    sum += 0.5 * (t1 * t1);
-  }
-  {
-    const Real q_1 = x[0];
-    const Real t1 = q_1 * q_1;
-    sum += (1.0 / 3.0) * par.alpha * q_1 * t1;
-  }
-  {
-    const Real q_32 = x[31];
-    const Real t1 = q_32 * q_32;
-    sum += -(1.0 / 3.0) * par.alpha * q_32 * t1;
-  }
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = x[i];
-    const Real q_i = x[i - 1];
+    const Real q_i_plus_1 = z.q[i];
+    const Real q_i = z.q[i - 1];
     const Real t1 = q_i_plus_1 - q_i;
     const Real t2 = t1 * t1;
-    sum += (1.0 / 3.0) * par.alpha * t1 * t2;
+    sum += 0.5 * (t1 * t1) + (1.0 / 3.0) * par.alpha * t1 * t2;
   }
+  const Real q_1 = z.q[0];
+  const Real q_32 = z.q[31];
+  const Real t1 = q_1 * q_1;
+  const Real t2 = q_32 * q_32;
+  sum += 0.5 * (q_1 * q_1) + 0.5 * (q_32 * q_32) + (1.0 / 3.0) * par.alpha * q_1 * t1 -
+      (1.0 / 3.0) * par.alpha * q_32 * t2;
   return sum;
 }
 
-// Adds dH/dq to gradient[0..n-1].
-inline void potential_gradient([[maybe_unused]] const Parameters& par,
-                               [[maybe_unused]] const Real* x, [[maybe_unused]] Real* gradient) {
-  {
-    const Real q_1 = x[0];
-    gradient[0] += q_1;
-  }
-  {
-    const Real q_32 = x[31];
-    gradient[31] += q_32;
-  }
+// dq[i] = dH/dq_i.
+inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
+  for (int i = 0; i < n; ++i) dq[i] = 0;
   for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = x[i];
-    const Real q_i = x[i - 1];
+    const Real q_i_plus_1 = q[i];
+    const Real q_i = q[i - 1];
     const Real t1 = q_i_plus_1 - q_i;
-    gradient[i] += t1;
-    gradient[i - 1] += -t1;
+    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
+    dq[i] += t2;
+    dq[i - 1] -= t2;
   }
-  {
-    const Real q_1 = x[0];
-    gradient[0] += par.alpha * (q_1 * q_1);
-  }
-  {
-    const Real q_32 = x[31];
-    gradient[31] += -par.alpha * (q_32 * q_32);
-  }
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = x[i];
-    const Real q_i = x[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = t1 * t1;
-    gradient[i] += par.alpha * t2;
-    gradient[i - 1] += -par.alpha * t2;
-  }
+  const Real q_1 = q[0];
+  const Real q_32 = q[31];
+  dq[0] += q_1 + par.alpha * (q_1 * q_1);
+  dq[31] += q_32 - par.alpha * (q_32 * q_32);
 }
 
-// Adds dH/dp to gradient[n..2n-1].
-inline void kinetic_gradient([[maybe_unused]] const Parameters& par, [[maybe_unused]] const Real* x,
-                             [[maybe_unused]] Real* gradient) {
+// dp[i] = dH/dp_i.
+inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
+  for (int i = 0; i < n; ++i) dp[i] = 0;
   for (int i = 1; i <= 32; ++i) {
-    const Real p_i = x[i + 31];
-    gradient[i + 31] += p_i;
+    const Real p_i = p[i - 1];
+    dp[i - 1] += p_i;
   }
 }
 
-// grad H: the derivatives by q first.
-inline void gradient(const Parameters& par, const Real* x, Real* values) {
-  for (int i = 0; i < 2 * n; ++i) values[i] = 0;
-  potential_gradient(par, x, values);
-  kinetic_gradient(par, x, values);
-}
-
-// A matrix whose entries lie within 1 of the diagonal: elimination with partial
-// pivoting, which fills as many diagonals again above it.  Row i holds columns i - width on.
-class BandMatrix {
+// A matrix whose entries lie within 1 of the diagonal. Elimination with partial pivoting fills as
+// many diagonals again above it. Row i holds columns i - width on.
+class Matrix {
  public:
+  static constexpr int size = 32;
   void clear() {
     for (auto& row : entry_) {
       for (Real& value : row) value = 0;
     }
   }
-  void put(int row, int column, Real value) { entry_[row][column - row + width] += value; }
+  void put(int row, int column, Real value) { at(row, column) += value; }
   // False if the matrix is singular or not finite.
   bool factorise() {
-    for (int c = 0; c < n; ++c) {
-      const int last_row = c + width < n ? c + width : n - 1;
-      const int last_column = c + 2 * width < n ? c + 2 * width : n - 1;
+    for (int c = 0; c < size; ++c) {
+      const int last_row = c + width < size ? c + width : size - 1;
+      const int last_column = c + 2 * width < size ? c + 2 * width : size - 1;
       int pivot = c;
       for (int r = c + 1; r <= last_row; ++r) {
         if (magnitude(at(r, c)) > magnitude(at(pivot, c))) pivot = r;
@@ -276,18 +233,18 @@ class BandMatrix {
     }
     return true;
   }
-  void solve(Real (&vector)[n]) const {
-    for (int c = 0; c < n; ++c) {
-      const Real kept = vector[c];
-      vector[c] = vector[pivot_[c]];
-      if (pivot_[c] != c) vector[pivot_[c]] = kept;
-      const int last_row = c + width < n ? c + width : n - 1;
-      for (int r = c + 1; r <= last_row; ++r) vector[r] -= factor_[c][r - c - 1] * vector[c];
+  void solve(Real (&x)[size]) const {
+    for (int c = 0; c < size; ++c) {
+      const Real kept = x[c];
+      x[c] = x[pivot_[c]];
+      if (pivot_[c] != c) x[pivot_[c]] = kept;
+      const int last_row = c + width < size ? c + width : size - 1;
+      for (int r = c + 1; r <= last_row; ++r) x[r] -= factor_[c][r - c - 1] * x[c];
     }
-    for (int r = n - 1; r >= 0; --r) {
-      const int last_column = r + 2 * width < n ? r + 2 * width : n - 1;
-      for (int j = r + 1; j <= last_column; ++j) vector[r] -= at(r, j) * vector[j];
-      vector[r] /= at(r, r);
+    for (int r = size - 1; r >= 0; --r) {
+      const int last_column = r + 2 * width < size ? r + 2 * width : size - 1;
+      for (int j = r + 1; j <= last_column; ++j) x[r] -= at(r, j) * x[j];
+      x[r] /= at(r, r);
     }
   }
 
@@ -296,110 +253,71 @@ class BandMatrix {
   static constexpr int columns = 3 * width + 1;
   Real& at(int row, int column) { return entry_[row][column - row + width]; }
   const Real& at(int row, int column) const { return entry_[row][column - row + width]; }
-  Real entry_[n][columns] = {};
-  Real factor_[n][width > 0 ? width : 1] = {};
-  int pivot_[n] = {};
+  Real entry_[size][columns] = {};
+  Real factor_[size][width] = {};
+  int pivot_[size] = {};
 };
 
-// put(row, column, value) for the second derivatives of H, repeated entries to be added.
+// put(row, column, value) for the second derivatives, repeated entries to be added.
 template <class Put>
-inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] const Real* x,
-                    Put put) {
-  {
-    put(0, 0, 1.0);
-  }
-  {
-    put(31, 31, 1.0);
-  }
+inline void hessian(const Parameters& par, const Real* q, Put put) {
   for (int i = 1; i <= 31; ++i) {
-    put(i, i, 1.0);
-    const Real entry_2 = -1.0;
-    put(i, i - 1, entry_2);
-    put(i - 1, i, entry_2);
-    put(i - 1, i - 1, 1.0);
+    const Real q_i_plus_1 = q[i];
+    const Real q_i = q[i - 1];
+    const Real t1 = 1.0 + 2.0 * par.alpha * (q_i_plus_1 - q_i);
+    put(i, i, t1);
+    put(i, i - 1, -t1);
+    put(i - 1, i, -t1);
+    put(i - 1, i - 1, t1);
   }
-  {
-    const Real q_1 = x[0];
-    put(0, 0, 2.0 * par.alpha * q_1);
-  }
-  {
-    const Real q_32 = x[31];
-    put(31, 31, -2.0 * par.alpha * q_32);
-  }
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = x[i];
-    const Real q_i = x[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = 2.0 * par.alpha * t1;
-    put(i, i, t2);
-    const Real entry_2 = -2.0 * par.alpha * t1;
-    put(i, i - 1, entry_2);
-    put(i - 1, i, entry_2);
-    put(i - 1, i - 1, t2);
-  }
-}
-
-// put(row, column, value) for the second derivatives of H, repeated entries to be added.
-template <class Put>
-inline void masses([[maybe_unused]] const Parameters& par, [[maybe_unused]] const Real* x,
-                   Put put) {
-  for (int i = 1; i <= 32; ++i) {
-    put(i + 31, i + 31, 1.0);
-  }
+  const Real q_1 = q[0];
+  const Real q_32 = q[31];
+  put(0, 0, 1.0 + 2.0 * par.alpha * q_1);
+  put(31, 31, 1.0 - 2.0 * par.alpha * q_32);
 }
 
 // Many steps: start values are extrapolated, rounding errors of the updates carried along.
 class Propagator {
  public:
-  Propagator([[maybe_unused]] const Parameters& par, Real h, const State& z)
-      : par_(par), h_(h), z_(z), alpha_(0.5), beta_(0.0), gamma_(0.0) {
-    clear(bar_);
-    clear(gradient_);
-    kinetic_gradient(par_, bar_, gradient_);
-    for (int i = 0; i < n; ++i) drift_[i] = gradient_[n + i];
-    masses(par_, bar_, [&](int row, int, Real value) { mass_[row - n] += value; });
-    for (int i = 0; i < n; ++i) {
-      const Real inverse = alpha_ * (1 - alpha_) * mass_[i] / (1 + h_ * beta_ * mass_[i]);
-      scale_[i] = h_ * (h_ * inverse - gamma_);
-    }
-  }
+  Propagator(const Parameters& par, Real h, const State& z)
+      : par_(par), h_(h), z_(z), half_h_(0.5 * h), scale_(0.25 * (h * h)) {}
 
   // One step; on failure the state stays as it was.
   StepReport step() {
     StepReport report;
     const bool known = history_.known > 0;
     if (known) {
-      history_.extrapolate(start_);
-      for (int i = 0; i < unknowns; ++i) bar_[i] = start_[i];
+      history_.extrapolate(bar_.q);
     } else {
-      start_at_state();
+      bar_ = z_;
     }
     bool solved = iterate(report);
     if (!solved && known) {
       // Extrapolation may lead astray, the state itself seldom does.
       rule_ = NewtonRule();
       history_ = History();
-      start_at_state();
+      bar_ = z_;
       solved = iterate(report);
     }
     if (!solved) return report;
-    for (int i = 0; i < unknowns; ++i) start_[i] = bar_[i];
-    const int iterations = report.iterations;
-    report = update();
-    report.iterations = iterations;
-    if (report.converged) history_.record(start_);
-    return report;
+    StepReport updated = update();
+    updated.iterations = report.iterations;
+    if (updated.converged) history_.record(bar_.q);
+    return updated;
   }
 
   // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
   StepReport advance(long long steps) {
     StepReport total;
     total.converged = true;
-    for (long long i = 0; i < steps && total.converged; ++i) {
+    for (long long i = 0; i < steps; ++i) {
       const StepReport report = step();
       total.iterations += report.iterations;
       total.increment = report.increment;
-      total.converged = report.converged;
+      if (!report.converged) {
+        total.converged = false;
+        break;
+      }
     }
     return total;
   }
@@ -407,74 +325,59 @@ class Propagator {
   [[nodiscard]] const State& state() const { return z_; }
 
  private:
-  static void clear(Real (&values)[2 * n]) {
-    for (Real& value : values) value = 0;
-  }
-  void start_at_state() {
-    for (int i = 0; i < n; ++i) {
-      bar_[i] = z_.q[i];
-      bar_[n + i] = z_.p[i];
-    }
-  }
   // Newton's iteration from bar_; the torn momenta follow from the coordinates.
   bool iterate(StepReport& report) {
     rule_.begin();
     for (int iteration = 1;; ++iteration) {
       ++report.iterations;
       evaluate();
-      for (int i = 0; i < n; ++i) {
-        residual_[i] = bar_[i] - z_.q[i] - h_ * (alpha_ * gradient_[n + i] + gamma_ * gradient_[i]);
-      }
-      {
-        matrix_.clear();
-        for (int i = 0; i < n; ++i) matrix_.put(i, i, 1);
-        hessian(par_, bar_, [&](int row, int column, Real value) {
-          matrix_.put(row, column, scale_[row] * value);
-        });
-        if (!matrix_.factorise()) break;
-      }
+      for (int i = 0; i < n; ++i) residual_[i] = bar_.q[i] - z_.q[i] - half_h_ * slope_.p[i];
+      matrix_.clear();
+      for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);
+      hessian(par_, bar_.q, [&](int row, int column, Real value) {
+        matrix_.put(row, column, scale_ * value);
+      });
+      if (!matrix_.factorise()) return false;
       matrix_.solve(residual_);
       Real size = 0;
       Real scale = 0;
       for (int i = 0; i < n; ++i) {
         size += magnitude(residual_[i]);
-        scale += magnitude(bar_[i]) + magnitude(z_.q[i]);
-        bar_[i] -= residual_[i];
+        scale += magnitude(bar_.q[i]) + magnitude(z_.q[i]);
+        bar_.q[i] -= residual_[i];
       }
       report.increment = size;
       const Verdict verdict = rule_(size, scale, iteration);
       if (verdict == Verdict::go_on) continue;
-      if (verdict == Verdict::failed) break;
+      if (verdict == Verdict::failed) return false;
       evaluate();
       return true;
     }
-    return false;
   }
 
   // The gradient at bar_, whose momenta are made from its coordinates.
   void evaluate() {
-    clear(gradient_);
-    potential_gradient(par_, bar_, gradient_);
-    for (int i = 0; i < n; ++i) {
-      const Real momentum = z_.p[i] - h_ * ((1 - alpha_) * gradient_[i] + beta_ * drift_[i]);
-      bar_[n + i] = momentum / (1 + h_ * beta_ * mass_[i]);
-    }
-    kinetic_gradient(par_, bar_, gradient_);
+    potential_gradient(par_, bar_.q, slope_.q);
+    for (int i = 0; i < n; ++i) bar_.p[i] = z_.p[i] - half_h_ * slope_.q[i];
+    kinetic_gradient(par_, bar_.p, slope_.p);
   }
 
   // Z = z + h J grad H(zbar).
   StepReport update() {
     StepReport report;
     Real length = 0;
-    for (const Real g : gradient_) length += h_ * g * (h_ * g);
+    for (int i = 0; i < n; ++i) {
+      length += h_ * slope_.q[i] * (h_ * slope_.q[i]) + h_ * slope_.p[i] * (h_ * slope_.p[i]);
+    }
+    // False for infinities and NaN alike.
     report.converged = length <= 1.0e308;
     if (!report.converged) {
       report.increment = length;
       return report;
     }
     for (int i = 0; i < n; ++i) {
-      add(z_.q[i], carry_.q[i], h_ * gradient_[n + i]);
-      add(z_.p[i], carry_.p[i], -h_ * gradient_[i]);
+      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]);
+      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]);
     }
     return report;
   }
@@ -482,17 +385,15 @@ class Propagator {
   Parameters par_;
   Real h_;
   State z_;
-  State carry_;
-  Real bar_[2 * n] = {};
-  Real gradient_[2 * n] = {};
-  static constexpr int unknowns = History::unknowns;
-  Real alpha_, beta_, gamma_;
-  Real mass_[n] = {}, drift_[n] = {}, scale_[n] = {};
-  BandMatrix matrix_;
+  State carry_;  // what rounding took from z_
+  State bar_;    // zbar
+  State slope_;  // grad H(zbar): slope_.q = dH/dq
+  Real half_h_;  // h/2
+  Real scale_;   // the matrix is I + scale V''
+  Matrix matrix_;
   Real residual_[n] = {};
   NewtonRule rule_;
   History history_;
-  Real start_[unknowns] = {};
 };
 
 }  // namespace fput::implicit_midpoint

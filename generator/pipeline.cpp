@@ -212,20 +212,17 @@ void watch_modified(Program& program, const std::vector<Expression>& terms) {
 
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
-  // Loops know one way to solve and one set of parameters for all degrees of freedom.
-  const Scheme* named = request.scheme.empty() ? nullptr : find_scheme(request.scheme);
-  const bool any_solver = named != nullptr && !named->has_member();
+  // Loops know one set of parameters for all degrees of freedom.
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
-      (any_solver || request.solver.empty() || request.solver == "newton") &&
       (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
   StepEquations equations = discretise(mechanics, scheme);
   SolvePlan plan = plan_solve(equations, request.solver);
-  if (request.scalar == "quad" && plan.arrays && uses_sparse_matrix(*plan.arrays)) {
-    // Eigen's sparse solver does not know quad numbers: everything is written out instead.
+  if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
+    // Eigen does not know quad numbers: everything is written out instead.
     mechanics = derive(model, false);
     equations = discretise(mechanics, choose_scheme(model, mechanics, request));
     plan = plan_solve(equations, request.solver);

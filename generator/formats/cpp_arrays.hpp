@@ -6,14 +6,27 @@
 
 namespace hamgen {
 
-// energy(par, z); gradient(par, x, values) and, for separable H, potential_gradient and
-// kinetic_gradient, which add; matrices and hessian(par, x, put) where the plan solves with them.
+// energy(par, z); of a separable H potential_gradient(par, q, dq) and kinetic_gradient(par, p, dp),
+// of any other, and where it is wanted, gradient(par, q, p, dq, dp); a matrix and
+// hessian(par, q, [p,] put) where the plan solves with them.
 void write_array_functions(CodeWriter& out, CppContext& context);
 // The class that takes many steps of a member.
-void write_array_propagator(CodeWriter& out, const CppContext& context, StepRole role);
+void write_array_propagator(CodeWriter& out, CppContext& context, StepRole role);
 
-// class BandMatrix, class SparseMatrix: clear, put, factorise, solve.
-void write_band_matrix(CodeWriter& out, int width);
-void write_sparse_matrix(CodeWriter& out);
+// h alpha, h (1 - alpha), h beta, h gamma: what the step is made of, each absent where it is zero.
+struct ArrayWeights {
+  std::string q_by_p, p_by_q, p_by_p, q_by_q;  // how they are called: "half_h_"
+  // Members of the class and their values in its constructor, each once.
+  std::vector<std::pair<std::string, Expression>> members;
+};
+[[nodiscard]] ArrayWeights array_weights(const FamilyParameters& member);
+// The function step(), and the functions that an implicit one calls.
+[[nodiscard]] std::string array_step(const Mechanics& mechanics, const SolvePlan& plan,
+                                     const ArrayWeights& weights);
+[[nodiscard]] std::string array_iteration(const Mechanics& mechanics, const ArrayPlan& plan,
+                                          const ArrayWeights& weights);
+
+// The class Matrix: clear, put, factorise, solve.
+void write_array_matrix(CodeWriter& out, const ArrayMatrix& matrix);
 
 }  // namespace hamgen

@@ -22,7 +22,7 @@ void write_single_step(CodeWriter& out) {
 void write_composition(CodeWriter& out, const CppContext& context) {
   const std::vector<Substep>& substeps = context.program.sequence.substeps;
   const std::size_t count = substeps.size();
-  const bool solves = context.arrays() ? uses_newton(*context.program.plan.arrays)
+  const bool solves = context.arrays() ? iterates(*context.program.plan.arrays)
                                        : member_parts(context.program, context.scalar).has_start();
   out.line("// Many steps, each a composition of substeps.");
   out.open("class Propagator");

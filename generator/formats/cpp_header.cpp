@@ -40,11 +40,17 @@ void write_includes(CodeWriter& out, const CppContext& context) {
     out.line("#include <cmath>");
   }
   if (context.arrays()) {
-    if (!uses_sparse_matrix(*context.program.plan.arrays)) return;
-    out.line("#include <algorithm>");
-    out.line("#include <vector>");
-    out.line();
-    out.line("#include <Eigen/SparseLU>");
+    const ArrayPlan& plan = *context.program.plan.arrays;
+    if (!uses_eigen(plan)) return;
+    if (plan.matrix->kind == MatrixKind::eigen_sparse) {
+      out.line("#include <algorithm>");
+      out.line("#include <vector>");
+      out.line();
+      out.line("#include <Eigen/SparseLU>");
+    } else {
+      out.line();
+      out.line("#include <Eigen/LU>");
+    }
   } else if (member_parts(context.program, context.scalar).eigen) {
     out.line();
     out.line("#include <Eigen/LU>");
@@ -84,12 +90,13 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
 // The same for a system whose sums stay loops.
 void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
   const ArrayPlan& plan = *context.program.plan.arrays;
-  write_types(out, context, uses_newton(plan));
+  write_types(out, context, iterates(plan));
   out.lines(cpp_compensated_sum() + "\n");
-  if (uses_newton(plan)) {
-    const bool reduced = plan.method == ArrayMethod::reduced_newton;
-    out.lines(cpp_newton_rule(context.scalar) + "\n");
-    out.lines(cpp_history(reduced ? context.n() : 2 * context.n()) + "\n");
+  if (iterates(plan)) {
+    out.lines((plan.method == ArrayMethod::newton ? cpp_newton_rule(context.scalar)
+                                                  : cpp_fixed_point_rule(context.scalar)) +
+              "\n");
+    out.lines(cpp_history(plan.reduced ? context.n() : 2 * context.n()) + "\n");
   }
   write_array_functions(out, context);
   write_array_propagator(out, context, role);
@@ -160,7 +167,7 @@ std::string cpp_plugin(const Program& program, const CppOptions& options) {
 }
 
 bool needs_eigen(const Program& program) {
-  if (program.plan.arrays) return uses_sparse_matrix(*program.plan.arrays);
+  if (program.plan.arrays) return uses_eigen(*program.plan.arrays);
   return std::ranges::any_of(program.stages, [](const Stage& stage) {
     return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
   });

@@ -179,8 +179,10 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.close();
   out.line();
   open_vector_function("gradient_of");
+  if (context.arrays()) out.line("const State z = " + state + ";");
   fill_values("result", static_cast<std::size_t>(2 * context.n()), 0,
-              "gradient(" + arguments + state + (context.arrays() ? ".q" : "") + ", result);");
+              "gradient(" + arguments +
+                  (context.arrays() ? "z.q, z.p, result, result + n" : state + ", result") + ");");
   out.close();
   out.line();
   if (context.options.tangent) write_tangent_interface(out, context);

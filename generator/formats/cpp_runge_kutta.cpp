@@ -16,16 +16,14 @@ namespace {
 // f = (H_p, -H_q) from grad H = (H_q, H_p).
 void write_vector_field(CodeWriter& out, CppContext& context) {
   out.line("// J grad H at a state (q, p).");
-  const std::string head = "inline void vector_field([[maybe_unused]] const Parameters& par, ";
+  const std::string head = std::string("inline void vector_field(") +
+                           (context.arrays() ? "" : "[[maybe_unused]] ") +
+                           "const Parameters& par, ";
   if (context.arrays()) {
     out.lines(head + R"(const Real (&x)[dimension],
                          Real (&f)[dimension]) {
-  Real slope[dimension];
-  gradient(par, x, slope);
-  for (int i = 0; i < n; ++i) {
-    f[i] = slope[n + i];
-    f[n + i] = -slope[i];
-  }
+  gradient(par, x, x + n, f + n, f);
+  for (int i = 0; i < n; ++i) f[n + i] = -f[n + i];
 }
 
 )");

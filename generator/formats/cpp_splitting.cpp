@@ -117,11 +117,8 @@ class SplittingWriter {
       out_.line(fmt::format("{}(par, k, now, {});", kind.gradient, kind.values));
       return;
     }
-    // The functions of a system in loops add to one long gradient.
-    out_.line("for (Real& value : gradient) value = 0;");
-    out_.line(fmt::format("{}(par, now.q, gradient);", kind.gradient));
-    out_.line(fmt::format("for (int j = 0; j < n; ++j) {}[j] = gradient[{}j];", kind.values,
-                          kind.kick ? "" : "n + "));
+    out_.line(
+        fmt::format("{}(par, now.{}, {});", kind.gradient, kind.kick ? "q" : "p", kind.values));
   }
 
   // The change of the state by substep `index`, and the state there unless nobody looks.
@@ -160,7 +157,6 @@ class SplittingWriter {
     out_.line("StepReport report;");
     out_.line("State now = z;");
     out_.line("dz = State();");
-    if (context_.arrays()) out_.line("Real gradient[2 * n];");
     for (const Kind& kind : {first_, second_}) {
       if (kind.values == "start.value") continue;
       out_.line(fmt::format("Real {}[{}];", kind.values, context_.n()));

@@ -243,7 +243,9 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
 std::string newton_text(bool arrays, const ScalarType& scalar) {
   const std::string fill =
       arrays
-          ? R"(    hessian(par_, x, [&values](int row, int column, Real value) { values[row][column] += value; });
+          ? R"(    hessian(par_, x, x + n, [&values](int row, int column, Real value) {
+      values[row][column] += value;
+    });
 )"
           : "    hessian(par_, x, values);\n";
   return R"(  // I - coupling h b J H'' with the Hessian at the mean of the stages.

@@ -1,6 +1,7 @@
 // A program as text: what `hamgen show --stage program` prints.
 #include <fmt/format.h>
 
+#include "generator/program/loops_text.hpp"
 #include "generator/program/program.hpp"
 
 namespace hamgen {
@@ -16,6 +17,7 @@ void print(std::string& text, const std::vector<Statement>& statements, const ch
 }  // namespace
 
 std::string to_text(const Program& program) {
+  if (program.plan.arrays) return loops_text(program);
   std::string text = to_text(program.sequence) + "once per run:\n";
   print(text, program.coefficients, "  ");
   for (const Stage& stage : program.stages) {

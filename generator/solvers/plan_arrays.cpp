@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
+#include "generator/solvers/array_matrix.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -27,77 +27,135 @@ bool has_diagonal_hessian(const Kernel& kernel) {
       kernel.hessian, [](const auto& entry) { return entry.first.first == entry.first.second; });
 }
 
-constexpr long kWidestBand = 8;
+bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
+  return std::ranges::all_of(mechanics.kernels, [](const Kernel& kernel) {
+    return !uses_momenta(kernel) || (has_constant_hessian(kernel) && has_diagonal_hessian(kernel));
+  });
+}
 
-// The largest distance from the diagonal of an entry of V''; empty if it is not small and fixed.
-std::optional<int> bandwidth(const std::vector<Kernel>& kernels) {
-  long widest = 0;
-  for (const Kernel& kernel : kernels) {
-    if (uses_momenta(kernel)) continue;
-    for (const auto& [place, value] : kernel.hessian) {
-      const AffineIndex& a = kernel.slots[place.first].position;
-      const AffineIndex& b = kernel.slots[place.second].position;
-      if (a.factors != b.factors) return std::nullopt;
-      widest = std::max(widest, std::abs(a.constant - b.constant));
+// d2H/dp_i^2 if it is the same for all i.
+std::optional<Expression> uniform_mass(const Mechanics& mechanics) {
+  const int n = mechanics.degrees_of_freedom;
+  std::vector<Expression> masses(static_cast<std::size_t>(n));
+  for (const Kernel& kernel : mechanics.kernels) {
+    if (!uses_momenta(kernel)) continue;
+    for (const auto& [slots, value] : kernel.hessian) {
+      const std::set<std::string> used = symbols(value);
+      const bool varies =
+          std::ranges::any_of(kernel.ranges,
+                              [&](const KernelRange& r) { return used.contains(r.index); }) ||
+          std::ranges::any_of(kernel.parameters,
+                              [&](const ParameterSlot& p) { return used.contains(p.symbol); });
+      if (varies) return std::nullopt;
+      for_each_instance(kernel.ranges, [&](const std::vector<long>& indices) {
+        const long place = value_at(kernel.slots[slots.first].position, kernel.ranges, indices) - n;
+        masses[static_cast<std::size_t>(place)] += value;
+      });
     }
   }
-  if (widest > kWidestBand) return std::nullopt;
-  return static_cast<int>(widest);
+  const bool same =
+      std::ranges::all_of(masses, [&](const Expression& m) { return m == masses[0]; });
+  return same ? std::optional(masses[0]) : std::nullopt;
+}
+
+std::string matrix_text(const ArrayMatrix& matrix) {
+  switch (matrix.kind) {
+    case MatrixKind::band:
+      return "banded";
+    case MatrixKind::dense:
+    case MatrixKind::eigen_dense:
+      return "dense";
+    case MatrixKind::eigen_sparse:
+      return "sparse";
+  }
+  return "";
+}
+
+// Why there is no Eigen.
+std::string without_eigen(const ArrayMatrix& matrix) {
+  if (matrix.kind == MatrixKind::dense) {
+    return fmt::format("Eigen: a full matrix of size {} is eliminated here", matrix.size);
+  }
+  return fmt::format("Eigen: the matrix has bandwidth {}{}", matrix.bandwidth,
+                     matrix.folded ? ", the ring folded flat" : "");
+}
+
+std::string solver_text(const SolvePlan& plan, int n) {
+  const ArrayPlan& arrays = *plan.arrays;
+  const std::string torn = arrays.reduced ? "; momenta torn out" : "";
+  const int size = arrays.reduced ? n : 2 * n;
+  switch (arrays.method) {
+    case ArrayMethod::explicit_a:
+    case ArrayMethod::explicit_b:
+      return "explicit, in loops";
+    case ArrayMethod::fixed_point:
+      return fmt::format("fixed point of size {}{}, in loops", size, torn);
+    case ArrayMethod::sweeps:
+      return fmt::format(
+          "{} fixed-point sweep{} (Algorithm 1 of the paper), in loops: not symplectic",
+          *plan.sweeps, *plan.sweeps == 1 ? "" : "s");
+    case ArrayMethod::newton:
+      return fmt::format("{} {} of size {}{}, in loops{}", matrix_text(*arrays.matrix),
+                         arrays.constant_matrix ? "linear solve" : "Newton", size, torn,
+                         arrays.constant_matrix ? ", factorised once" : "");
+    case ArrayMethod::gradient_only:
+      break;
+  }
+  return "";
 }
 
 }  // namespace
 
-bool uses_newton(const ArrayPlan& plan) {
-  return plan.method == ArrayMethod::full_newton || plan.method == ArrayMethod::reduced_newton;
+bool iterates(const ArrayPlan& plan) {
+  return plan.method == ArrayMethod::newton || plan.method == ArrayMethod::fixed_point;
 }
 
-bool uses_sparse_matrix(const ArrayPlan& plan) {
-  return plan.method == ArrayMethod::full_newton ||
-         (plan.method == ArrayMethod::reduced_newton && !plan.bandwidth);
+bool uses_eigen(const ArrayPlan& plan) {
+  return plan.matrix && (plan.matrix->kind == MatrixKind::eigen_dense ||
+                         plan.matrix->kind == MatrixKind::eigen_sparse);
 }
 
-SolvePlan plan_arrays(const StepEquations& equations) {
-  SolvePlan plan{.equations = equations};
+SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
+                      std::optional<int> sweeps) {
+  SolvePlan plan{.equations = equations, .sweeps = sweeps};
+  const Mechanics& mechanics = equations.mechanics;
   const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
-  const std::vector<Kernel>& kernels = equations.mechanics.kernels;
-  const bool separable = equations.mechanics.is_separable();
+  const bool separable = mechanics.is_separable();
   const bool plain = member.beta.is_zero() && member.gamma.is_zero();
-  const int n = equations.mechanics.degrees_of_freedom;
+  const int n = mechanics.degrees_of_freedom;
   ArrayPlan arrays;
-  auto kinetic_is_diagonal = [&] {
-    return std::ranges::all_of(kernels, [](const Kernel& k) {
-      return !uses_momenta(k) || (has_constant_hessian(k) && has_diagonal_hessian(k));
-    });
-  };
-  if (separable && plain && member.alpha.is_zero()) {
+  if (sweeps) {
+    arrays.method = ArrayMethod::sweeps;
+  } else if (separable && plain && member.alpha.is_zero()) {
     arrays.method = ArrayMethod::explicit_a;
-    plan.solver = "explicit, in loops";
   } else if (separable && plain && member.alpha.is_one()) {
     arrays.method = ArrayMethod::explicit_b;
-    plan.solver = "explicit, in loops";
   } else {
-    const bool reduced = separable && kinetic_is_diagonal();
-    arrays.method = reduced ? ArrayMethod::reduced_newton : ArrayMethod::full_newton;
-    arrays.constant_matrix = std::ranges::all_of(kernels, has_constant_hessian);
-    if (reduced) arrays.bandwidth = bandwidth(kernels);
-    const std::string kind = arrays.bandwidth ? "banded" : "sparse";
-    plan.solver = fmt::format("{} {} of size {}{}, in loops{}", kind,
-                              arrays.constant_matrix ? "linear solve" : "Newton",
-                              reduced ? n : 2 * n, reduced ? "; momenta torn out" : "",
-                              arrays.constant_matrix ? ", factorised once" : "");
+    arrays.reduced = separable && has_diagonal_kinetic_energy(mechanics);
+    if (arrays.reduced) arrays.mass = uniform_mass(mechanics);
+    if (solver == "fixed-point") {
+      arrays.method = ArrayMethod::fixed_point;
+    } else {
+      arrays.constant_matrix = std::ranges::all_of(mechanics.kernels, has_constant_hessian);
+      arrays.matrix = choose_matrix(mechanics, member, arrays.reduced);
+    }
   }
   plan.arrays = arrays;
+  plan.solver = solver_text(plan, n);
   if (member.beta.is_zero()) plan.left_out.emplace_back("beta terms: beta = 0");
   if (member.gamma.is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
   plan.left_out.push_back(
       fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
-  if (arrays.bandwidth) {
-    plan.left_out.push_back(fmt::format("Eigen: the matrix has bandwidth {}", *arrays.bandwidth));
+  if (arrays.matrix && !uses_eigen(arrays)) {
+    plan.left_out.push_back(without_eigen(*arrays.matrix));
   }
-  if (arrays.method == ArrayMethod::reduced_newton) {
+  if (arrays.reduced) {
     plan.left_out.push_back(fmt::format("{} of the unknowns: torn out", n));
+    if (arrays.mass) {
+      plan.left_out.push_back("masses as an array: all are " + to_text(*arrays.mass));
+    }
   }
-  if (!uses_newton(arrays)) {
+  if (!iterates(arrays) && !sweeps) {
     plan.left_out.emplace_back("equation solver: the step is explicit");
   }
   return plan;

@@ -291,15 +291,15 @@ LinearSolver linear_solver(const Block& block) {
 namespace {
 
 SolvePlan plan_member(const StepEquations& equations, const std::string& solver) {
-  if (equations.mechanics.keeps_sums()) return plan_arrays(equations);
   SolvePlan plan{.equations = equations};
-  const std::vector<int> needed = needed_stages(equations);
   if (solver.starts_with("sweeps:")) {
     plan.sweeps = parse_sweeps(solver);
   } else if (!solver.empty() && solver != "newton" && solver != "fixed-point") {
     throw UsageError(
         fmt::format("unknown solver '{}'; there are newton, fixed-point, sweeps:K", solver));
   }
+  if (equations.mechanics.keeps_sums()) return plan_arrays(equations, solver, plan.sweeps);
+  const std::vector<int> needed = needed_stages(equations);
   const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
   // Sweeps take all stage values together: no blocks.
   const auto components = plan.sweeps ? std::vector<std::vector<int>>{}

@@ -32,21 +32,42 @@ struct Block {
 // How the linear systems are solved.
 enum class LinearSolver { written_out, elimination, eigen_dense };
 
+// The matrix of a system in loops.
+enum class MatrixKind {
+  band,         // elimination within the band
+  dense,        // elimination of all of it
+  eigen_dense,  // the same by Eigen where it is large
+  eigen_sparse
+};
+struct ArrayMatrix {
+  MatrixKind kind = MatrixKind::eigen_sparse;
+  int size = 0;
+  // A band has entries only this near to its diagonal, with the unknowns in this order: of `arrays`
+  // arrays of equal length first the first elements, then the second ones; of a ring folded flat
+  // the first, the last, the second, the last but one, ...
+  int bandwidth = 0;
+  int arrays = 1;
+  bool folded = false;
+  [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
+};
+
 // The step of a system whose sums stay loops; alpha, beta, gamma are the same for all degrees of
 // freedom.
 enum class ArrayMethod {
-  explicit_a,      // alpha = 0: q, then P, then Q
-  explicit_b,      // alpha = 1
-  gradient_only,   // a splitting or a Runge-Kutta method: no system to solve, or one without blocks
-  reduced_newton,  // kinetic energy sum m_i p_i^2/2 + linear: momenta torn out, sparse system of
-                   // size n
-  full_newton      // sparse system of size 2n
+  explicit_a,     // alpha = 0: q, then P, then Q
+  explicit_b,     // alpha = 1
+  gradient_only,  // a splitting or a Runge-Kutta method: no system to solve, or one without blocks
+  newton,
+  fixed_point,
+  sweeps  // SolvePlan::sweeps says how many
 };
 struct ArrayPlan {
-  ArrayMethod method = ArrayMethod::full_newton;
-  bool constant_matrix = false;  // factorised once per run
-  // The matrix has entries only this near to its diagonal; empty if it is not that narrow.
-  std::optional<int> bandwidth = {};
+  ArrayMethod method = ArrayMethod::newton;
+  // Kinetic energy sum m_i p_i^2/2 + d_i p_i: the momenta are torn out, the unknowns are n.
+  bool reduced = false;
+  std::optional<Expression> mass = {};     // reduced: m_i, if they are all the same
+  std::optional<ArrayMatrix> matrix = {};  // of Newton's iteration
+  bool constant_matrix = false;            // factorised once per run
 };
 
 // How the stages of an implicit Runge-Kutta method are found.
@@ -69,12 +90,14 @@ struct SolvePlan {
 
 // solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
 [[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
-[[nodiscard]] bool uses_sparse_matrix(const ArrayPlan& plan);
-[[nodiscard]] bool uses_newton(const ArrayPlan& plan);
+[[nodiscard]] bool uses_eigen(const ArrayPlan& plan);
+// Is there an iteration, with start values from earlier steps?
+[[nodiscard]] bool iterates(const ArrayPlan& plan);
 // Of a splitting or a Runge-Kutta method.
 [[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
                                             const std::string& solver);
-[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations);
+[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
+                                    std::optional<int> sweeps);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 

@@ -48,11 +48,72 @@ TEST(LargePlan, AHarmonicChainIsFactorisedOnce) {
   EXPECT_FALSE(contains(small.plan, "Newton")) << small.plan;
 }
 
-TEST(LargePlan, ParametersPerDegreeOfFreedomAndOtherSolversWriteTheSumOut) {
+// What of beta, gamma, masses and drifts is zero or one is not there, in text or in memory.
+TEST(LargePlan, TheMidpointRuleHasNoTraceOfBetaAndGamma) {
+  const std::string header = outcome(chain(64)).header;
+  const std::string code = header.substr(header.find("#pragma once"));
+  for (const char* name : {"beta", "gamma", "alpha_", "drift", "mass", "maybe_unused"}) {
+    EXPECT_FALSE(contains(code, name)) << name;
+  }
+  const std::string general =
+      outcome(chain(64), {.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}).header;
+  for (const char* name : {"h_beta_", "h_gamma_", "h_alpha_", "drift_", "mass_"}) {
+    EXPECT_TRUE(contains(general, name)) << name;
+  }
+}
+
+TEST(LargePlan, ASumOfSeveralTermsIsOneLoop) {
+  const std::string header = outcome(chain(64)).header;
+  EXPECT_EQ(count(function_text(header, "void potential_gradient("), "for (int i = 1;"), 1);
+  // A kinetic energy in one quotient with the potential is separable all the same.
+  const Outcome together = outcome(
+      "size N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, (p[i]^2 + q[i]^4)/2)\n");
+  EXPECT_TRUE(contains(together.plan, "momenta torn out")) << together.plan;
+}
+
+TEST(LargePlan, TheMatrixFollowsThePattern) {
+  auto solver = [](const std::string& sums, const char* size) {
+    return outcome(std::string("size N = ") + size +
+                   "\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+                   "H = sum(i = 1..N, p[i]^2/2 + q[i]^4/4)" +
+                   sums + "\n")
+        .plan;
+  };
+  const std::string ring = solver(" - sum(i = 1..N, cos(q[i+1] - q[i]))", "100");
+  EXPECT_TRUE(contains(ring, "banded Newton of size 100")) << ring;
+  EXPECT_TRUE(contains(ring, "bandwidth 2, the ring folded flat")) << ring;
+  const std::string pairs = solver(" - sum(i = 1..N-1, j = i+1..N, cos(q[i] - q[j]))", "100");
+  EXPECT_TRUE(contains(pairs, "dense Newton of size 100")) << pairs;
+  const std::string torus = solver(" - sum(i = 1..N, cos(q[i+20] - q[i]))", "400");
+  EXPECT_TRUE(contains(torus, "sparse Newton of size 400")) << torus;
+}
+
+TEST(LargePlan, TheProgramIsItsLoopsAndItsSolve) {
+  const SourceText source = model(chain(40));
+  const std::string text = show_stage(source, {}, "program");
+  for (const char* line :
+       {"for i = 1..39: reads q[i+1], q[i]\n", "once: reads q[1], q[40]\n", "  dH/dp[i] += p[i]\n",
+        "matrix of size 40, bandwidth 1\n", "  bar(q) = q + h*dH/dp/2\n"}) {
+    EXPECT_TRUE(contains(text, line)) << line << text;
+  }
+  const std::string sweeps = show_stage(source, {.solver = "sweeps:4"}, "program");
+  EXPECT_TRUE(contains(sweeps, "then 4 sweeps:\n")) << sweeps;
+}
+
+TEST(LargePlan, OtherSolversKeepTheLoops) {
+  for (const char* solver : {"fixed-point", "sweeps:2"}) {
+    const Outcome forty = outcome(chain(40), {.solver = solver});
+    const Outcome thousand = outcome(chain(1000), {.solver = solver});
+    EXPECT_TRUE(contains(forty.plan, "stay loops")) << forty.plan;
+    EXPECT_LT(thousand.header.size(), forty.header.size() + 400);
+  }
+}
+
+TEST(LargePlan, ParametersPerDegreeOfFreedomWriteTheSumOut) {
   std::string list = "1/2";
   for (int i = 1; i < 30; ++i) list += ",1/2";
   EXPECT_FALSE(contains(outcome(chain(30), {.alpha = list}).plan, "stay loops"));
-  EXPECT_FALSE(contains(outcome(chain(30), {.solver = "fixed-point"}).plan, "stay loops"));
 }
 
 }  // namespace

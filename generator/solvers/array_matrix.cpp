@@ -1,0 +1,112 @@
+#include "generator/solvers/array_matrix.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace hamgen {
+
+namespace {
+
+// Elimination within a band of width w costs 2 w^2 operations a row, Eigen's sparse one some
+// microseconds, and twenty seconds of compilation.
+constexpr int kWidestBand = 24;
+// A dense matrix of this size is half a megabyte of the object that takes the steps.
+constexpr int kLargestOwn = 256;
+constexpr int kLargestDense = 1024;
+// Up to here dense elimination takes less than 100 microseconds, whatever the pattern.
+constexpr int kSmall = 64;
+
+// Where unknown i stands.
+int place(const ArrayMatrix& order, int i) {
+  const int length = order.size / order.arrays;
+  const int element = i % length;
+  const bool second_half = 2 * element >= length;
+  const int row =
+      !order.folded ? element : (second_half ? 2 * (length - 1 - element) + 1 : 2 * element);
+  return row * order.arrays + i / length;
+}
+
+// How many arrays of the same length the variables are; 1 if they differ in length.
+int equal_arrays(const Mechanics& mechanics, int size) {
+  std::vector<int> lengths;
+  std::string last;
+  for (int i = 0; i < size; ++i) {
+    const std::string& name = mechanics.variables[static_cast<std::size_t>(i)].name;
+    const std::string base = name.substr(0, name.find('['));
+    if (i == 0 || base != last) lengths.push_back(0);
+    ++lengths.back();
+    last = base;
+  }
+  const bool equal = std::ranges::all_of(lengths, [&](int l) { return l == lengths.front(); });
+  return equal ? static_cast<int>(lengths.size()) : 1;
+}
+
+// Calls use(row, column) for every place of the matrix that a loop fills, repeated ones too.
+template <class Use>
+void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, bool reduced,
+                    const Use& use) {
+  const int n = mechanics.degrees_of_freedom;
+  const bool q_by_q = !member.gamma.is_zero();
+  const bool q_by_p = !member.alpha.is_zero();
+  const bool p_by_q = !member.alpha.is_one();
+  const bool p_by_p = !member.beta.is_zero();
+  // Row `row` of the Hessian enters the equations of qbar and pbar.
+  auto use_row = [&](int row, int column) {
+    if (reduced) return use(row, column);
+    const bool by_q = row < n;
+    const int i = by_q ? row : row - n;
+    if (by_q ? q_by_q : q_by_p) use(i, column);
+    if (by_q ? p_by_q : p_by_p) use(n + i, column);
+  };
+  for (const Kernel& kernel : mechanics.kernels) {
+    if (kernel.hessian.empty() || (reduced && uses_momenta(kernel))) continue;
+    for_each_instance(kernel.ranges, [&](const std::vector<long>& indices) {
+      std::vector<int> at;
+      for (const Slot& slot : kernel.slots) {
+        at.push_back(static_cast<int>(value_at(slot.position, kernel.ranges, indices)));
+      }
+      for (const auto& [slots, value] : kernel.hessian) {
+        use_row(at[slots.first], at[slots.second]);
+        if (slots.first != slots.second) use_row(at[slots.second], at[slots.first]);
+      }
+    });
+  }
+}
+
+}  // namespace
+
+ArrayMatrix choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
+                          bool reduced) {
+  const int size = (reduced ? 1 : 2) * mechanics.degrees_of_freedom;
+  std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size}};
+  for (const int arrays : {1, equal_arrays(mechanics, size)}) {
+    for (const bool folded : {false, true}) {
+      if (arrays == 1 && !folded) continue;
+      orders.push_back(orders.front());
+      orders.back().arrays = arrays;
+      orders.back().folded = folded;
+    }
+  }
+  const auto rows = static_cast<std::size_t>(size);
+  const bool maybe_dense = size <= kLargestDense;
+  std::vector<bool> filled(maybe_dense ? rows * rows : 0);
+  for_each_entry(mechanics, member, reduced, [&](int row, int column) {
+    for (ArrayMatrix& order : orders) {
+      order.bandwidth =
+          std::max(order.bandwidth, std::abs(place(order, row) - place(order, column)));
+    }
+    if (maybe_dense)
+      filled[static_cast<std::size_t>(row) * rows + static_cast<std::size_t>(column)] = true;
+  });
+  const ArrayMatrix best = *std::ranges::min_element(orders, {}, &ArrayMatrix::bandwidth);
+  if (best.bandwidth <= kWidestBand && 4 * best.bandwidth < size) return best;
+  const auto count = std::ranges::count(filled, true);
+  ArrayMatrix matrix{.kind = MatrixKind::eigen_sparse, .size = size};
+  const bool full = maybe_dense && 4 * count > static_cast<long>(rows * rows);
+  if (full || size <= kSmall) {
+    matrix.kind = size <= kLargestOwn ? MatrixKind::dense : MatrixKind::eigen_dense;
+  }
+  return matrix;
+}
+
+}  // namespace hamgen
