@@ -222,14 +222,13 @@ struct History {
   static constexpr int unknowns = 2;
   static constexpr int degrees = 16;
   Real predicted[degrees][unknowns] = {};
-  Real sum[unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
   void record(const Real (&solution)[unknowns]) {
     if (++age == 16) choose(solution);
-    for (int i = 0; i < unknowns; ++i) sum[i] = 0;
+    Real sum[unknowns] = {};
     for (int degree = 0; degree < known; ++degree) {
       for (int i = 0; i < unknowns; ++i) {
         const Real kept = predicted[degree][i];

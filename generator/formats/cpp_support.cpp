@@ -131,7 +131,8 @@ struct FixedPointRule {{
 
 std::string cpp_history(int unknowns) {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
-  constexpr int many = 32;
+  const bool many = unknowns > 32;
+  const std::string sum = "Real sum[unknowns] = {};\n";
   return fmt::format(
       R"(// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
@@ -142,15 +143,13 @@ struct History {{
   static constexpr int unknowns = {unknowns};
   static constexpr int degrees = {degrees};
   Real predicted[degrees][unknowns] = {{}};
-  Real sum[unknowns] = {{}};
-  int known = 0;  // degrees that are kept up to date
+{member}  int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
   void record(const Real (&solution)[unknowns]) {{
     if (++age == 16) choose(solution);
-    for (int i = 0; i < unknowns; ++i) sum[i] = 0;
-    for (int degree = 0; degree < known; ++degree) {{
+{local}    for (int degree = 0; degree < known; ++degree) {{
       for (int i = 0; i < unknowns; ++i) {{
         const Real kept = predicted[degree][i];
         predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
@@ -183,7 +182,9 @@ struct History {{
   }}
 }};
 )",
-      fmt::arg("unknowns", unknowns), fmt::arg("degrees", unknowns <= many ? 16 : 8));
+      fmt::arg("unknowns", unknowns), fmt::arg("degrees", many ? 8 : 16),
+      fmt::arg("member", many ? "  " + sum : ""),
+      fmt::arg("local", many ? "    for (Real& s : sum) s = 0;\n" : "    " + sum));
 }
 
 std::string cpp_elimination(const ScalarType&) {
