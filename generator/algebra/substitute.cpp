@@ -23,6 +23,24 @@ bool depends_on(const Expression& e, const std::string& symbol) {
   return symbols(e).contains(symbol);
 }
 
+std::set<std::string> non_polynomial_symbols(const Expression& e) {
+  std::set<std::string> names;
+  std::set<const void*> seen;
+  auto visit = [&](auto&& self, const Expression& node) -> void {
+    if (!seen.insert(node.identity()).second) return;
+    const bool natural_power = node.kind() == Kind::power && node.operands()[1].is_number() &&
+                               node.operands()[1].number() > 0 &&
+                               node.operands()[1].number().get_den() == 1;
+    if (node.kind() == Kind::function || (node.kind() == Kind::power && !natural_power)) {
+      collect_symbols(node, names);
+      return;
+    }
+    for (const Expression& operand : node.operands()) self(self, operand);
+  };
+  visit(visit, e);
+  return names;
+}
+
 Expression substitute(const Expression& e, const Substitution& replacements) {
   return substitute(std::span(&e, 1), replacements)[0];
 }

@@ -108,8 +108,16 @@ bool StepEquations::hessian_couples(int i, int j) const {
   return false;
 }
 
+bool StepEquations::is_polynomial(int k, int j) const {
+  return !non_polynomial[static_cast<std::size_t>(k)].contains(name_of(*this, j));
+}
+
 bool StepEquations::depends(int i, int j) const {
-  if (has_exact_hessian()) return hessian_couples(i, j);
+  if (has_exact_hessian()) {
+    return hessian_couples(i, j) || std::ranges::any_of(row_gradients(i), [&](int k) {
+             return !is_polynomial(k, j);
+           });
+  }
   return std::ranges::any_of(row_gradients(i), [&](int k) {
     return depends_on(mechanics.gradient[static_cast<std::size_t>(k)], name_of(*this, j));
   });
@@ -140,6 +148,9 @@ StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
     equations.mechanics.hessian = equations.function->hessian;
   }
   std::erase_if(equations.stage_matrix, [](const auto& entry) { return entry.second.is_zero(); });
+  for (const Expression& component : equations.mechanics.gradient) {
+    equations.non_polynomial.push_back(non_polynomial_symbols(component));
+  }
   return equations;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct StepEquations {
   SparseMatrix stage_matrix;                        // B
   std::optional<GeneratingFunction> function = {};  // K and how it is written
   std::vector<Expression> energy_gradient = {};     // grad H where K stands in for H
+  // By component of the gradient: symbols of which it is no polynomial.
+  std::vector<std::set<std::string>> non_polynomial = {};
 
   // Is the Hessian that of K itself, or of one cut off earlier?
   [[nodiscard]] bool has_exact_hessian() const;
@@ -39,6 +42,8 @@ struct StepEquations {
   [[nodiscard]] std::vector<int> row_gradients(int i) const;
   // Does row i depend on zbar_j?
   [[nodiscard]] bool depends(int i, int j) const;
+  // Is dH/dz_k a polynomial in zbar_j, so that d2H/dz_k dz_j tells how it depends on it?
+  [[nodiscard]] bool is_polynomial(int k, int j) const;
   // The same as far as the Hessian knows.
   [[nodiscard]] bool hessian_couples(int i, int j) const;
   // Z_i - z_i in gradient symbols.

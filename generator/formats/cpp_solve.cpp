@@ -97,6 +97,7 @@ class SolveWriter {
                   std::size_t s, int& unknown) {
     // What the loop computes and later code uses is declared before the loop.
     std::set<std::string> needed;
+    for (const LoopVariable& v : solve.variables) collect_symbols(v.correction, needed);
     for (std::size_t later = s; later < context_.program.stages.size(); ++later) {
       const Stage& stage = context_.program.stages[later];
       for (const Statement& st : stage.after) collect_symbols(st.value, needed);

@@ -10,9 +10,17 @@ namespace hamgen {
 
 namespace {
 
-// d2T/dp2 free of the momenta.  A kernel of momenta alone has no other part of the state.
+// dT/dp polynomial and d2T/dp2 free of the momenta.  A kernel of momenta alone has no other part of
+// the state.
 bool is_quadratic_in_momenta(const Mechanics& mechanics) {
   const int n = mechanics.degrees_of_freedom;
+  for (int i = n; !mechanics.keeps_sums() && i < 2 * n; ++i) {
+    const std::set<std::string> beyond =
+        non_polynomial_symbols(mechanics.gradient[static_cast<std::size_t>(i)]);
+    for (int j = n; j < 2 * n; ++j) {
+      if (beyond.contains(mechanics.variable(j).name())) return false;
+    }
+  }
   for (const auto& [place, value] : mechanics.hessian) {
     if (place.first < n) continue;
     for (int i = n; i < 2 * n; ++i) {
@@ -21,6 +29,10 @@ bool is_quadratic_in_momenta(const Mechanics& mechanics) {
   }
   for (const Kernel& kernel : mechanics.kernels) {
     if (!uses_momenta(kernel)) continue;
+    const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
+    for (const Slot& slot : kernel.slots) {
+      if (beyond.contains(slot.symbol)) return false;
+    }
     for (const auto& [place, value] : kernel.hessian) {
       for (const Slot& slot : kernel.slots) {
         if (depends_on(value, slot.symbol)) return false;

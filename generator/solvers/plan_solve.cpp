@@ -62,11 +62,12 @@ std::vector<int> needed_stages(const StepEquations& equations) {
   return result;
 }
 
-// Is d2H/dz_i dz_j free of the stage values in the set?
-bool is_free_of(const StepEquations& equations, int i, int j, const std::vector<int>& variables) {
-  const std::set<std::string> present = symbols(equations.mechanics.second_derivative(i, j));
-  return std::ranges::none_of(variables,
-                              [&](int v) { return present.contains(name_of(equations, v)); });
+// Is dH/dz_k a polynomial in the stage values in the set, and d2H/dz_k dz_j free of them?
+bool is_free_of(const StepEquations& equations, int k, int j, const std::vector<int>& variables) {
+  const std::set<std::string> present = symbols(equations.mechanics.second_derivative(k, j));
+  return std::ranges::none_of(variables, [&](int v) {
+    return present.contains(name_of(equations, v)) || !equations.is_polynomial(k, v);
+  });
 }
 
 // Is row i affine in zbar_j, alone?
@@ -104,6 +105,7 @@ bool has_constant_matrix(const StepEquations& equations, const std::vector<int>&
 // second derivative of the gradient is free of the unknown.
 bool is_quadratic(const StepEquations& equations, int i) {
   for (const int k : equations.row_gradients(i)) {
+    if (!equations.is_polynomial(k, i)) return false;
     const Expression slope = equations.mechanics.second_derivative(k, i);
     const std::string& name = name_of(equations, i);
     // slope = a + b x: evaluated at three points, the second difference vanishes identically.

@@ -53,6 +53,9 @@ class ExpectedStep {
                                       const std::vector<std::vector<Expression>>& a);
   // H_k as the last iteration evaluated it, and what its increment adds.
   void correct_gradient(int k, const Expression& change);
+  // What one step of Newton's iteration solves: these components of the gradient are their values
+  // at zero and their slopes times these variables.
+  void claim_affine(const std::vector<int>& components, const std::vector<int>& variables);
   // Is H_k linear with constant coefficients in some of these variables and free of all others?
   [[nodiscard]] bool is_linear_in(int k, const std::set<int>& variables) const;
 

@@ -115,6 +115,7 @@ void ExpectedStep::newton(const Block& block) {
     if (direct) anew.insert(t);
   }
   const auto is_anew = [&](int k) { return is_linear_in(k, anew); };
+  if (linear) claim_affine(evaluated, members);
   for (const int k : evaluated) {
     if (is_anew(k)) continue;
     Expression sum(0);
@@ -213,6 +214,17 @@ void ExpectedStep::correct_gradient(int k, const Expression& sum) {
   const Expression change = define("change(H(" + name(k) + "))", sum);
   change_[k] = {*gradient_[at(k)], change};
   gradient_[at(k)] = define("H(" + name(k) + ")*", *gradient_[at(k)] + change);
+}
+
+void ExpectedStep::claim_affine(const std::vector<int>& components,
+                                const std::vector<int>& variables) {
+  Substitution zero;
+  for (const int v : variables) zero.emplace(mechanics_.variable(v).name(), Expression(0));
+  for (const int k : components) {
+    Expression affine = substitute(derivatives_.first(k), zero);
+    for (const int v : variables) affine += derivatives_.second(k, v) * mechanics_.variable(v);
+    claim("dH/d" + name(k) + " is affine where it is taken so", derivatives_.first(k), affine);
+  }
 }
 
 bool ExpectedStep::is_linear_in(int k, const std::set<int>& variables) const {

@@ -26,6 +26,10 @@ GiNaC::ex bracket(const GiNaC::ex& invariant, const GiNaC::ex& energy, const Mec
 std::optional<GiNaC::matrix> quadratic_form(const GiNaC::ex& invariant, const Mechanics& mechanics,
                                             SymbolTable& table) {
   const auto size = static_cast<unsigned>(mechanics.variables.size());
+  const std::set<std::string> beyond = non_polynomial_symbols(from_ginac(invariant, table));
+  for (const Quantity& variable : mechanics.variables) {
+    if (beyond.contains(variable.name)) return std::nullopt;
+  }
   GiNaC::matrix form(size, size);
   for (unsigned i = 0; i < size; ++i) {
     for (unsigned j = 0; j < size; ++j) {

@@ -35,6 +35,11 @@ J toda(const Variables& z) {
          exp(z[2] - z[0]);
 }
 J affine(const Variables& z) { return z[2] * sin(z[1]) + z[3] * cos(z[0]) + sin(z[0] * z[1]); }
+// Second derivatives alone would make it quadratic, with |q1 - 4| on the side of q1 = 0.
+J corner(const Variables& z) {
+  return 0.5L * (square(z[2]) + square(z[3]) + square(-8.0L + z[0])) + sqrt(square(-4.0L + z[0])) +
+         square(z[1]) + 0.125L * (z[0] * z[1]);
+}
 // Six degrees of freedom, all coupled, not separable: a system that is not written out.
 J six(const Variables& z) {
   J sum = 0.0L * z[0];
@@ -76,6 +81,10 @@ std::vector<Problem> problems() {
        "H = sum(i = 1..3, p[i]^2/2 + exp(q[i]-q[i+1]))\n",
        toda,
        {0.3L, -0.2L, 0.0L, 0.1L, 0.4L, -0.5L}},
+      {"corner",
+       two + "H = (p1^2+p2^2+(q1-8)^2)/2 + abs(q1-4) + q2^2 + q1*q2/8\n",
+       corner,
+       {8.0L, 0.3L, 0.2L, -0.4L}},
       {"affine",
        two + "H = p1*sin(q2) + p2*cos(q1) + sin(q1*q2)\n",
        affine,
@@ -159,8 +168,8 @@ class ReferenceStep : public ::testing::TestWithParam<std::string> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Models, ReferenceStep,
-                         ::testing::Values("double_pendulum", "magnetic", "product", "henon_heiles",
-                                           "toda", "affine", "six"),
+                         ::testing::Values("double_pendulum", "magnetic", "product", "corner",
+                                           "henon_heiles", "toda", "affine", "six"),
                          [](const auto& instance) { return instance.param; });
 
 TEST_P(ReferenceStep, IsWhatEveryMemberGives) {
