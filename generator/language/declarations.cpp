@@ -31,7 +31,7 @@ class Declarations {
     // Values may use names declared further down.
     check_boundaries();
     check_parameters();
-    if (syntax_.spoiled.empty() && pairs_are_known_) check_pairs();
+    if (syntax_.variables_are_read && pairs_are_known_) check_pairs();
   }
 
  private:

@@ -82,6 +82,8 @@ struct Scene {
   NodePtr every;                     // null if not given: record every k-th step
   std::vector<std::string> observe;  // "energy", names of invariants; empty means all of them
   Span span;
+  // Why it cannot be run, of a scene written for other sizes than the ones asked for.
+  std::vector<Diagnostic> mistakes = {};
 };
 
 struct Model {

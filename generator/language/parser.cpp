@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "generator/base/utf8.hpp"
@@ -39,9 +41,14 @@ class Parser {
  private:
   // What a line would have declared, had it been right.
   void spoil(std::size_t begin, std::size_t end) {
+    static const std::set<std::string_view> others = {"system", "parameter", "let",
+                                                      "H",      "invariant", "scene"};
+    bool first = true;
     for (const Token& token : lexed_.tokens) {
       const bool inside = token.span.begin >= begin && token.span.begin < end;
       if (inside && token.kind == TokenKind::name) syntax_.spoiled.emplace_back(token.text);
+      if (inside && first && !others.contains(token.text)) syntax_.variables_are_read = false;
+      first = first && !inside;
     }
   }
 

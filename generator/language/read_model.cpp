@@ -41,9 +41,9 @@ class ModelReader {
                                    .comment = each.comment,
                                    .span = each.name.span});
     }
-    read_scenes();
+    read_scenes(!sizes.empty());
     throw_if_wrong();
-    evaluate_scenes();
+    if (sizes.empty()) evaluate_scenes();
     throw_if_wrong();
     warn_of_unused();
     return std::move(model_);
@@ -122,7 +122,8 @@ class ModelReader {
     }
   }
 
-  void read_scenes() {
+  // With sizes that are not the file's only the scene that is run must fit them.
+  void read_scenes(bool other_sizes) {
     std::map<std::string, Span> names;
     for (const SceneStatement& each : syntax_.scenes) {
       const auto [first, is_new] = names.emplace(each.scene.name, each.scene.span);
@@ -131,7 +132,11 @@ class ModelReader {
                         fmt::format("line {} gives it first",
                                     position(model_.source, first->second.begin).line));
       }
+      const auto before = static_cast<std::ptrdiff_t>(diagnostics_.size());
       model_.scenes.push_back(check_scene(each, known_, symbols_));
+      if (!other_sizes) continue;
+      model_.scenes.back().mistakes.assign(diagnostics_.begin() + before, diagnostics_.end());
+      diagnostics_.erase(diagnostics_.begin() + before, diagnostics_.end());
     }
   }
 

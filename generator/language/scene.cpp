@@ -64,6 +64,9 @@ class SceneReader {
 
   SceneValues run() {
     scene_ = find_scene();
+    if (scene_ != nullptr && !scene_->mistakes.empty()) {
+      throw ModelError(scene_->mistakes, model_.source);
+    }
     for (const auto& [name, value] : request_.set) add_override("--set", name, value);
     for (const auto& [name, value] : request_.initial) add_override("--initial", name, value);
     for (const auto& [name, value] : request_.reference) add_override("--reference", name, value);
@@ -125,6 +128,10 @@ class SceneReader {
       throw UsageError(error.what());
     }
     const Symbol* symbol = symbols_.find(setting.name);
+    if (symbol == nullptr && (setting.name == "h" || setting.name == "steps")) {
+      throw UsageError(fmt::format("{0} {1}={2}: {1} is no variable; set it with --{1} {2}", option,
+                                   name, value));
+    }
     const bool is_parameter = symbol != nullptr && symbol->kind == SymbolKind::parameter;
     const bool takes_both = option == "--reference";
     if (symbol != nullptr && !takes_both && is_parameter != (option == "--set")) {

@@ -74,6 +74,7 @@ struct Syntax {
   std::vector<Formula> invariants;
   std::vector<SceneStatement> scenes;
   std::vector<Diagnostic> diagnostics;
+  bool variables_are_read = true;    // no line that could not be read may have declared one
   std::vector<std::string> spoiled;  // names on lines that could not be read: silent if unknown
 };
 

@@ -39,6 +39,22 @@ std::string refusal(const SceneRequest& request) {
 
 using Numbers = std::vector<Rational>;
 
+// Only the scene that runs must fit sizes other than the file's.
+TEST(Scene, may_be_for_other_sizes_as_long_as_another_one_runs) {
+  const SourceText source = make_source("x.ham",
+                                        "size N = 4\n"
+                                        "coordinate q[1..N]\n"
+                                        "momentum p[1..N]\n"
+                                        "H = sum(i = 1..N, p[i]^2 + q[i]^2)\n"
+                                        "scene any { q[i] = i; h = 1 }\n"
+                                        "scene even { q[N/2] = 1; h = 1 }\n");
+  const Model five = read_model(source, {{"N", 5}});
+  EXPECT_EQ(scene_values(five, {}).q, (Numbers{1, 2, 3, 4, 5}));
+  EXPECT_THROW(static_cast<void>(scene_values(five, {.scene = "even"})), ModelError);
+  EXPECT_EQ(scene_values(read_model(source, {{"N", 6}}), {.scene = "even"}).q,
+            (Numbers{0, 0, 1, 0, 0, 0}));
+}
+
 TEST(Scene, the_first_one_is_the_default) {
   const SceneValues values = scene_values(model(), {});
   EXPECT_EQ(values.name, "first");
