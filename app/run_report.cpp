@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/initial_data.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -121,8 +122,8 @@ Json energy_json(const runtime::RunSummary& summary) {
 
 Json parameters_json(const RunReport& report) {
   Json result = Json::object();
-  for (std::size_t i = 0; i < report.plugin->parameter_names.size(); ++i)
-    result[report.plugin->parameter_names[i]] = number(report.start->parameters[i].hi);
+  for (const auto& [name, value] : parameter_values(*report.plugin, *report.scene, *report.start))
+    result[name] = number(value);
   return result;
 }
 
@@ -188,7 +189,8 @@ std::string summary_text(const RunReport& report) {
   text += entry("last p", numbers(report.state, n, 2 * n));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
-  return text + entry("header", report.header);
+  // It may be a command, to be pasted: not wrapped.
+  return text + fmt::format("  {:<12}{}\n", "header", report.header);
 }
 
 std::string json_text(const RunReport& report) {

@@ -10,9 +10,11 @@ namespace hamgen::app {
 namespace {
 
 std::vector<std::string> column_names(const Columns& columns) {
-  std::vector<std::string> names = {"step", "t"};
+  // Of a model with a variable t of its own, that is the one; the run's clock begins at 0.
+  const bool has_t = std::ranges::find(columns.state, "t") != columns.state.end();
+  std::vector<std::string> names = {"step", has_t ? "elapsed" : "t"};
   names.insert(names.end(), columns.state.begin(), columns.state.end());
-  if (columns.energy) names.emplace_back("H");
+  if (columns.energy) names.emplace_back(columns.has_time ? "H+p_t" : "H");
   names.insert(names.end(), columns.invariants.begin(), columns.invariants.end());
   return names;
 }

@@ -15,6 +15,7 @@ namespace hamgen::app {
 struct Columns {
   std::vector<std::string> state;  // names: q then p
   bool energy = true;
+  bool has_time = false;                // H stands for H + p_t
   std::vector<std::string> invariants;  // names
   std::vector<std::size_t> places;      // of these among the record's invariants
 };

@@ -4,7 +4,7 @@
 //   command   hamgen generate hamiltonians/driven_oscillator.ham
 //   model     hamiltonians/driven_oscillator.ham
 //   sha256    f09d9fdf4b67d7717137f8cfacd415e4b660325a3ca497e9fb2b173a2778c976
-//   H(q, p) = p^2/2 + (1 + eps*cos(omega*t))*q^2/2
+//   H(q, p, t) = p^2/2 + (1 + eps*cos(omega*t))*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   proved    symplectic, symmetric, order 2, emitted code
 //   solve     linear solve of size 2 for q, p
@@ -39,7 +39,7 @@ struct StepReport {
   Real increment = 0.0;
 };
 
-// H(q, p).
+// H(q, p, t) + p_t, which is constant where H(q, p, t) is not.
 inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
   const Real q = z.q;
   const Real t = z.t;

@@ -40,7 +40,9 @@ void write_evaluation(CodeWriter& out, CppContext& context, const std::string& s
 
 void write_functions(CodeWriter& out, CppContext& context) {
   const Program& program = context.program;
-  out.line("// H(q, p).");
+  out.line(context.mechanics.has_time
+               ? "// H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
+               : "// H(q, p).");
   write_evaluation(out, context, "inline Real energy(" + std::string(kArguments) + ")",
                    program.energy, [&](CodeWriter& w, const CppExpression& cpp) {
                      w.line("return " + cpp(program.energy.results[0]) + ";");

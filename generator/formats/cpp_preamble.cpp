@@ -60,7 +60,7 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
   if (!options.model_digest.empty()) out.line("//   sha256    " + options.model_digest);
   std::string formula = context.mechanics.hamiltonian_text;
   std::ranges::replace(formula, '\n', ' ');
-  out.comment("//   H(q, p) = ", formula);
+  out.comment(context.mechanics.has_time ? "//   H(q, p, t) = " : "//   H(q, p) = ", formula);
   const bool symplectic = scheme.symplectic && !plan.sweeps;
   const bool raised = scheme.is_member() && scheme.member().generating_order > 0;
   out.line(fmt::format("//   scheme    {}: order {}{}{}{}", scheme.description, scheme.order,

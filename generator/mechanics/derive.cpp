@@ -1,5 +1,7 @@
 #include "generator/mechanics/derive.hpp"
 
+#include <algorithm>
+
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive_kernels.hpp"
 #include "generator/mechanics/to_ginac.hpp"
@@ -68,6 +70,7 @@ Mechanics derive(const Model& model, bool keep_sums) {
   Mechanics mechanics;
   mechanics.name = model.name;
   mechanics.hamiltonian_text = model.hamiltonian_text;
+  mechanics.has_time = std::ranges::any_of(model.coordinates, &Variable::is_time);
   mechanics.degrees_of_freedom = static_cast<int>(degrees_of_freedom(model));
   mechanics.variables = quantities(model.coordinates);
   for (Quantity& momentum : quantities(model.momenta)) {

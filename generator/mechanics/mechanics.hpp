@@ -31,6 +31,7 @@ struct Mechanics {
   std::string name;
   std::string hamiltonian_text;      // as the user wrote it
   int degrees_of_freedom = 0;        // n
+  bool has_time = false;             // the last one is t with its momentum p_t, and H contains p_t
   std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
   std::vector<Quantity> parameters;  // run-time parameters, in declaration order
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
