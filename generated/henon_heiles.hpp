@@ -44,8 +44,7 @@ inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] cons
   const Real p2 = z.p2;
   const Real t1 = q1 * q1;
   const Real t2 = q2 * q2;
-  return 0.5 * t1 + 0.5 * (q2 * q2) + 0.5 * (p1 * p1) + 0.5 * (p2 * p2) + q2 * t1 -
-         (1.0 / 3.0) * q2 * t2;
+  return 0.5 * t1 + 0.5 * t2 + 0.5 * (p1 * p1) + 0.5 * (p2 * p2) + q2 * t1 - (1.0 / 3.0) * q2 * t2;
 }
 
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).

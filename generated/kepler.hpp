@@ -20,9 +20,7 @@ namespace kepler::implicit_midpoint {
 
 using Real = double;
 
-struct Parameters {
-  Real e = 0.6;  // eccentricity of the initial ellipse
-};
+struct Parameters {};
 
 struct State {
   Real q1 = 0.0;
@@ -47,9 +45,8 @@ inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] cons
   const Real q2 = z.q2;
   const Real p1 = z.p1;
   const Real p2 = z.p2;
-  const Real t1 = 1.0 / (q1 * q1 + q2 * q2);
-  const Real t2 = std::sqrt(q1 * q1 + q2 * q2);
-  return 0.5 * (p1 * p1) + 0.5 * (p2 * p2) - t1 * t2;
+  const Real t1 = std::sqrt(q1 * q1 + q2 * q2);
+  return 0.5 * (p1 * p1) + 0.5 * (p2 * p2) - 1.0 / t1;
 }
 
 // The model's invariants: L, A1, A2.
@@ -60,12 +57,11 @@ inline void invariants([[maybe_unused]] const Parameters& par, [[maybe_unused]] 
   const Real p1 = z.p1;
   const Real p2 = z.p2;
   const Real t1 = q1 * p2 - q2 * p1;
-  const Real t2 = 1.0 / (q1 * q1 + q2 * q2);
-  const Real t3 = std::sqrt(q1 * q1 + q2 * q2);
-  const Real t4 = t2 * t3;
+  const Real t2 = std::sqrt(q1 * q1 + q2 * q2);
+  const Real t3 = 1.0 / t2;
   values[0] = t1;
-  values[1] = -(q1 * t4 - p2 * t1);
-  values[2] = -(q2 * t4 + p1 * t1);
+  values[1] = -(q1 * t3 - p2 * t1);
+  values[2] = -(q2 * t3 + p1 * t1);
 }
 
 // What depends on h and the parameters alone.

@@ -210,6 +210,22 @@ void watch_modified(Program& program, const std::vector<Expression>& terms) {
   program.modified_energies = evaluate_together(sums);
 }
 
+// Parameters that serve a scene only, or nothing: no emitted line names them.
+void drop_unused_parameters(StepEquations& equations) {
+  Mechanics& mechanics = equations.mechanics;
+  if (mechanics.keeps_sums()) return;
+  std::set<std::string> used;
+  collect_symbols(mechanics.energy, used);
+  for (const Expression& component : mechanics.gradient) collect_symbols(component, used);
+  for (const auto& [place, value] : mechanics.hessian) collect_symbols(value, used);
+  for (const NamedExpression& invariant : mechanics.invariants) {
+    collect_symbols(invariant.value, used);
+  }
+  for (const auto& [place, value] : equations.stage_matrix) collect_symbols(value, used);
+  std::erase_if(mechanics.parameters,
+                [&](const Quantity& parameter) { return !used.contains(parameter.name); });
+}
+
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   // Loops know one set of parameters for all degrees of freedom.
@@ -227,6 +243,9 @@ Stages run_stages(const SourceText& source, const Request& request) {
     equations = discretise(mechanics, choose_scheme(model, mechanics, request));
     plan = plan_solve(equations, request.solver);
   }
+  drop_unused_parameters(plan.equations);
+  equations.mechanics.parameters = plan.equations.mechanics.parameters;
+  mechanics.parameters = plan.equations.mechanics.parameters;
   Program program = build_program(plan);
   if (request.tangent && has_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0)

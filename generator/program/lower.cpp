@@ -67,12 +67,31 @@ void Lowering::drop_unused() {
   definitions_ = std::move(kept);
 }
 
+namespace {
+
+// The smaller powers that rewrite_power makes x^exponent of, x itself left out.
+std::vector<Rational> parts_of_power(const Rational& exponent) {
+  if (exponent.get_den() != 1 || !exponent.get_num().fits_slong_p()) return {};
+  const long over = exponent.get_num().get_si();
+  if (over > 2) return {Rational(over % 2 == 0 ? over / 2 : over - 1)};
+  if (over >= -1) return {};
+  std::vector<Rational> parts = {-1};
+  if (over < -2) parts.emplace_back(over % 2 == 0 ? over / 2 : over + 1);
+  return parts;
+}
+
+}  // namespace
+
 // Counts from how many places each node is used; the inside of a node counts once.
 void Lowering::count(const Expression& e) {
   if (is_trivial(e)) return;
   if (++uses_[e] > 1) return;
   if (e.kind() == Kind::power && e.operands()[1].is_number()) {
-    count(e.operands()[0]);
+    const Expression& base = e.operands()[0];
+    count(base);
+    for (const Rational& part : parts_of_power(e.operands()[1].number())) {
+      count(Expression::power(base, Expression(part)));
+    }
     return;
   }
   for (const Expression& operand : e.operands()) count(operand);
@@ -206,6 +225,12 @@ Expression Lowering::rewrite_power(const Expression& base, const Rational& expon
     if (over > 0) return shared_power(Rational(1, 2)) * shared_power((over - 1) / 2);
     if (exponent == Rational(-1, 2)) {
       // With other negative powers about, 1/x is there already; alone, 1/sqrt(x) is one division.
+      const bool alone = std::ranges::none_of(
+          std::vector<Rational>{-1, -2, -3, Rational(-3, 2), Rational(-5, 2), Rational(-7, 2)},
+          [&](const Rational& other) {
+            return uses_.contains(Expression::power(base, Expression(other)));
+          });
+      if (alone) return Expression::power(shared_power(Rational(1, 2)), Expression(-1));
       return shared_power(Rational(1, 2)) * shared_power(-1);
     }
     return shared_power(Rational(-1, 2)) * shared_power((over + 1) / 2);
