@@ -84,7 +84,8 @@ constexpr std::string_view kOurs[] = {"std",
 
 // rule_0, matrix_1: what the emitted functions number themselves.
 bool is_numbered(std::string_view name) {
-  constexpr std::string_view kStems[] = {"rule_", "vector_", "matrix_", "product_", "inverse_"};
+  constexpr std::string_view kStems[] = {"rule_",    "vector_",  "matrix_",
+                                         "product_", "inverse_", "entry_"};
   return std::ranges::any_of(kStems, [&](std::string_view stem) {
     return name.starts_with(stem) && name.size() > stem.size() &&
            std::ranges::all_of(name.substr(stem.size()),
