@@ -117,7 +117,7 @@ Command add_generate(CLI::App& app) {
   parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
   parser
       ->add_option("--require", options->require,
-                   "only if proved: symplectic,symmetric,order:P,conserves:NAME")
+                   "only if proved, as symplectic,symmetric,order:2,emitted-code")
       ->type_name("LIST");
   parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
   parser

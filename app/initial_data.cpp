@@ -180,4 +180,19 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   return values;
 }
 
+std::vector<std::pair<std::string, double>> parameter_values(const PluginSource& plugin,
+                                                             const SceneValues& scene,
+                                                             const runtime::InitialValues& start) {
+  std::vector<std::pair<std::string, double>> values;
+  std::size_t i = 0;
+  for (const Parameter& parameter : plugin.model.parameters) {
+    for (const std::string& name : element_names(std::vector{parameter})) {
+      const double value = to_double(scene.parameters[i++]);
+      if (!parameter.folded) values.emplace_back(name, value);
+    }
+  }
+  if (plugin.needs_energy_parameter) values.emplace_back("E0", start.parameters.back().hi);
+  return values;
+}
+
 }  // namespace hamgen::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generator/language/scene.hpp"
@@ -27,6 +28,11 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 [[nodiscard]] runtime::InitialValues initial_values(const PluginSource& plugin,
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);
+
+// All parameters of the run that are not folded, those too that only its initial values depend on,
+// and E0 if the step needs it.
+[[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(
+    const PluginSource& plugin, const SceneValues& scene, const runtime::InitialValues& start);
 
 // The value as hi + lo: 106 bits.
 [[nodiscard]] runtime::Wide wide(const Rational& value);

@@ -68,6 +68,7 @@ Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
     return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
   };
   columns.energy = is_observed("energy");
+  columns.has_time = std::ranges::any_of(plugin.model.coordinates, &Variable::is_time);
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
     if (!is_observed(plugin.invariant_names[i])) continue;
     columns.invariants.push_back(plugin.invariant_names[i]);
@@ -85,9 +86,8 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
       fmt::format("scheme    {}", plugin.scheme_name), fmt::format("solver    {}", plugin.solver),
       fmt::format("h         {}, every {}", runtime::number_text(start.h.hi), every)};
   if (!scene.name.empty()) lines.push_back("scene     " + scene.name);
-  for (std::size_t i = 0; i < plugin.parameter_names.size(); ++i)
-    lines.push_back(fmt::format("parameter {} = {}", plugin.parameter_names[i],
-                                runtime::number_text(start.parameters[i].hi)));
+  for (const auto& [name, value] : parameter_values(plugin, scene, start))
+    lines.push_back(fmt::format("parameter {} = {}", name, runtime::number_text(value)));
   return lines;
 }
 
@@ -134,6 +134,10 @@ int run(const RunOptions& options) {
         "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
         "FILE.csv");
   const SourceText source = read_model_source(options.method);
+  std::error_code missing;
+  if (std::filesystem::equivalent(options.output, options.method.model, missing))
+    throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",
+                                 options.output));
   Request request = request_of(options.method);
   SizesAndRest set = split_sizes(read_model(source), options.scene.set);
   request.sizes = set.sizes;

@@ -165,6 +165,48 @@ TEST(Run, WritesATrajectory) {
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"out.csv", "two.ham"}));
 }
 
+TEST(Run, DoesNotOverwriteTheModel) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"run", model, "-o", model});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "that is the model")) << result.err;
+  EXPECT_EQ(read(model), pendulum);
+}
+
+// The clock of a run begins at 0, the variable t where its scene says.
+TEST(Run, TellsTheVariableTFromTheClock) {
+  const Scratch scratch;
+  const std::string model = scratch.write("driven.ham",
+                                          "coordinate q\nmomentum p\ntime t\n"
+                                          "H = p^2/2 + (1 + cos(t)/5)*q^2/2\n"
+                                          "scene late { t = 10; q = 1; h = 0.5; steps = 2 }\n");
+  const Result result = hamgen({"run", model, "-o", "-", "--quiet"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Csv csv = read_csv(result.out);
+  EXPECT_EQ(csv.columns,
+            (std::vector<std::string>{"step", "elapsed", "q", "t", "p", "p_t", "H+p_t"}));
+  ASSERT_EQ(csv.rows.size(), 3u);
+  EXPECT_EQ(csv.rows[2][1], 1);
+  EXPECT_EQ(csv.rows[2][3], 11);
+}
+
+// A parameter that gives initial values alone is in the records of the run, not in the code.
+TEST(Run, NamesParametersThatTheStepDoesNotHave) {
+  const Scratch scratch;
+  const std::string model = scratch.write("launch.ham",
+                                          "coordinate q\nmomentum p\nparameter v = 3\n"
+                                          "H = p^2/2 + q^2/2\n"
+                                          "scene launch { p = v; h = 0.5; steps = 2 }\n");
+  const json result = run_json({model, "--set", "v=5"});
+  EXPECT_EQ(result["parameters"]["v"], 5.0);
+  // p at t = 1 of the midpoint rule: v cos(2 phi) with tan(phi/2) = h/2.
+  EXPECT_NEAR(result["state"]["p"][0], 5 * std::cos(4 * std::atan(0.25)), 1e-14);
+  const Result header = hamgen({"generate", model});
+  EXPECT_FALSE(contains(header.out, "Real v")) << header.out;
+  EXPECT_TRUE(contains(header.out, "parameters v: the step does not use them")) << header.out;
+}
+
 TEST(Run, StreamsTheTrajectoryToStandardOutput) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
