@@ -81,8 +81,9 @@ ModelError::ModelError(std::vector<Diagnostic> diagnostics, const SourceText& so
     : diagnostics_(std::move(diagnostics)), text_(render(diagnostics_, source)) {}
 
 void internal_error(std::string_view what, std::source_location where) {
-  throw std::logic_error(
-      fmt::format("hamgen is broken: {} ({}:{})", what, where.file_name(), where.line()));
+  const std::string_view path = where.file_name();
+  throw std::logic_error(fmt::format("hamgen is broken: {} ({}:{})", what,
+                                     path.substr(path.find_last_of('/') + 1), where.line()));
 }
 
 }  // namespace hamgen

@@ -27,8 +27,9 @@ SparseMatrix block_matrix(const char* name, const GaugeBlock& block, int n) {
     return matrix;
   }
   if (entries.size() != 1 && entries.size() != size) {
-    throw UsageError(fmt::format("--{} has {} values; give 1, or {}: one per degree of freedom",
-                                 name, entries.size(), n));
+    throw UsageError(
+        fmt::format("--{} has {} values; give 1{}", name, entries.size(),
+                    n == 1 ? "" : fmt::format(", or {}: one per degree of freedom", n)));
   }
   for (std::size_t i = 0; i < size; ++i) {
     const Expression& value = entries.size() == 1 ? entries[0] : entries[i];

@@ -1,6 +1,7 @@
 #[[
 hamgen_generate(TARGET target MODEL model.ham
-                [SCHEME name] [ALPHA x] [BETA x] [GAMMA x]
+                [SCHEME name] [ALPHA x] [BETA x] [GAMMA x] [ORDER n]
+                [GAUGE locally-exact] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
                 [NAMESPACE name] [PREFIX folder])
 
@@ -22,7 +23,7 @@ Nothing is linked, except libquadmath for SCALAR quad.  A header whose plan need
 `hamgen show --stage plan`) expects Eigen3::Eigen from the project.
 ]]
 function(hamgen_generate)
-  set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA SOLVER SCALAR NAMESPACE PREFIX)
+  set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE PREFIX)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "${one_value}" "FOLD;SIZES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hamgen_generate: unexpected ${arg_UNPARSED_ARGUMENTS}")
@@ -59,7 +60,7 @@ function(hamgen_generate)
   set_property(TARGET ${arg_TARGET} APPEND PROPERTY HAMGEN_HEADERS ${header})
 
   set(options)
-  foreach(option SCHEME ALPHA BETA GAMMA SOLVER SCALAR NAMESPACE)
+  foreach(option SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE)
     if(DEFINED arg_${option})
       string(TOLOWER ${option} flag)
       list(APPEND options --${flag}=${arg_${option}})
