@@ -157,13 +157,13 @@ inline Real energy(const Parameters& par, const State& z) {
     const Real q_i = z.q[i - 1];
     const Real t1 = q_i_plus_1 - q_i;
     const Real t2 = t1 * t1;
-    sum += 0.5 * (t1 * t1) + (1.0 / 3.0) * par.alpha * t1 * t2;
+    sum += 0.5 * t2 + (1.0 / 3.0) * par.alpha * t1 * t2;
   }
   const Real q_1 = z.q[0];
   const Real q_32 = z.q[31];
   const Real t1 = q_1 * q_1;
   const Real t2 = q_32 * q_32;
-  sum += 0.5 * (q_1 * q_1) + 0.5 * (q_32 * q_32) + (1.0 / 3.0) * par.alpha * q_1 * t1 -
+  sum += 0.5 * t1 + 0.5 * t2 + (1.0 / 3.0) * par.alpha * q_1 * t1 -
       (1.0 / 3.0) * par.alpha * q_32 * t2;
   return sum;
 }

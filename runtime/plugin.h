@@ -36,7 +36,7 @@ struct hamgen_run;
 struct hamgen_plugin {
   int version;               /* HAMGEN_PLUGIN_VERSION */
   int degrees_of_freedom;
-  int parameter_count;       /* run-time parameters, folded ones excluded, E0 (if any) last */
+  int parameter_count;       /* run-time parameters in use, E0 (if any) last */
   int invariant_count;
   int scalar_digits;         /* binary digits of Real: 24, 53, 64, 113 */
   const char* description;   /* "pendulum, implicit-midpoint" */

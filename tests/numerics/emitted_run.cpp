@@ -1,5 +1,6 @@
 #include "tests/numerics/emitted_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,7 +27,8 @@ Emitted::Emitted(const SourceText& text, const Request& request)
   library_ =
       runtime::load_plugin(plugin, runtime::find_compiler(), {}, runtime::open_cache()).library;
   for (const Quantity& parameter : derive(source_.model).parameters) {
-    defaults_.push_back(static_cast<long double>(to_double(parameter.value)));
+    if (std::ranges::find(source_.parameter_names, parameter.name) != source_.parameter_names.end())
+      defaults_.push_back(static_cast<long double>(to_double(parameter.value)));
   }
 }
 
