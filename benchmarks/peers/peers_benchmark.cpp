@@ -27,6 +27,9 @@ struct Case {
 };
 
 constexpr int kRounds = 5;
+// Fixed steps are 2^power times the scene's.
+constexpr int kLargestPower = 6;
+constexpr int kSmallestPower = -5;
 
 // A method with one setting (a step size, or a tolerance).
 struct Result {
@@ -101,7 +104,7 @@ void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMe
     methods.push_back(std::make_unique<app::BenchMethod>(
         app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), "")));
     const app::BenchMethod& method = *methods.back();
-    for (int power = 3; power >= -5; --power) {
+    for (int power = kLargestPower; power >= kSmallestPower; --power) {
       app::BenchRow row;
       const Rational count = problem.time / *problem.scene.h *
                              (power < 0 ? Rational(1L << -power) : Rational(1, 1L << power));
@@ -131,7 +134,7 @@ void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& sta
     for (double tolerance = 1e-3; tolerance > 0.5e-14; tolerance *= 0.1)
       settings.push_back(tolerance);
   } else {
-    for (int power = 3; power >= -5; --power)
+    for (int power = kLargestPower; power >= kSmallestPower; --power)
       settings.push_back(problem.scene.h->get_d() * std::ldexp(1.0, power));
   }
   const double energy = flow.energy(start);
