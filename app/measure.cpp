@@ -51,9 +51,7 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
   if (loaded.library->plugin().tangent != nullptr) {
     proof = measure_tangent(loaded, start, symmetric);
   } else {
-    proof.push_back({"tangent map", Verdict::not_decided,
-                     "emitted for sums that are written out, and with --order R where Newton's "
-                     "iteration takes the Hessian of K itself"});
+    proof.push_back({"tangent map", Verdict::not_decided, plugin.without_tangent});
   }
   return {std::move(proof), invariant_defects(plugin, loaded, start, *scene.steps)};
 }

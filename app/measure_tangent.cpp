@@ -102,21 +102,30 @@ class TangentMeasurement {
     return step_.tangent(z.parameters.data(), h, z.state.data(), end_.data(), matrix_.data()) != 0;
   }
 
-  // max |(M^T J M - J)_ij| over the sizes of the terms that entry is the sum of.
+  // max |(M^T J M - J)_ij| over what its terms can add up to, by the norms of the columns of M: far
+  // from the diagonal its entries may be smaller than the rounding of what made them.  The norms
+  // weigh M_ki by the orbit's sizes in q_k and p_k, so that they do not depend on units.
   [[nodiscard]] double symplectic_defect(const Vector& m) const {
     const std::size_t size = 2 * n_;
+    Vector of_q(size);
+    Vector of_p(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t k = 0; k < n_; ++k) {
+        const double weight = std::sqrt(amplitude_[n_ + k] / amplitude_[k]);
+        of_q[i] = std::hypot(of_q[i], weight * m[k * size + i]);
+        of_p[i] = std::hypot(of_p[i], m[(n_ + k) * size + i] / weight);
+      }
+    }
     double worst = 0;
     for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t j = 0; j < size; ++j) {
         double sum = j == i + n_ ? -1 : (i == j + n_ ? 1 : 0);
-        double terms = std::abs(sum);
         for (std::size_t k = 0; k < n_; ++k) {
-          const double up = m[k * size + i] * m[(n_ + k) * size + j];
-          const double down = m[(n_ + k) * size + i] * m[k * size + j];
-          sum += up - down;
-          terms += std::abs(up) + std::abs(down);
+          sum +=
+              m[k * size + i] * m[(n_ + k) * size + j] - m[(n_ + k) * size + i] * m[k * size + j];
         }
-        if (terms > 0) worst = std::max(worst, std::abs(sum) / terms);
+        const double most = of_q[i] * of_p[j] + of_p[i] * of_q[j];
+        if (most > 0) worst = std::max(worst, std::abs(sum) / most);
       }
     }
     return worst;

@@ -331,12 +331,7 @@ class Propagator {
       ++report.iterations;
       evaluate();
       for (int i = 0; i < n; ++i) residual_[i] = bar_.q[i] - z_.q[i] - half_h_ * slope_.p[i];
-      matrix_.clear();
-      for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);
-      hessian(par_, bar_.q, [&](int row, int column, Real value) {
-        matrix_.put(row, column, scale_ * value);
-      });
-      if (!matrix_.factorise()) return false;
+      if (!factorise()) return false;
       matrix_.solve(residual_);
       Real size = 0;
       Real scale = 0;
@@ -359,6 +354,16 @@ class Propagator {
     potential_gradient(par_, bar_.q, slope_.q);
     for (int i = 0; i < n; ++i) bar_.p[i] = z_.p[i] - half_h_ * slope_.q[i];
     kinetic_gradient(par_, bar_.p, slope_.p);
+  }
+
+  // The derivative of the residual at bar_.  False if it is singular.
+  bool factorise() {
+    matrix_.clear();
+    for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);
+    hessian(par_, bar_.q, [&](int row, int column, Real value) {
+      matrix_.put(row, column, scale_ * value);
+    });
+    return matrix_.factorise();
   }
 
   // Z = z + h J grad H(zbar).

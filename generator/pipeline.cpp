@@ -159,7 +159,7 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
                      .model_digest = request.model_digest,
                      .scalar = request.scalar,
                      .name_space = request.name_space,
-                     .tangent = request.tangent && has_tangent(program),
+                     .tangent = request.tangent && !without_tangent(program),
                      .watched_step = request.step};
   if (options.name_space.empty()) {
     const StepEquations& equations = program.plan.equations;
@@ -235,19 +235,20 @@ Stages run_stages(const SourceText& source, const Request& request) {
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
-  StepEquations equations = discretise(mechanics, scheme);
+  const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
+  StepEquations equations = discretise(mechanics, scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
   if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
     // Eigen does not know quad numbers: everything is written out instead.
     mechanics = derive(model, false);
-    equations = discretise(mechanics, choose_scheme(model, mechanics, request));
+    equations = discretise(mechanics, choose_scheme(model, mechanics, request), hessian);
     plan = plan_solve(equations, request.solver);
   }
   drop_unused_parameters(plan.equations);
   equations.mechanics.parameters = plan.equations.mechanics.parameters;
   mechanics.parameters = plan.equations.mechanics.parameters;
   Program program = build_program(plan);
-  if (request.tangent && has_tangent(program)) program = with_tangent(std::move(program));
+  if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0)
     watch_modified(program, modified_terms(mechanics, scheme, request.watch_modified));
   return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
@@ -294,10 +295,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
   CppOptions options = cpp_options(source, stages.program, request);
   if (request.tangent && !options.tangent) {
-    throw UsageError(
-        "--tangent: the linearised step is written for systems whose sums are written out, and "
-        "with "
-        "--order R where Newton's iteration takes the Hessian of K itself");
+    throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
   const Proof proof = prove(stages);
   require(proof, request.require);
@@ -376,6 +374,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   }
   for (const int power : stages.program.modified_powers)
     plugin.invariant_names.push_back(fmt::format("modified_energy_{}", power));
+  plugin.without_tangent = without_tangent(stages.program).value_or("");
   plugin.singular_steps = singular_steps(stages.equations.scheme);
   plugin.needs_eigen = needs_eigen(stages.program);
   plugin.needs_quadmath = request.scalar == "quad";

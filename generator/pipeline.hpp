@@ -83,6 +83,7 @@ struct PluginSource {
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
   bool needs_energy_parameter = false;  // the last parameter is E0
+  std::string without_tangent;          // why --tangent was not heeded
   std::vector<double> singular_steps;   // the scheme has poles at their multiples
   bool needs_eigen = false;
   bool needs_quadmath = false;

@@ -114,9 +114,8 @@ bool StepEquations::is_polynomial(int k, int j) const {
 
 bool StepEquations::depends(int i, int j) const {
   if (has_exact_hessian()) {
-    return hessian_couples(i, j) || std::ranges::any_of(row_gradients(i), [&](int k) {
-             return !is_polynomial(k, j);
-           });
+    return hessian_couples(i, j) ||
+           std::ranges::any_of(row_gradients(i), [&](int k) { return !is_polynomial(k, j); });
   }
   return std::ranges::any_of(row_gradients(i), [&](int k) {
     return depends_on(mechanics.gradient[static_cast<std::size_t>(k)], name_of(*this, j));
@@ -137,12 +136,12 @@ bool uses_energy_parameter(const StepEquations& equations) {
                              [](const auto& entry) { return depends_on(entry.second, "E0"); });
 }
 
-StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme) {
+StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme, HessianWish wish) {
   StepEquations equations{.mechanics = mechanics, .scheme = scheme, .stage_matrix = {}};
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   if (scheme.is_member() && scheme.member().generating_order > 0) {
     equations.function =
-        generating_function(mechanics, scheme.member().c, scheme.member().generating_order);
+        generating_function(mechanics, scheme.member().c, scheme.member().generating_order, wish);
     equations.energy_gradient = mechanics.gradient;
     equations.mechanics.gradient = equations.function->gradient;
     equations.mechanics.hessian = equations.function->hessian;

@@ -56,7 +56,8 @@ struct StepEquations {
 // The step size.
 [[nodiscard]] Expression step_size();
 
-[[nodiscard]] StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme);
+[[nodiscard]] StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme,
+                                       HessianWish wish = HessianWish::cheapest);
 [[nodiscard]] std::string to_text(const StepEquations& equations);
 
 }  // namespace hamgen

@@ -71,9 +71,9 @@ class ArrayWriter {
       write_array_matrix(out_, *arrays.matrix);
       write_hessian(arrays.reduced ? Part::potential : Part::all);
     }
-    if (plan.stage_solver && *plan.stage_solver != StageSolver::fixed_point) {
-      write_hessian(Part::all);
-    }
+    const bool newton_on_stages =
+        plan.stage_solver && *plan.stage_solver != StageSolver::fixed_point;
+    if (newton_on_stages || (context_.options.tangent && !arrays.matrix)) write_hessian(Part::all);
   }
 
  private:

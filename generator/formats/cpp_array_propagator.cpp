@@ -37,16 +37,20 @@ class ArrayPropagator {
     write_advance(out_);
     if (role_ == StepRole::substep) write_substep_access(out_, forgotten());
     out_.dedent();
+    const bool tangent = context_.options.tangent;
+    if (tangent) out_.lines(array_tangent(context_.mechanics, plan, weights_, context_.scalar));
     out_.line();
     out_.line(" private:");
     out_.lines(array_iteration(context_.mechanics, plan_, weights_));
     if (iterates(plan_)) out_.line();
+    if (tangent) out_.lines(array_curvature(plan_));
     write_update();
     out_.indent();
     write_members();
     out_.dedent();
     out_.line("};");
     out_.line();
+    if (tangent) write_array_tangent_of(out_, role_);
   }
 
  private:
@@ -71,6 +75,9 @@ class ArrayPropagator {
   [[nodiscard]] bool needs_masses() const {
     return plan_.reduced && !plan_.mass && (needs_scale() || needs_drift());
   }
+  [[nodiscard]] bool needs_mass() const {
+    return plan_.mass && (needs_drift() || (plan_.reduced && context_.options.tangent));
+  }
 
   // D = h (h alpha (1 - alpha) m / (1 + h beta m) - gamma).
   [[nodiscard]] Expression scale(const Expression& mass) const {
@@ -85,7 +92,7 @@ class ArrayPropagator {
     for (const auto& [name, value] : weights_.members) {
       list += fmt::format(", {}({})", name, text(value));
     }
-    if (plan_.mass && needs_drift()) list += fmt::format(", mass_({})", text(*plan_.mass));
+    if (needs_mass()) list += fmt::format(", mass_({})", text(*plan_.mass));
     if (plan_.mass && needs_scale()) list += fmt::format(", scale_({})", text(scale(*plan_.mass)));
     const std::string head = name_ + "(const Parameters& par, Real h, const State& z)";
     CodeWriter body;
@@ -157,7 +164,7 @@ class ArrayPropagator {
       members.emplace_back("Real " + name + ";", meaning);
     }
     const char* array = plan_.mass ? ";" : "[n] = {};";
-    if (needs_masses() || (plan_.mass && needs_drift())) {
+    if (needs_masses() || needs_mass()) {
       members.emplace_back(fmt::format("Real mass_{}", array), "d2H/dp_i^2");
     }
     if (needs_drift()) members.emplace_back("Real drift_[n] = {};", "dH/dp_i at p = 0");

@@ -9,23 +9,6 @@ namespace hamgen {
 
 namespace {
 
-// " + weight * value" for the weights that are there.
-std::string terms(const char* sign, const std::string& weight, const std::string& value) {
-  return weight.empty() ? "" : fmt::format(" {} {} * {}", sign, weight, value);
-}
-
-// slope = grad H at a state, as statements with this indentation.
-std::string gradient_at(const Mechanics& mechanics, const std::string& state, int indent) {
-  const std::string lead(static_cast<std::size_t>(indent), ' ');
-  if (!mechanics.is_separable()) {
-    return fmt::format("{0}gradient(par_, {1}.q, {1}.p, slope_.q, slope_.p);\n", lead, state);
-  }
-  return fmt::format(
-      "{0}potential_gradient(par_, {1}.q, slope_.q);\n"
-      "{0}kinetic_gradient(par_, {1}.p, slope_.p);\n",
-      lead, state);
-}
-
 // alpha = 0 has zbar = (q, P), alpha = 1 has zbar = (Q, p).
 std::string explicit_step(bool a) {
   return a ? R"(  StepReport step() {
@@ -42,14 +25,6 @@ std::string explicit_step(bool a) {
     return update();
   }
 )";
-}
-
-// qbar_i and pbar_i from the gradient at hand.
-std::string stage_q(const ArrayWeights& w) {
-  return "z_.q[i]" + terms("+", w.q_by_p, "slope_.p[i]") + terms("+", w.q_by_q, "slope_.q[i]");
-}
-std::string stage_p(const ArrayWeights& w) {
-  return "z_.p[i]" + terms("-", w.p_by_q, "slope_.q[i]") + terms("-", w.p_by_p, "slope_.p[i]");
 }
 
 // The paper's Algorithm 1: Z by explicit Euler, then zbar and Z again and again.
@@ -126,7 +101,7 @@ std::string evaluate(const Mechanics& mechanics, const ArrayPlan& plan, const Ar
            "  }\n";
   }
   std::string momentum =
-      "z_.p[i]" + terms("-", w.p_by_q, "slope_.q[i]") + terms("-", w.p_by_p, "drift_[i]");
+      "z_.p[i]" + weighted("-", w.p_by_q, "slope_.q[i]") + weighted("-", w.p_by_p, "drift_[i]");
   if (!w.p_by_p.empty()) {
     momentum =
         fmt::format("({}) / (1 + {} * {})", momentum, w.p_by_p, plan.mass ? "mass_" : "mass_[i]");
@@ -141,53 +116,49 @@ std::string evaluate(const Mechanics& mechanics, const ArrayPlan& plan, const Ar
                      momentum);
 }
 
-// matrix_ = the derivative of the residual.  With the momenta torn out that is I + D V'',
+// matrix_ = the derivative of the residual, factorised.  With the momenta torn out that is I + D
+// V'',
 //   D_i = h (h alpha (1 - alpha) m_i / (1 + h beta m_i) - gamma).
-std::string assemble(const ArrayPlan& plan, const ArrayWeights& w) {
-  const std::string lead = plan.constant_matrix ? "        " : "      ";
-  std::string text;
-  if (plan.constant_matrix) text += "      if (!factorised_) {\n";
-  text += lead + "matrix_.clear();\n";
-  text += lead + "for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);\n";
+std::string factorise(const ArrayPlan& plan, const ArrayWeights& w) {
+  std::string text = "  // The derivative of the residual at bar_.  False if it is singular.\n";
+  text += "  bool factorise() {\n";
+  if (plan.constant_matrix) text += "    if (factorised_) return true;\n";
+  text += R"(    matrix_.clear();
+    for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);
+)";
   if (plan.reduced) {
-    text += lead + "hessian(par_, bar_.q, [&](int row, int column, Real value) {\n";
-    text += lead + fmt::format("  matrix_.put(row, column, {} * value);\n",
-                               plan.mass ? "scale_" : "scale_[row]");
+    text += "    hessian(par_, bar_.q, [&](int row, int column, Real value) {\n";
+    text += fmt::format("      matrix_.put(row, column, {} * value);\n",
+                        plan.mass ? "scale_" : "scale_[row]");
   } else {
     auto put = [](const std::string& sign, const char* row, const std::string& weight) {
-      return weight.empty()
-                 ? ""
-                 : fmt::format("    matrix_.put({}, column, {}{} * value);\n", row, sign, weight);
+      return weight.empty() ? ""
+                            : fmt::format("        matrix_.put({}, column, {}{} * value);\n", row,
+                                          sign, weight);
     };
-    text += lead + "hessian(par_, bar_.q, bar_.p, [&](int row, int column, Real value) {\n";
-    text += lead + "  if (row < n) {\n";
-    for (const std::string& line : {put("-", "row", w.q_by_q), put("", "n + row", w.p_by_q)}) {
-      if (!line.empty()) text += lead + line;
-    }
-    text += lead + "  } else {\n";
-    for (const std::string& line : {put("-", "row - n", w.q_by_p), put("", "row", w.p_by_p)}) {
-      if (!line.empty()) text += lead + line;
-    }
-    text += lead + "  }\n";
+    text += "    hessian(par_, bar_.q, bar_.p, [&](int row, int column, Real value) {\n";
+    text += "      if (row < n) {\n" + put("-", "row", w.q_by_q) + put("", "n + row", w.p_by_q);
+    text += "      } else {\n" + put("-", "row - n", w.q_by_p) + put("", "row", w.p_by_p);
+    text += "      }\n";
   }
-  text += lead + "});\n";
-  text += lead + "if (!matrix_.factorise()) return false;\n";
-  if (plan.constant_matrix) text += lead + "factorised_ = true;\n      }\n";
-  return text;
+  text += "    });\n";
+  text += plan.constant_matrix ? "    factorised_ = matrix_.factorise();\n    return factorised_;\n"
+                               : "    return matrix_.factorise();\n";
+  return text + "  }\n";
 }
 
 std::string residual(const ArrayPlan& plan, const ArrayWeights& w) {
   const std::string of_q =
-      fmt::format("residual_[i] = bar_.q[i] - z_.q[i]{}{};", terms("-", w.q_by_p, "slope_.p[i]"),
-                  terms("-", w.q_by_q, "slope_.q[i]"));
+      fmt::format("residual_[i] = bar_.q[i] - z_.q[i]{}{};", weighted("-", w.q_by_p, "slope_.p[i]"),
+                  weighted("-", w.q_by_q, "slope_.q[i]"));
   if (plan.reduced) return "      for (int i = 0; i < n; ++i) " + of_q + "\n";
   return fmt::format(R"(      for (int i = 0; i < n; ++i) {{
         {}
         residual_[n + i] = bar_.p[i] - z_.p[i]{}{};
       }}
 )",
-                     of_q, terms("+", w.p_by_q, "slope_.q[i]"),
-                     terms("+", w.p_by_p, "slope_.p[i]"));
+                     of_q, weighted("+", w.p_by_q, "slope_.q[i]"),
+                     weighted("+", w.p_by_p, "slope_.p[i]"));
 }
 
 // bar_ -= residual_, and the sizes that the stopping rule wants.
@@ -222,7 +193,7 @@ std::string iteration(const Mechanics& mechanics, const ArrayPlan& plan, const A
       ++report.iterations;
       evaluate();
 )" + residual(plan, w);
-  if (newton) text += assemble(plan, w) + "      matrix_.solve(residual_);\n";
+  if (newton) text += "      if (!factorise()) return false;\n      matrix_.solve(residual_);\n";
   text += subtract(plan);
   text += newton ? R"(      const Verdict verdict = rule_(size, scale, iteration);
       if (verdict == Verdict::go_on) continue;
@@ -232,11 +203,36 @@ std::string iteration(const Mechanics& mechanics, const ArrayPlan& plan, const A
       if (progress == Progress::go_on) continue;
       if (progress == Progress::failed) return false;
 )";
-  return text + "      evaluate();\n      return true;\n    }\n  }\n\n" +
-         evaluate(mechanics, plan, w);
+  text += "      evaluate();\n      return true;\n    }\n  }\n\n" + evaluate(mechanics, plan, w);
+  if (plan.matrix) text += "\n" + factorise(plan, w);
+  return text;
 }
 
 }  // namespace
+
+std::string weighted(const char* sign, const std::string& weight, const std::string& value) {
+  return weight.empty() ? "" : fmt::format(" {} {} * {}", sign, weight, value);
+}
+
+std::string gradient_at(const Mechanics& mechanics, const std::string& state, int indent) {
+  const std::string lead(static_cast<std::size_t>(indent), ' ');
+  if (!mechanics.is_separable()) {
+    return fmt::format("{0}gradient(par_, {1}.q, {1}.p, slope_.q, slope_.p);\n", lead, state);
+  }
+  return fmt::format(
+      "{0}potential_gradient(par_, {1}.q, slope_.q);\n"
+      "{0}kinetic_gradient(par_, {1}.p, slope_.p);\n",
+      lead, state);
+}
+
+std::string stage_q(const ArrayWeights& w) {
+  return "z_.q[i]" + weighted("+", w.q_by_p, "slope_.p[i]") +
+         weighted("+", w.q_by_q, "slope_.q[i]");
+}
+std::string stage_p(const ArrayWeights& w) {
+  return "z_.p[i]" + weighted("-", w.p_by_q, "slope_.q[i]") +
+         weighted("-", w.p_by_p, "slope_.p[i]");
+}
 
 ArrayWeights array_weights(const FamilyParameters& member) {
   const Expression h = Expression::symbol("h", kRankOfStep);

@@ -26,6 +26,27 @@ struct ArrayWeights {
 [[nodiscard]] std::string array_iteration(const Mechanics& mechanics, const ArrayPlan& plan,
                                           const ArrayWeights& weights);
 
+// With --tangent, of a member: the member function tangent(m), what it multiplies by, and the free
+// function.
+[[nodiscard]] std::string array_tangent(const Mechanics& mechanics, const SolvePlan& plan,
+                                        const ArrayWeights& weights, const ScalarType& scalar);
+[[nodiscard]] std::string array_curvature(const ArrayPlan& plan);
+void write_array_tangent_of(CodeWriter& out, StepRole role);
+// Of a splitting: the free function.
+void write_array_splitting_tangent(CodeWriter& out, const CppContext& context);
+// Of a Runge-Kutta method: hessian(par, x, values) of the state as one array.
+void write_array_stage_hessian(CodeWriter& out);
+
+// slope_ = grad H at a state, as statements with this indentation.
+[[nodiscard]] std::string gradient_at(const Mechanics& mechanics, const std::string& state,
+                                      int indent);
+// " + weight * value" for the weights that are there.
+[[nodiscard]] std::string weighted(const char* sign, const std::string& weight,
+                                   const std::string& value);
+// qbar_i and pbar_i from the gradient at hand.
+[[nodiscard]] std::string stage_q(const ArrayWeights& weights);
+[[nodiscard]] std::string stage_p(const ArrayWeights& weights);
+
 // The class Matrix: clear, put, factorise, solve.
 void write_array_matrix(CodeWriter& out, const ArrayMatrix& matrix);
 

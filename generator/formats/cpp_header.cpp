@@ -106,7 +106,11 @@ void write_scheme(CodeWriter& out, CppContext& context) {
   const Method& method = context.equations.scheme.method;
   if (std::holds_alternative<Splitting>(method)) {
     write_splitting(out, context);
-    if (context.options.tangent) write_splitting_tangent(out, context);
+    if (context.options.tangent && context.arrays()) {
+      write_array_splitting_tangent(out, context);
+    } else if (context.options.tangent) {
+      write_splitting_tangent(out, context);
+    }
   } else if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
     write_runge_kutta(out, context, *tableau);
   } else {

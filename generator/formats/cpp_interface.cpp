@@ -34,7 +34,15 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
   const int size = 2 * context.n();
   std::string increments;
   std::string ends;
-  for (int i = 0; i < size; ++i) {
+  if (context.arrays()) {
+    // There tangent needs no increment.
+    ends = R"(  for (int i = 0; i < n; ++i) {
+    new_state[i] = static_cast<double>(end.q[i]);
+    new_state[n + i] = static_cast<double>(end.p[i]);
+  }
+)";
+  }
+  for (int i = 0; i < size && !context.arrays(); ++i) {
     increments += fmt::format("  dz.{0} = end.{0} - z.{0};\n", context.state_field(i));
     ends +=
         fmt::format("  new_state[{}] = static_cast<double>(end.{});\n", i, context.state_field(i));

@@ -242,12 +242,11 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
 
 std::string newton_text(bool arrays, const ScalarType& scalar) {
   const std::string fill =
-      arrays
-          ? R"(    hessian(par_, x, x + n, [&values](int row, int column, Real value) {
+      arrays ? R"(    hessian(par_, x, x + n, [&values](int row, int column, Real value) {
       values[row][column] += value;
     });
 )"
-          : "    hessian(par_, x, values);\n";
+             : "    hessian(par_, x, values);\n";
   return R"(  // I - coupling h b J H'' with the Hessian at the mean of the stages.
   bool factorise() {
     Real x[dimension];
@@ -350,7 +349,10 @@ std::string iterate_text(StageSolver solver) {
 }  // namespace
 
 void write_stage_hessian(CodeWriter& out, CppContext& context) {
-  if (context.arrays()) return;  // hessian(par, x, put) is there
+  if (context.arrays()) {  // hessian(par, q, p, put) is there
+    if (context.options.tangent) write_array_stage_hessian(out);
+    return;
+  }
   const Program& program = context.program;
   out.line("// The second derivatives of H at z.");
   write_evaluation(

@@ -1,6 +1,7 @@
 // The linearisation of an emitted step: tangent(par, h, z, dz, m) for the step that moves z by dz.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "generator/formats/cpp_context.hpp"
@@ -8,9 +9,8 @@
 
 namespace hamgen {
 
-// Can the tangent map of this program's step be written?  If its sums are written out, and the
-// Hessian is that of the function whose gradient the step takes.
-[[nodiscard]] bool has_tangent(const Program& program);
+// Why the tangent map of this program's step is not written, if it is not.
+[[nodiscard]] std::optional<std::string> without_tangent(const Program& program);
 
 [[nodiscard]] std::string tangent_name(StepRole role);
 void write_member_tangent(CodeWriter& out, CppContext& context, const MemberParts& parts,

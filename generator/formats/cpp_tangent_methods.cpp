@@ -122,7 +122,9 @@ void write_composition_tangent(CodeWriter& out, const CppContext& context) {
       fmt::runtime(text), fmt::arg("size", size),
       fmt::arg("lengths", row_of(lengths, context.scalar)),
       fmt::arg("factor", tangent_name(StepRole::substep)),
-      fmt::arg("increments", each_field(context, 0, size, "    dz.{x} = end.{x} - now.{x};\n"))));
+      fmt::arg("increments", context.arrays() ? ""
+                                              : each_field(context, 0, size,
+                                                           "    dz.{x} = end.{x} - now.{x};\n"))));
 }
 
 void write_explicit_tangent(CodeWriter& out, const CppContext& context) {

@@ -224,22 +224,24 @@ long solve_cost(const SparseMatrix& hessian, int n) {
   return m <= written_out ? 5 * m * m : m * m * m + 10 * m;
 }
 
-// Sets the Hessian, and the operations, to the choice that costs least per step.
+// Sets the Hessian, and the operations, to the choice that costs least per step, or to that of K.
 void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
                     const Candidate& candidate, const Row& z, const std::set<std::string>& varying,
-                    bool symmetric) {
+                    bool symmetric, HessianWish wish) {
   // H is the K of order 1, and of order 2 where even powers of h vanish.
   const int of_h = symmetric ? 2 : 1;
   std::vector<HessianChoice> choices{{of_h, 4.0}, {function.order, 2.0}};
   if (function.order > 4) choices.push_back({4, 3.0});
+  // Many second derivatives of a long K are never the cheapest: do not even look at them.
+  const long size = function.operations * static_cast<long>(z.size());
+  const bool is_long = size > 4 * kMostOperations;
+  if (wish == HessianWish::exact && size <= kMostOperations / 3) choices = {{function.order, 2.0}};
   double least = 0;
   const Row slopes_only = function.gradient;
   for (const HessianChoice& choice : choices) {
     SparseMatrix hessian = mechanics.hessian;
     if (choice.order > of_h) {
-      // Many second derivatives of a long K are never the cheapest: do not even look at them.
-      if (least > 0 && function.operations * static_cast<long>(z.size()) > 4 * kMostOperations)
-        break;
+      if (is_long) break;
       const auto count = std::min<std::ptrdiff_t>(choice.order, std::ssize(candidate.terms));
       const Expression k =
           sum_of_powers({candidate.terms.begin(), candidate.terms.begin() + count});
@@ -261,7 +263,7 @@ void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
 
 // Nothing if every form of K is too long.
 std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, const SparseMatrix& c,
-                                                int order) {
+                                                int order, HessianWish wish) {
   const std::vector<SparseMatrix> gauge = gauge_series(c, order);
   Row z;
   std::set<std::string> varying;
@@ -293,19 +295,19 @@ std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, cons
   if (chosen->chart != &coordinates) {
     best.form += fmt::format(" in {} quadratic forms", chosen->chart->symbols.size());
   }
-  choose_hessian(best, mechanics, *chosen, z, varying, is_odd(gauge));
+  choose_hessian(best, mechanics, *chosen, z, varying, is_odd(gauge), wish);
   return best;
 }
 
 }  // namespace
 
-GeneratingFunction generating_function(const Mechanics& mechanics, const SparseMatrix& c,
-                                       int order) {
-  if (auto function = shortest_form(mechanics, c, order)) return std::move(*function);
+GeneratingFunction generating_function(const Mechanics& mechanics, const SparseMatrix& c, int order,
+                                       HessianWish wish) {
+  if (auto function = shortest_form(mechanics, c, order, wish)) return std::move(*function);
   const int decrement = is_odd(gauge_series(c, order)) ? 2 : 1;
   std::string lower;
   for (int r = order - decrement; r > 2 && lower.empty(); r -= decrement) {
-    if (const auto function = shortest_form(mechanics, c, r)) {
+    if (const auto function = shortest_form(mechanics, c, r, wish)) {
       lower =
           fmt::format("--order {} takes {} operations an evaluation; ", r, function->operations);
     }

@@ -22,10 +22,14 @@ struct GeneratingFunction {
   long operations = 0;  // of gradient and Hessian together; a function counts 10
 };
 
-// The shortest of the forms K can be given.  Throws UsageError, with the alternatives, where that
+enum class HessianWish { cheapest, exact };
+
+// The shortest of the forms K can be given.  Its Hessian is its own where that is wished for, and
+// short enough.  Throws UsageError, with the alternatives, where that
 // is too long to be compiled in reasonable time.
 [[nodiscard]] GeneratingFunction generating_function(const Mechanics& mechanics,
-                                                     const SparseMatrix& c, int order);
+                                                     const SparseMatrix& c, int order,
+                                                     HessianWish wish = HessianWish::cheapest);
 
 [[nodiscard]] std::string to_text(const GeneratingFunction& function);
 

@@ -1,6 +1,7 @@
 #include "generator/program/lower.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/step_builder.hpp"
+#include "generator/solvers/array_matrix.hpp"
 
 namespace hamgen {
 
@@ -62,11 +63,19 @@ void build_hessian(Program& program, const Mechanics& mechanics) {
 }  // namespace
 
 Program with_tangent(Program program) {
-  const bool solved = program.plan.equations.scheme.has_member() && !program.plan.sweeps;
-  if (solved) {
+  const StepEquations& equations = program.plan.equations;
+  const bool solved = equations.scheme.has_member() && !program.plan.sweeps;
+  if (program.plan.arrays) {
+    // Of a fixed point, too, the linearised equations are solved by elimination.
+    ArrayPlan& arrays = *program.plan.arrays;
+    if (iterates(arrays) && !arrays.matrix) {
+      const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
+      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced);
+    }
+  } else if (solved) {
     program.linearisation = linearise(program.plan);
   } else if (program.hessian_places.empty()) {
-    build_hessian(program, program.plan.equations.mechanics);
+    build_hessian(program, equations.mechanics);
   }
   return program;
 }

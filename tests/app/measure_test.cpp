@@ -44,7 +44,16 @@ TEST(Measure, FindsSymplecticStepsSymplecticToRoundOff) {
         {"henon_heiles.ham", {"--scheme", "stormer-verlet"}},
         {"kepler.ham", {"--scheme", "saba-3"}},
         {"double_pendulum.ham", {"--scheme", "yoshida-4"}},
-        {"double_pendulum.ham", {"--scheme", "gauss-4"}}}) {
+        {"double_pendulum.ham", {"--scheme", "gauss-4"}},
+        // In loops: every solver and kind of method.
+        {"fput.ham", {}},
+        {"fput.ham", {"--alpha", "1/3", "--beta", "h/5", "--gamma=-h/7"}},
+        {"fput.ham", {"--solver", "fixed-point"}},
+        {"fput.ham", {"--alpha", "0"}},
+        {"fput.ham", {"--alpha", "1"}},
+        {"fput.ham", {"--scheme", "stormer-verlet"}},
+        {"fput.ham", {"--scheme", "suzuki-4"}},
+        {"fput.ham", {"--scheme", "gauss-4"}}}) {
     const Measured found = measured(model, options);
     EXPECT_EQ(found.verdict, "tested") << model;
     EXPECT_GE(found.most, 0) << model;
@@ -75,6 +84,16 @@ TEST(Measure, FindsTheDefectOfSweepsAndThatItFallsWithTheirNumber) {
     before = found.most;
   }
   EXPECT_GT(measured("pendulum.ham", {"--solver", "sweeps:2"}).most, 1e-9);
+  const Measured loops = measured("fput.ham", {"--solver", "sweeps:2"});
+  EXPECT_EQ(loops.verdict, "refuted");
+  EXPECT_EQ(loops.of_the_step, "tested");
+}
+
+TEST(Measure, SaysWhatIsTooLargeForATangentMap) {
+  const Result result = hamgen({"generate", HAMGEN_SOURCE_DIR "/hamiltonians/fput.ham", "--set",
+                                "N=1000", "--tangent", "-o", "-"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("2000 unknowns, of at most 512"), std::string::npos) << result.err;
 }
 
 }  // namespace

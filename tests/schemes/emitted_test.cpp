@@ -317,12 +317,15 @@ TEST_P(Strictly, EmittedSchemesCompileWithoutAWarning) {
     for (const char* name : {"yoshida-4", "gauss-2", "gauss-6", "rk4"})
       add(model, {.scheme = name});
     add(model, {.scheme = "gauss-4", .solver = "fixed-point"});
-    if (model != loops) {
-      for (const char* name : {"implicit-midpoint", "yoshida-4", "gauss-4", "rk4"}) {
-        add(model, {.scheme = name, .tangent = true});
-      }
+    for (const char* name : {"implicit-midpoint", "yoshida-4", "gauss-4", "rk4"}) {
+      add(model, {.scheme = name, .tangent = true});
     }
-    if (model == kPendulum) add(model, {.scheme = "saba-2", .tangent = true});
+    for (const char* solver : {"fixed-point", "sweeps:2"}) {
+      add(model, {.solver = solver, .tangent = true});
+    }
+    add(model, {.alpha = "1/3", .beta = "h/5", .gamma = "-h/7", .tangent = true});
+    add(model, {.alpha = "0", .tangent = true});
+    if (model != kMixed) add(model, {.scheme = "saba-2", .tangent = true});
     if (model != loops) add(model, {.scheme = "gauss-4", .solver = "newton"});
     if (model == kMixed) continue;
     for (const char* name : {"stormer-verlet", "ruth-3", "saba-3"}) add(model, {.scheme = name});
