@@ -38,6 +38,7 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
           {"frequencies", found.frequencies},
           {"free_motions", found.free_motions},
           {"growing", found.growing},
+          {"jordan_block", found.resonant},
           {"growth_rate", found.growth_rate},
           {"margin", number(found.margin)},
           {"bounded_for_every_h", found.bounded_for_every_h},

@@ -210,6 +210,15 @@ void watch_modified(Program& program, const std::vector<Expression>& terms) {
   program.modified_energies = evaluate_together(sums);
 }
 
+// Sweeps leave the step unsolved, and what is not symplectic has no modified Hamiltonian.
+void require_solved_step(const Request& request) {
+  if (!request.solver.starts_with("sweeps")) return;
+  throw UsageError(
+      fmt::format("--solver {} leaves the step unsolved: it follows no modified "
+                  "Hamiltonian\nhelp: drop --solver",
+                  request.solver));
+}
+
 // Parameters that serve a scene only, or nothing: no emitted line names them.
 void drop_unused_parameters(StepEquations& equations) {
   Mechanics& mechanics = equations.mechanics;
@@ -249,6 +258,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
   mechanics.parameters = plan.equations.mechanics.parameters;
   Program program = build_program(plan);
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
+  if (request.watch_modified > 0) require_solved_step(request);
   if (request.watch_modified > 0)
     watch_modified(program, modified_terms(mechanics, scheme, request.watch_modified));
   return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
@@ -324,6 +334,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
                                              int count) {
+  require_solved_step(request);
   const Model model = read_request(source, request);
   const Mechanics mechanics = derive(model, false);
   return modified_terms(mechanics, choose_scheme(model, mechanics, request), count);

@@ -45,7 +45,14 @@ SparseMatrix times_j(const SparseMatrix& m, int n) {
 
 std::vector<SparseMatrix> gauge_series(const SparseMatrix& c, int count) {
   std::vector<SparseMatrix> series(at(count));
+  const auto without_series = [](const Expression& entry) {
+    return UsageError(fmt::format(
+        "alpha, beta and gamma must have a power series in h here: the entry {} of C has none at "
+        "h = 0",
+        to_text(entry)));
+  };
   for (const auto& [place, value] : c) {
+    if (has_corner(value)) throw without_series(value);
     if (is_undefined(substitute(value, {{"h", Expression(0)}}))) {
       // It may still have a limit, and a series.
       if (const auto limits = step_series(value, count)) {
@@ -63,12 +70,7 @@ std::vector<SparseMatrix> gauge_series(const SparseMatrix& c, int count) {
         factorial *= l;
       }
       const Expression at_zero = substitute(derivative_of_entry, {{"h", Expression(0)}});
-      if (is_undefined(at_zero)) {
-        throw UsageError(fmt::format(
-            "--order needs alpha, beta and gamma that have a power series in h: the entry {} of C "
-            "has none at h = 0",
-            to_text(value)));
-      }
+      if (is_undefined(at_zero)) throw without_series(value);
       if (!at_zero.is_zero()) {
         series[at(l)][place] = at_zero * Expression(Rational(1 / factorial));
       }

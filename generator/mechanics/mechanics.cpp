@@ -32,8 +32,8 @@ std::string kernels_text(const Mechanics& mechanics) {
   for (const Kernel& kernel : mechanics.kernels) {
     text += "  ";
     for (const KernelRange& range : kernel.ranges) {
-      text += fmt::format("sum {} = {}..{}: ", range.index, to_text(range.lower),
-                          to_text(range.upper));
+      text +=
+          fmt::format("sum {} = {}..{}: ", range.index, to_text(range.lower), to_text(range.upper));
     }
     text += to_text(kernel.value) + "\n";
   }

@@ -1,11 +1,26 @@
 #include "generator/mechanics/step_series.hpp"
 
+#include <algorithm>
+
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen {
 
+bool has_corner(const Expression& e) {
+  if (!depends_on(e, "h")) return false;
+  if (std::ranges::any_of(e.operands(), has_corner)) return true;
+  const bool is_abs = e.kind() == Kind::function && e.name() == "abs";
+  const bool is_root = (e.kind() == Kind::function && e.name() == "sqrt") ||
+                       (e.kind() == Kind::power &&
+                        !(e.operands()[1].is_number() && e.operands()[1].number().get_den() == 1));
+  if (!is_abs && !is_root) return false;
+  const auto inside = step_series(e.operands()[0], 1);
+  return !inside || vanishes(inside->front());
+}
+
 std::optional<std::vector<Expression>> step_series(const Expression& e, int count) {
+  if (has_corner(e)) return std::nullopt;
   SymbolTable table;
   const GiNaC::ex h = table.symbol("h", kRankOfStep);
   try {

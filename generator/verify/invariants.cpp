@@ -3,100 +3,209 @@
 #include <optional>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/verify/identities.hpp"
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
 
 namespace {
 
-// {I, H} = sum I_q H_p - I_p H_q.
-GiNaC::ex bracket(const GiNaC::ex& invariant, const GiNaC::ex& energy, const Mechanics& mechanics,
-                  SymbolTable& table) {
-  GiNaC::ex sum = 0;
-  const int n = mechanics.degrees_of_freedom;
-  for (int i = 0; i < n; ++i) {
-    const GiNaC::symbol& q = table.find(mechanics.variables[static_cast<std::size_t>(i)].name);
-    const GiNaC::symbol& p = table.find(mechanics.variables[static_cast<std::size_t>(i + n)].name);
-    sum += invariant.diff(q) * energy.diff(p) - invariant.diff(p) * energy.diff(q);
-  }
-  return sum;
-}
+constexpr int kMostFreedom = 64;  // degrees of freedom of a bracket that is expanded
 
-// The matrix M of a quadratic form z^T M z / 2; empty if the invariant is not one.
-std::optional<GiNaC::matrix> quadratic_form(const GiNaC::ex& invariant, const Mechanics& mechanics,
-                                            SymbolTable& table) {
-  const auto size = static_cast<unsigned>(mechanics.variables.size());
-  const std::set<std::string> beyond = non_polynomial_symbols(from_ginac(invariant, table));
-  for (const Quantity& variable : mechanics.variables) {
-    if (beyond.contains(variable.name)) return std::nullopt;
-  }
-  GiNaC::matrix form(size, size);
-  for (unsigned i = 0; i < size; ++i) {
-    for (unsigned j = 0; j < size; ++j) {
-      const GiNaC::ex entry = invariant.diff(table.find(mechanics.variables[i].name))
-                                  .diff(table.find(mechanics.variables[j].name))
-                                  .expand();
-      for (const Quantity& variable : mechanics.variables) {
-        if (entry.has(table.find(variable.name))) return std::nullopt;
+// An invariant and H with their derivatives.
+class Bracket {
+ public:
+  Bracket(const Mechanics& mechanics, const Expression& energy, const Expression& invariant)
+      : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)) {
+    std::vector<GiNaC::symbol> variables;
+    for (std::size_t i = 0; i < 2 * n_; ++i) {
+      const std::string& name = mechanics.variables[i].name;
+      (void)table_.symbol(name, kRankOfVariable + static_cast<int>(i));
+      variables.push_back(table_.find(name));
+    }
+    const GiNaC::ex h = to_ginac(energy, table_);
+    const GiNaC::ex f = to_ginac(invariant, table_);
+    for (const GiNaC::symbol& x : variables) {
+      energy_.push_back(h.diff(x));
+      invariant_.push_back(f.diff(x));
+    }
+    const std::set<std::string> beyond = non_polynomial_symbols(invariant);
+    for (const GiNaC::symbol& x : variables) polynomial_ &= !beyond.contains(x.get_name());
+    if (!polynomial_) return;
+    for (std::size_t i = 0; i < 2 * n_; ++i) {
+      for (std::size_t j = 0; j < 2 * n_; ++j) {
+        const GiNaC::ex entry = invariant_[i].diff(variables[j]).expand();
+        for (const GiNaC::symbol& x : variables) quadratic_ &= !entry.has(x);
+        linear_ &= entry.is_zero();
+        form_.push_back(entry);
       }
-      form(i, j) = entry;
     }
   }
-  return form;
+
+  // Is I of this degree at most?
+  [[nodiscard]] bool is_linear() const { return polynomial_ && linear_; }
+  [[nodiscard]] bool is_quadratic() const { return polynomial_ && quadratic_; }
+
+  // sum I_q H_p and sum I_p H_q, whose difference is {I, H}.
+  [[nodiscard]] GiNaC::ex drift() const { return sum(0, n_); }
+  [[nodiscard]] GiNaC::ex kick() const { return sum(n_, 0); }
+  [[nodiscard]] Decision difference() const {
+    Decision decision = equal("{I, H} is not 0: sum I_q H_p", drift(), kick());
+    const std::string words = " and should be ";
+    if (const auto at = decision.witness.find(words); at != std::string::npos) {
+      decision.witness.replace(at, words.size(), ", sum I_p H_q is ");
+    }
+    return decision;
+  }
+  [[nodiscard]] Decision zero(const std::string& what, const GiNaC::ex& e) const {
+    return equal(what, e, 0);
+  }
+
+  // R = C^T M + M C of the quadratic form z^T M z / 2.
+  [[nodiscard]] std::optional<GiNaC::matrix> residual(const Member& member) const {
+    const auto size = static_cast<unsigned>(2 * n_);
+    GiNaC::matrix c(size, size);
+    for (const auto& [place, value] : member.c) {
+      c(static_cast<unsigned>(place.first), static_cast<unsigned>(place.second)) =
+          to_ginac(value, table_);
+    }
+    GiNaC::matrix form(size, size);
+    for (unsigned i = 0; i < size; ++i) {
+      for (unsigned j = 0; j < size; ++j) form(i, j) = form_[i * size + j];
+    }
+    const GiNaC::matrix r = c.transpose().mul(form).add(form.mul(c));
+    for (unsigned i = 0; i < size; ++i) {
+      for (unsigned j = 0; j < size; ++j) {
+        if (!r(i, j).expand().is_zero()) return r;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // d^T R d with d = J grad H.
+  [[nodiscard]] GiNaC::ex along_flow(const GiNaC::matrix& r) const {
+    GiNaC::ex result = 0;
+    for (std::size_t i = 0; i < 2 * n_; ++i) {
+      for (std::size_t j = 0; j < 2 * n_; ++j) {
+        result += velocity(i) * r(static_cast<unsigned>(i), static_cast<unsigned>(j)) * velocity(j);
+      }
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] GiNaC::ex velocity(std::size_t i) const {
+    return i < n_ ? energy_[i + n_] : -energy_[i - n_];
+  }
+  [[nodiscard]] GiNaC::ex sum(std::size_t of_invariant, std::size_t of_energy) const {
+    GiNaC::ex result = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      result += invariant_[of_invariant + i] * energy_[of_energy + i];
+    }
+    return result;
+  }
+  [[nodiscard]] Decision equal(const std::string& what, const GiNaC::ex& a,
+                               const GiNaC::ex& b) const {
+    const GiNaC::ex difference = (a - b).expand();
+    if (difference.is_zero()) return {.verdict = Verdict::proved, .claims = 1, .by_algebra = 1};
+    return decide({.claims = {{what, from_ginac(a, table_), from_ginac(b, table_)}}});
+  }
+
+  std::size_t n_;
+  mutable SymbolTable table_;
+  std::vector<GiNaC::ex> energy_, invariant_, form_;
+  bool polynomial_ = true;
+  bool quadratic_ = true;
+  bool linear_ = true;
+};
+
+constexpr const char* kUpToTheOrder = "neither linear nor quadratic: conserved up to the order";
+
+// Z - z = d = h J grad H(zbar) changes I = z^T M z / 2 by
+//   d^T M (z + Z)/2 = d^T M zbar - d^T M C d = h {I, H}(zbar) - d^T (C^T M + M C) d / 2.
+Finding conserved_by_member(const Bracket& bracket, const Member& member) {
+  if (bracket.is_linear()) {
+    return {"", Verdict::proved, "linear: every member conserves it"};
+  }
+  if (!bracket.is_quadratic()) return {"", Verdict::not_decided, kUpToTheOrder};
+  const auto r = bracket.residual(member);
+  if (!r) return {"", Verdict::proved, "C^T M + M C = 0 for its quadratic form M"};
+  if (member.generating_order > 0) {
+    return {"", Verdict::not_decided,
+            "C^T M + M C is not 0 for its quadratic form M: K may not have this invariant"};
+  }
+  const std::string what = "d^T (C^T M + M C) d, d = J grad H,";
+  const Decision decision = bracket.zero(what, bracket.along_flow(*r));
+  if (decision.verdict == Verdict::proved) return {"", Verdict::proved, what + " is 0 for this H"};
+  if (decision.verdict == Verdict::tested) {
+    return {"", Verdict::tested,
+            fmt::format("{} is 0 for this H at {} points to 1e-30", what, decision.points)};
+  }
+  return {"", decision.verdict, decision.witness};
 }
 
-Finding conserved(const std::string& name, const GiNaC::ex& invariant, const Mechanics& mechanics,
-                  const Member& member, SymbolTable& table) {
-  const std::string property = name + " conserved by the step";
-  const auto form = quadratic_form(invariant, mechanics, table);
-  if (!form) {
-    return {property, Verdict::not_decided,
-            "neither linear nor quadratic: conserved up to the order"};
+Finding conserved_by_splitting(const Bracket& bracket) {
+  const Decision of_drift = bracket.zero("{I, T}", bracket.drift());
+  const Decision of_kick = bracket.zero("{I, V}", bracket.kick());
+  if (of_drift.verdict == Verdict::proved && of_kick.verdict == Verdict::proved) {
+    return {"", Verdict::proved, "{I, T} = {I, V} = 0: every drift and every kick conserves it"};
   }
-  const auto size = static_cast<unsigned>(mechanics.variables.size());
-  GiNaC::matrix c(size, size);
-  for (const auto& [place, value] : member.c) {
-    c(static_cast<unsigned>(place.first), static_cast<unsigned>(place.second)) =
-        to_ginac(value, table);
+  return {"", Verdict::not_decided,
+          "not conserved by its drifts and kicks one by one: conserved up to the order"};
+}
+
+// A symplectic Runge-Kutta method conserves quadratic invariants (Cooper 1987; HLW IV.2.2).
+Finding conserved_by_tableau(const Bracket& bracket, bool symplectic) {
+  if (bracket.is_linear()) {
+    return {"", Verdict::proved, "linear: every Runge-Kutta method conserves it"};
   }
-  const GiNaC::matrix residual = c.transpose().mul(*form).add(form->mul(c));
-  for (unsigned i = 0; i < size; ++i) {
-    for (unsigned j = 0; j < size; ++j) {
-      const GiNaC::ex entry = residual(i, j).expand();
-      if (entry.is_zero()) continue;
-      return {property, Verdict::refuted,
-              fmt::format("entry ({}, {}) of C^T M + M C is {}", i + 1, j + 1,
-                          to_text(from_ginac(entry, table)))};
-    }
+  if (symplectic && bracket.is_quadratic()) {
+    return {"", Verdict::proved, "quadratic, and the tableau is symplectic"};
   }
-  return {property, Verdict::proved, "C^T M + M C = 0 for its quadratic form M"};
+  return {"", Verdict::not_decided,
+          bracket.is_quadratic() ? "quadratic, and the tableau is not symplectic: conserved up to "
+                                   "the order"
+                                 : kUpToTheOrder};
+}
+
+Finding conserved(const Bracket& bracket, const Scheme& scheme, bool swept) {
+  if (std::holds_alternative<Splitting>(scheme.method)) return conserved_by_splitting(bracket);
+  if (std::holds_alternative<RungeKutta>(scheme.method)) {
+    return conserved_by_tableau(bracket, scheme.symplectic);
+  }
+  if (swept && !bracket.is_linear()) {
+    return {"", Verdict::not_decided, "the sweeps leave the step unsolved"};
+  }
+  return conserved_by_member(bracket, scheme.member());
 }
 
 }  // namespace
 
-Proof prove_invariants(const Mechanics& mechanics, const Member& member) {
+Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
+                       const Scheme& scheme, bool swept) {
   Proof proof;
-  if (mechanics.keeps_sums()) {
-    for (const NamedExpression& invariant : mechanics.invariants) {
-      proof.push_back({invariant.name + " invariant", Verdict::not_decided,
-                       "the sums stay loops; verify a smaller size"});
-    }
-    return proof;
-  }
   for (const NamedExpression& invariant : mechanics.invariants) {
-    SymbolTable table;
-    for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
-      table.symbol(mechanics.variables[i].name, kRankOfVariable + static_cast<int>(i));
+    const std::string name = invariant.name + " invariant";
+    if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostFreedom) {
+      proof.push_back({name, Verdict::not_decided,
+                       fmt::format("{} degrees of freedom, more than {}; verify a smaller size",
+                                   mechanics.degrees_of_freedom, kMostFreedom)});
+      continue;
     }
-    const GiNaC::ex energy = to_ginac(mechanics.energy, table);
-    const GiNaC::ex value = to_ginac(invariant.value, table);
-    const GiNaC::ex poisson = bracket(value, energy, mechanics, table).expand();
-    const bool zero = poisson.is_zero() || poisson.normal().expand().is_zero();
-    std::string text = zero ? "" : to_text(from_ginac(poisson, table));
-    if (text.size() > 100) text = text.substr(0, 97) + "...";
-    proof.push_back({invariant.name + " invariant", zero ? Verdict::proved : Verdict::not_decided,
-                     zero ? "{I, H} = 0" : "{I, H} did not expand to zero: " + text});
-    if (zero) proof.push_back(conserved(invariant.name, value, mechanics, member, table));
+    const Bracket bracket(mechanics, hamiltonian, invariant.value);
+    const Decision decision = bracket.difference();
+    if (decision.verdict != Verdict::proved) {
+      const bool tested = decision.verdict == Verdict::tested;
+      proof.push_back({name, decision.verdict,
+                       tested ? fmt::format("{{I, H}} = 0 at {} points to 1e-30", decision.points)
+                              : decision.witness});
+      if (!tested) continue;
+    } else {
+      proof.push_back({name, Verdict::proved, "{I, H} = 0"});
+    }
+    Finding of_step = conserved(bracket, scheme, swept);
+    of_step.property = invariant.name + " conserved by the step";
+    proof.push_back(std::move(of_step));
   }
   return proof;
 }

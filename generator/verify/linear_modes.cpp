@@ -1,6 +1,7 @@
 #include "generator/verify/linear_modes.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +53,26 @@ std::optional<std::vector<Matrix2d>> common_planes(const MatrixXd& s) {
   return planes;
 }
 
+// Is a frequency there more often than A^2 + w^2 has planes for it?  A double eigenvalue splits by
+// the root of the rounding unit where that is so, and by the unit where not.
+bool has_jordan_block(const MatrixXd& a, const std::vector<double>& frequencies) {
+  constexpr double kSame = 1e-6;
+  for (std::size_t first = 0; first < frequencies.size();) {
+    std::size_t last = first + 1;
+    const double w = frequencies[first];
+    while (last < frequencies.size() && frequencies[last] - w <= kSame * w) ++last;
+    const auto count = static_cast<Eigen::Index>(2 * (last - first));
+    if (count > 2) {
+      const MatrixXd square = a * a + w * w * MatrixXd::Identity(a.rows(), a.cols());
+      const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(square).singularValues();
+      const double zero = 10 * kSame * std::max(singular[0], w * w);
+      if ((singular.array() <= zero).count() < count) return true;
+    }
+    first = last;
+  }
+  return false;
+}
+
 }  // namespace
 
 LinearSpectrum linear_spectrum(const MatrixXd& s) {
@@ -78,7 +99,7 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
   for (const auto& square : squares) {
     if (std::abs(square) <= zero) {
       ++spectrum.free_motions;
-    } else if (square.real() < 0.0 && std::abs(square.imag()) <= 1e-7 * std::abs(square)) {
+    } else if (square.real() < 0.0 && std::abs(square.imag()) <= 1e-6 * std::abs(square)) {
       spectrum.frequencies.push_back(std::sqrt(-square.real()));
     } else {
       ++spectrum.growing;
@@ -86,6 +107,7 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
     }
   }
   std::ranges::sort(spectrum.frequencies);
+  if (!positive) spectrum.resonant = has_jordan_block(linear_flow(s), spectrum.frequencies);
   return spectrum;
 }
 

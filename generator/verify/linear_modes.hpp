@@ -14,6 +14,7 @@ struct LinearSpectrum {
   std::vector<double> frequencies;  // ascending
   int free_motions = 0;
   int growing = 0;
+  bool resonant = false;  // a double frequency with a Jordan block of A
   double growth_rate = 0.0;
   double largest = 0.0;  // of the absolute values of eigenvalues of A
 };

@@ -26,6 +26,12 @@ std::optional<QuadraticPart> quadratic_part(const Mechanics& mechanics, const Po
     const auto j = static_cast<std::size_t>(place.second);
     part.hessian[i * size + j] = part.hessian[j * size + i] = to_double(*value);
   }
+  // With 60 digits cos(pi/2) is not quite zero.
+  double largest = 0.0;
+  for (const double entry : part.hessian) largest = std::max(largest, std::abs(entry));
+  for (double& entry : part.hessian) {
+    if (std::abs(entry) < 1e-60 * largest) entry = 0.0;
+  }
   return part;
 }
 
@@ -52,6 +58,7 @@ std::string flow_text(const LinearStability& found) {
     add(fmt::format("{} free motion{}", found.free_motions, found.free_motions == 1 ? "" : "s"));
   if (found.growing > 0)
     add(fmt::format("{} growing, up to exp({:.6g} t)", found.growing, found.growth_rate));
+  if (found.resonant) add("a double frequency with a Jordan block, which grows like t");
   return text;
 }
 

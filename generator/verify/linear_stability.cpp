@@ -178,6 +178,10 @@ void decide_by_modes(const Modes& modes, const LinearStep& step, LinearStability
   const Matrix2d& s = modes.planes()[critical];
   const double w = std::sqrt(s.determinant());
   const MatrixXd m = step.matrix(result.h, s);
+  if (!m.allFinite()) {
+    result.detail = fmt::format("the step has no finite matrix for w = {:.6g}", w);
+    return;
+  }
   const double margin = margin_of(m, modes.symplectic());
   result.margin = margin;
   result.largest_h = first_below_zero([&](double h) { return modes.margin(h); }, kFirst / fastest,
@@ -276,6 +280,12 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
   find_iteration_radius(s, spectrum.largest, step, step_of_one, result);
   if (result.frequencies.empty()) {
     result.detail = "the flow has no oscillation here that a step could make unbounded";
+    return result;
+  }
+  if (spectrum.resonant) {
+    result.resonant = true;
+    result.detail =
+        "the flow itself grows like t: a frequency is double, with a Jordan block of A = J S";
     return result;
   }
   std::optional<Modes> modes;

@@ -25,6 +25,7 @@ struct LinearStability {
   std::vector<double> frequencies;  // w, ascending
   int free_motions = 0;             // degrees of freedom with w = 0
   int growing = 0;                  // degrees of freedom that leave exponentially
+  bool resonant = false;            // a double frequency with a Jordan block: growth like t
   double growth_rate = 0.0;         // the largest real part of an eigenvalue of A
 
   // Are the powers of M bounded on the oscillations?

@@ -43,8 +43,9 @@ using Proof = std::vector<Finding>;
 [[nodiscard]] Finding prove_shears(const Splitting& splitting);
 [[nodiscard]] Proof prove_composition(const Composition& composition, int order);
 [[nodiscard]] Proof prove_tableau(const RungeKutta& tableau, int order);
-// {I, H} = 0, and whether the scheme conserves I exactly.
-[[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Member& member);
+// {I, H} = 0, and whether the scheme conserves I exactly.  `hamiltonian` is H written out.
+[[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
+                                     const Scheme& scheme, bool swept);
 // The instructions of the program, substituted back into expressions, are the step's equations,
 // their derivatives, their solution and H.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,

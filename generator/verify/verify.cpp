@@ -1,24 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
 
 namespace {
-
-// A symplectic Runge-Kutta method conserves quadratic invariants (Cooper 1987; HLW IV.2.2), as the
-// member C = 0 does.
-Proof invariants_of_tableau(const Mechanics& mechanics) {
-  Proof proof = prove_invariants(mechanics, {.degrees_of_freedom = mechanics.degrees_of_freedom});
-  for (Finding& finding : proof) {
-    if (finding.property.ends_with("conserved by the step") && finding.verdict == Verdict::proved) {
-      finding.detail = "quadratic or linear, and the tableau is symplectic";
-    }
-  }
-  return proof;
-}
 
 Proof prove_member(const Mechanics& mechanics, const Member& member, std::optional<int> sweeps) {
   Proof proof{prove_gauge(member)};
@@ -30,7 +19,6 @@ Proof prove_member(const Mechanics& mechanics, const Member& member, std::option
   proof.push_back(prove_step_symplectic(member));
   proof.push_back(prove_symmetric(member));
   proof.push_back(prove_order(member));
-  for (Finding& finding : prove_invariants(mechanics, member)) proof.push_back(std::move(finding));
   return proof;
 }
 
@@ -39,19 +27,13 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, std::option
     const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
     return prove_splitting(*splitting, scheme.order, nystrom);
   }
-  Proof proof;
-  Proof invariants;
   if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
-    proof = prove_tableau(*tableau, scheme.order);
-    if (proof.front().verdict == Verdict::proved) invariants = invariants_of_tableau(mechanics);
-  } else if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
-    proof = prove_composition(*composition, scheme.order);
-    invariants = prove_invariants(mechanics, composition->base);
-  } else {
-    return prove_member(mechanics, scheme.member(), sweeps);
+    return prove_tableau(*tableau, scheme.order);
   }
-  proof.insert(proof.end(), invariants.begin(), invariants.end());
-  return proof;
+  if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    return prove_composition(*composition, scheme.order);
+  }
+  return prove_member(mechanics, scheme.member(), sweeps);
 }
 
 }  // namespace
@@ -59,6 +41,9 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, std::option
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
              const Expression& hamiltonian) {
   Proof proof = prove_method(mechanics, scheme, program.plan.sweeps);
+  const bool swept = program.plan.sweeps.has_value();
+  std::ranges::move(prove_invariants(mechanics, hamiltonian, scheme, swept),
+                    std::back_inserter(proof));
   proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
   return proof;
 }

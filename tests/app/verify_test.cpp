@@ -44,8 +44,12 @@ TEST(Verify, ProvesOfEveryShippedModelWhatHolds) {
     EXPECT_EQ(find(midpoint, "order 2").at("verdict"), "proved") << model;
     for (const Json& row : midpoint) {
       const std::string property = row.at("property");
+      if (is_adiabatic(model, property)) {
+        EXPECT_EQ(row.at("verdict"), "refuted") << model << ' ' << row;
+        continue;
+      }
       EXPECT_NE(row.at("verdict"), "refuted") << model << ' ' << row;
-      if (property.ends_with(" invariant") && !is_adiabatic(model, property)) {
+      if (property.ends_with(" invariant")) {
         EXPECT_EQ(row.at("verdict"), "proved") << model << ' ' << row;
       }
     }
