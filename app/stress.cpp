@@ -12,6 +12,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/plot.hpp"
+#include "app/stress_domain.hpp"
 #include "app/stress_grid.hpp"
 #include "app/stress_references.hpp"
 #include "app/terminal.hpp"
@@ -69,13 +70,24 @@ void run_all(const std::string& label, std::size_t count, bool quiet,
 }
 
 void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
-  std::vector<std::optional<runtime::InitialValues>> starts;
+  std::vector<runtime::InitialValues> starts(map.cells.size());
+  std::size_t undefined = 0;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     StressCell& cell = map.cells[i];
     const std::vector<double> at = map.place(i);
     std::ranges::copy(at, cell.at.begin());
-    starts.push_back(grid.start_at(at));
-    if (starts.back()) cell.h = starts.back()->h.hi;
+    try {
+      starts[i] = grid.start_at(at);
+    } catch (const ModelError& error) {
+      // A map of nothing but this one: then the model or the command is wrong.
+      if (++undefined == map.cells.size()) throw;
+      cell.outcome = StressOutcome::undefined;
+      cell.bounded = false;
+      cell.reason = error.diagnostics().front().message;
+      cell.state_missing = to_text(cell.outcome);
+      continue;
+    }
+    cell.h = starts[i].h.hi;
     if (const auto linear = grid.linear_at(at)) {
       cell.h_omega = linear->h_omega;
       cell.linear_bounded = linear->margin > 0.0;
@@ -87,13 +99,9 @@ void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, boo
   map.references = references.method();
   run_all(map.model, map.cells.size(), quiet, [&](std::size_t i) {
     StressCell& cell = map.cells[i];
-    if (starts[i]) {
-      const auto state = run_stress_cell(grid.library(), *starts[i], limits, cell);
-      references.compare(i, starts[i]->state, state, cell);
-    } else {
-      cell.outcome = StressOutcome::left_domain;
-      cell.state_missing = to_text(cell.outcome);
-    }
+    if (cell.outcome == StressOutcome::undefined) return;
+    const auto state = run_stress_cell(grid.library(), starts[i], limits, cell);
+    references.compare(i, starts[i].state, state, cell);
   });
 }
 
@@ -134,6 +142,7 @@ int run_stress(const StressOptions& options) {
   limits.reference_time = std::chrono::duration<double>(static_cast<double>(integer_value(
       "--reference-seconds " + options.reference_seconds, options.reference_seconds, 0)));
   StressGrid grid(options);
+  limits.defined_everywhere = is_defined_everywhere(grid.plugin().model);
   StressMap map = empty_map(grid, limits);
   run_cells(grid, limits, map, options.quiet);
   if (interrupt_flag()) {

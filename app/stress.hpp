@@ -24,13 +24,14 @@ enum class StressOutcome {
   left_domain,    // H or its gradient is not defined where the step went
   overflow,       // beyond the numbers there are
   out_of_time,    // the cell's time was over before its steps
+  undefined,      // the scene has no values here, or H none at its initial state: nothing was run
 };
-inline constexpr int kStressOutcomes = 7;
+inline constexpr int kStressOutcomes = 8;
 [[nodiscard]] std::string_view to_text(StressOutcome outcome);
 
 struct StressCell {
   std::array<double, 2> at = {};  // the axes' values
-  double h = 0.0;
+  std::optional<double> h;        // empty if undefined
   long steps_done = 0;
   StressOutcome outcome = StressOutcome::done;
   bool bounded = true;                // no component grew beyond 1000 times its size at the start
@@ -39,6 +40,7 @@ struct StressCell {
   std::optional<double> state_error;  // |z - z*| after all steps, Euclidean
   double state_scale = 0.0;           // the larger of |z| at the start and |z*|
   std::string state_missing;          // why there is no state error
+  std::string reason;                 // why it is undefined
   int iterations_median = 0;          // a step
   int iterations_max = 0;
   std::optional<double> h_omega;  // of the fastest linear oscillation at the initial state
@@ -49,6 +51,7 @@ struct StressLimits {
   long steps = 1000;
   std::chrono::duration<double> time{1.0};             // of a cell
   std::chrono::duration<double> reference_time{10.0};  // of all state errors
+  bool defined_everywhere = false;                     // what is not finite is an overflow
 };
 
 // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what

@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kBounded = 1e3;     // sizes, see Sizes
 constexpr double kFarAway = 1e6;     // likewise: farther than any bounded motion of interest
-constexpr double kHugeState = 1e50;  // likewise: beyond, a value that is not finite is an overflow
-constexpr double kJump = 10.0;       // energy scales
+constexpr double kHugeState = 1e50;  // likewise: beyond, a step that is not solved is an overflow
+// Likewise: beyond, all of where H may end is within the rounding of a double.
+constexpr double kNoDomain = 1e16;
+constexpr double kJump = 10.0;  // energy scales
 
 double largest_component(std::span<const double> state) {
   double largest = 0.0;
@@ -62,12 +64,13 @@ bool keeps_energy(const runtime::Library& library, const std::vector<double>& pa
   return std::isfinite(scale) && cell.energy_error <= small * std::max(scale, cell.energy_scale);
 }
 
-StressOutcome failure_of(runtime::Status status, double largest) {
+StressOutcome failure_of(runtime::Status status, double largest, bool defined_everywhere) {
   switch (status) {
     case runtime::Status::not_converged:
       return largest > kHugeState ? StressOutcome::overflow : StressOutcome::not_converged;
     case runtime::Status::not_finite:
-      return largest > kHugeState ? StressOutcome::overflow : StressOutcome::left_domain;
+      return defined_everywhere || largest > kNoDomain ? StressOutcome::overflow
+                                                       : StressOutcome::left_domain;
     case runtime::Status::done:
     case runtime::Status::stopped:
       break;
@@ -93,6 +96,8 @@ std::string_view to_text(StressOutcome outcome) {
       return "overflow";
     case StressOutcome::out_of_time:
       return "out of time";
+    case StressOutcome::undefined:
+      return "undefined";
   }
   internal_error("no such outcome");
 }
@@ -128,7 +133,8 @@ std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::
       // An orbit that reaches infinity in finite time ends so, however small the step.
       const bool escaped = largest > kBounded &&
                            keeps_energy(*library, parameters, integrator.rounded_state(), cell);
-      cell.outcome = escaped ? StressOutcome::escaped : failure_of(report.status, largest);
+      cell.outcome = escaped ? StressOutcome::escaped
+                             : failure_of(report.status, largest, limits.defined_everywhere);
       break;
     }
     ++cell.steps_done;

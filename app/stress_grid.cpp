@@ -138,9 +138,10 @@ StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(
         axis.label, options.method.model, near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   loaded_ = load_integrator(plugin_, "");
-  std::vector<double> first;
-  for (const StressAxis& axis : axes_) first.push_back(axis.values.front());
-  scene_ = scene_at(first);
+  const std::vector<Scene>& scenes = plugin_.model.scenes;
+  scene_name_ = !options_.scene.scene.empty() ? options_.scene.scene
+                : scenes.empty()              ? ""
+                                              : scenes.front().name;
 }
 
 SceneValues StressGrid::scene_at(const std::vector<double>& at) const {
@@ -166,17 +167,17 @@ SceneValues StressGrid::scene_at(const std::vector<double>& at) const {
   return scene;
 }
 
-std::optional<runtime::InitialValues> StressGrid::start_at(const std::vector<double>& at) const {
-  try {
-    return initial_values(plugin_, scene_at(at), *loaded_.library);
-  } catch (const ModelError&) {
-    return std::nullopt;
-  }
+runtime::InitialValues StressGrid::start_at(const std::vector<double>& at) const {
+  return initial_values(plugin_, scene_at(at), *loaded_.library);
 }
 
 std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double>& at) {
-  const auto start = start_at(at);
-  if (!start) return std::nullopt;
+  std::optional<runtime::InitialValues> start;
+  try {
+    start = start_at(at);
+  } catch (const ModelError&) {
+    return std::nullopt;
+  }
   std::vector<double> place;  // what omega depends on
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const std::string& name = axes_[i].label;

@@ -34,13 +34,14 @@ class StressGrid {
 
   [[nodiscard]] const std::vector<StressAxis>& axes() const { return axes_; }
   [[nodiscard]] const PluginSource& plugin() const { return plugin_; }
-  [[nodiscard]] const std::string& scene_name() const { return scene_.name; }
+  [[nodiscard]] const std::string& scene_name() const { return scene_name_; }
   [[nodiscard]] std::shared_ptr<const runtime::Library> library() const { return loaded_.library; }
 
-  // Empty if H or its gradient is not defined at the initial state.
-  [[nodiscard]] std::optional<runtime::InitialValues> start_at(const std::vector<double>& at) const;
-  // The scene with the axes' values in place of its own.
+  // The scene with the axes' values in place of its own.  Throws ModelError where an expression of
+  // the scene is not defined for them.
   [[nodiscard]] SceneValues scene_at(const std::vector<double>& at) const;
+  // Throws ModelError likewise, and if H or its gradient is not defined at the initial state.
+  [[nodiscard]] runtime::InitialValues start_at(const std::vector<double>& at) const;
   [[nodiscard]] const std::map<std::string, long>& sizes() const { return set_.sizes; }
 
   // h omega of the fastest linear oscillation and its margin, see
@@ -59,7 +60,7 @@ class StressGrid {
   SizesAndRest set_;
   PluginSource plugin_;
   runtime::LoadedPlugin loaded_;
-  SceneValues scene_;
+  std::string scene_name_;
   std::vector<StressAxis> axes_;
   std::map<std::vector<double>, std::optional<double>> omega_squared_;
 };

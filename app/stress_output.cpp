@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/stress.hpp"
 #include "runtime/csv_writer.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 // A digit d says an error of about 10^-d of its scale, + more than a tenth of it.
 char digit_of(double error, double scale) {
-  if (!(error > 0.0)) return '0';
+  if (error == 0.0) return '*';
   const double digits = -std::log10(error / scale);
   if (!(digits >= 1.0)) return '+';
   return digits >= 10.0 ? '*' : static_cast<char>('0' + static_cast<int>(digits));
@@ -35,6 +36,8 @@ char energy_mark(const StressCell& cell) {
       return 'o';
     case StressOutcome::out_of_time:
       return 't';
+    case StressOutcome::undefined:
+      return 'u';
   }
   return digit_of(cell.energy_error, cell.energy_scale);
 }
@@ -68,13 +71,44 @@ std::string states_text(const StressMap& map) {
   return known == 0 ? text : text + rows_text(map, state_mark);
 }
 
+// Each reason why cells are undefined, once.
+std::string reasons_text(const StressMap& map) {
+  std::set<std::string> reasons;
+  for (const StressCell& cell : map.cells) {
+    if (!cell.reason.empty()) reasons.insert(cell.reason);
+  }
+  std::string text;
+  for (const std::string& reason : reasons) text += fmt::format("    {}\n", reason);
+  return text;
+}
+
 std::string axis_text(const StressAxis& axis) {
   return fmt::format("{} from {:.4g} to {:.4g}{}", axis.label, axis.values.front(),
                      axis.values.back(), axis.logarithmic ? ", logarithmic" : "");
 }
 
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+bool was_run(const StressCell& cell) { return cell.outcome != StressOutcome::undefined; }
+
+// Empty of what was not run.
+std::optional<double> error_if_run(const StressCell& cell) {
+  return was_run(cell) ? std::optional(cell.energy_error) : std::nullopt;
+}
+
+std::optional<double> scale_if_run(const StressCell& cell) {
+  return was_run(cell) ? std::optional(cell.energy_scale) : std::nullopt;
+}
+
+std::string_view bounded_text(const StressCell& cell) {
+  return !was_run(cell) ? "" : cell.bounded ? "yes" : "no";
+}
+
+std::string number_or_empty(const std::optional<double>& value) {
+  return value ? runtime::number_text(*value) : "";
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)
+                                        : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace
@@ -87,7 +121,7 @@ std::string stress_text(const StressMap& map) {
   if (map.axes.size() > 1) text += "  down        " + axis_text(map.axes[1]) + "\n";
   text += "  energy      digits: error 10^-d of its scale; * below 1e-10, + above 0.1\n";
   text += rows_text(map, energy_mark);
-  constexpr std::array marks = {'.', 'j', 'e', 'n', 'd', 'o', 't'};
+  constexpr std::array marks = {'.', 'j', 'e', 'n', 'd', 'o', 't', 'u'};
   for (int i = 0; i < kStressOutcomes; ++i) {
     const auto outcome = static_cast<StressOutcome>(i);
     const auto count = std::ranges::count(map.cells, outcome, &StressCell::outcome);
@@ -95,6 +129,7 @@ std::string stress_text(const StressMap& map) {
     text += fmt::format("  {:<15} {} {:5}\n", to_text(outcome),
                         outcome == StressOutcome::done ? ' ' : marks[static_cast<std::size_t>(i)],
                         count);
+    if (outcome == StressOutcome::undefined) text += reasons_text(map);
   }
   int median = 0;
   int most = 0;
@@ -115,19 +150,18 @@ std::string stress_csv(const StressMap& map) {
   if (map.axes.size() > 1) text += "," + map.axes[1].label;
   text +=
       ",step_size,steps_done,outcome,bounded,energy_error,energy_scale,iterations_median,"
-      "iterations_max,h_omega,linear_bounded,state_error,state_scale,state_missing\n";
+      "iterations_max,h_omega,linear_bounded,state_error,state_scale,state_missing,reason\n";
   for (const StressCell& cell : map.cells) {
     text += runtime::number_text(cell.at[0]);
     if (map.axes.size() > 1) text += "," + runtime::number_text(cell.at[1]);
-    text += fmt::format(
-        ",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", runtime::number_text(cell.h), cell.steps_done,
-        to_text(cell.outcome), cell.bounded ? "yes" : "no", runtime::number_text(cell.energy_error),
-        runtime::number_text(cell.energy_scale), cell.iterations_median, cell.iterations_max,
-        cell.h_omega ? runtime::number_text(*cell.h_omega) : "",
-        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "",
-        cell.state_error ? runtime::number_text(*cell.state_error) : "",
-        cell.state_error ? runtime::number_text(cell.state_scale) : "",
-        runtime::csv_cell(cell.state_missing));
+    text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", number_or_empty(cell.h),
+                        cell.steps_done, to_text(cell.outcome), bounded_text(cell),
+                        number_or_empty(error_if_run(cell)), number_or_empty(scale_if_run(cell)),
+                        cell.iterations_median, cell.iterations_max, number_or_empty(cell.h_omega),
+                        cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "",
+                        number_or_empty(cell.state_error),
+                        cell.state_error ? runtime::number_text(cell.state_scale) : "",
+                        runtime::csv_cell(cell.state_missing), runtime::csv_cell(cell.reason));
   }
   return text;
 }
@@ -140,24 +174,25 @@ std::string stress_json(const StressMap& map) {
       at[map.axes[axis].label] = cell.at[axis];
     cells.push_back(
         {{"at", at},
-         {"h", cell.h},
+         {"h", number_or_null(cell.h)},
          {"steps_done", cell.steps_done},
          {"outcome", to_text(cell.outcome)},
-         {"bounded", cell.bounded},
-         {"energy_error", number_or_null(cell.energy_error)},
-         {"energy_scale", number_or_null(cell.energy_scale)},
+         {"bounded",
+          was_run(cell) ? nlohmann::ordered_json(cell.bounded) : nlohmann::ordered_json(nullptr)},
+         {"energy_error", number_or_null(error_if_run(cell))},
+         {"energy_scale", number_or_null(scale_if_run(cell))},
          {"iterations_median", cell.iterations_median},
          {"iterations_max", cell.iterations_max},
-         {"h_omega",
-          cell.h_omega ? number_or_null(*cell.h_omega) : nlohmann::ordered_json(nullptr)},
+         {"h_omega", number_or_null(cell.h_omega)},
          {"linear_bounded", cell.linear_bounded ? nlohmann::ordered_json(*cell.linear_bounded)
                                                 : nlohmann::ordered_json(nullptr)},
-         {"state_error", cell.state_error ? nlohmann::ordered_json(*cell.state_error)
-                                          : nlohmann::ordered_json(nullptr)},
+         {"state_error", number_or_null(cell.state_error)},
          {"state_scale", cell.state_error ? nlohmann::ordered_json(cell.state_scale)
                                           : nlohmann::ordered_json(nullptr)},
          {"state_missing", cell.state_error ? nlohmann::ordered_json(nullptr)
-                                            : nlohmann::ordered_json(cell.state_missing)}});
+                                            : nlohmann::ordered_json(cell.state_missing)},
+         {"reason", cell.reason.empty() ? nlohmann::ordered_json(nullptr)
+                                        : nlohmann::ordered_json(cell.reason)}});
   }
   const nlohmann::ordered_json json = {
       {"model", map.model}, {"scene", map.scene},           {"method", map.method},

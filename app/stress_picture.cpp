@@ -13,6 +13,7 @@ namespace {
 struct Shade {
   std::string_view colour;
   std::string_view label;
+  int hatching = 0;  // gnuplot's number of the pattern, on white; 0: all of the box is filled
 };
 
 // Errors relative to their scale, each shade for three powers of ten; light is good, so that
@@ -29,9 +30,11 @@ constexpr std::array<Shade, kStressOutcomes> kFailures = {{{"", ""},
                                                            {"#D55E00", "not converged"},
                                                            {"#CC79A7", "left the domain"},
                                                            {"#7F0000", "overflow"},
-                                                           {"#AAAAAA", "out of time"}}};
+                                                           {"#AAAAAA", "out of time"},
+                                                           {"#333333", "undefined", 2}}};
 
-constexpr Shade kUnknown = {"#F2F2F2", "not known"};
+// Hatched: neither the palest error nor a failure, in grey print too.
+constexpr Shade kUnknown = {"#555555", "not known", 6};
 constexpr std::size_t kAllShades = kShades.size() + kFailures.size();
 
 // Places in the list of shades, failures, unknown.
@@ -57,6 +60,10 @@ std::size_t state_shade(const StressCell& cell) {
 const Shade& shade(std::size_t i) {
   if (i < kShades.size()) return kShades[i];
   return i + 1 < kAllShades ? kFailures[i - kShades.size() + 1] : kUnknown;
+}
+
+std::string filling(const Shade& shade) {
+  return shade.hatching == 0 ? "fs solid 1" : fmt::format("fs pattern {}", shade.hatching);
 }
 
 using ShadeOf = std::size_t (*)(const StressCell&);
@@ -129,12 +136,13 @@ std::string panel_text(const StressMap& map, const StressAxis& down, const Panel
     }
     if (!data.empty()) {
       text += fmt::format("${}_{} << EOD\n{}EOD\n", panel.name, i, data);
-      plots.push_back(fmt::format(
-          "${}_{} using 1:2:3:4:5:6 with boxxyerror fs solid 1 noborder lc rgb '{}' notitle",
-          panel.name, i, shade(i).colour));
+      plots.push_back(
+          fmt::format("${}_{} using 1:2:3:4:5:6 with boxxyerror {} noborder lc rgb '{}' notitle",
+                      panel.name, i, filling(shade(i)), shade(i).colour));
     }
     if (i < key.size() && key[i])
-      plots.push_back(fmt::format("keyentry with boxes fs solid 1 noborder fc rgb '{}' title '{}'",
+      plots.push_back(fmt::format("keyentry with boxes {} {} fc rgb '{}' title '{}'",
+                                  filling(shade(i)), shade(i).hatching == 0 ? "noborder" : "border",
                                   shade(i).colour, shade(i).label));
   }
   if (!map.linear_bound.empty())

@@ -37,6 +37,10 @@ StressReferences::StressReferences(const StressGrid& grid, const StressMap& map,
   }
   method_ = "against a reference extrapolated in quad precision";
   for (std::size_t cell = 0; cell < map.cells.size(); ++cell) {
+    if (map.cells[cell].outcome == StressOutcome::undefined) {
+      places_.emplace_back();
+      continue;
+    }
     const std::vector<double> at = map.place(cell);
     std::vector<double> place;
     for (std::size_t i = 0; i < at.size(); ++i) {

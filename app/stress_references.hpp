@@ -15,6 +15,7 @@ namespace hamgen::app {
 // reference track an orbit, and an equal share of the time for each.
 class StressReferences {
  public:
+  // The cells that are undefined are marked so in the map.
   StressReferences(const StressGrid& grid, const StressMap& map, const StressLimits& limits);
 
   [[nodiscard]] std::size_t count() const { return orbits_.size(); }

@@ -14,12 +14,12 @@ NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
 }
 END {
   if (row) {
-    failed = outcome["not converged"] + outcome["left the domain"] + outcome["overflow"]
+    failed = outcome["not converged"] + outcome["left the domain"] + outcome["overflow"] + outcome["undefined"]
     printf "| %s | %d | %d | %d | %d | %d | %d | %d | %d |\n", title, cells, outcome["done"],
       outcome["jumped"], outcome["escaped"], failed + outcome["out of time"], bounded, median, most
     exit
   }
-  n = split("done;jumped;escaped;not converged;left the domain;overflow;out of time", names, ";")
+  n = split("done;jumped;escaped;not converged;left the domain;overflow;out of time;undefined", names, ";")
   for (i = 1; i <= n; ++i)
     if (outcome[names[i]]) text = text (text == "" ? "" : ", ") outcome[names[i]] " " names[i]
   printf "%d cells: %s. The state stayed bounded in %d", cells, text, bounded

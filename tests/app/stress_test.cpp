@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
@@ -79,6 +80,82 @@ TEST(Stress, EveryFailureIsAnOutcomeWithAName) {
         << cell;
     EXPECT_TRUE(cell.at("energy_error").is_number()) << cell;
   }
+}
+
+// A polynomial has no domain to leave: inf - inf of its terms is an overflow, long before a state
+// whose cube is 1e308 is itself beyond 1e50.  The reciprocal in `collapse` has one.
+TEST(Stress, WhatIsNotFiniteInAPolynomialIsAnOverflow) {
+  int overflows = 0;
+  for (const Json& cell :
+       cells_of({models + "stiff_fpu.ham", "--vary", "h=177.8279410038923:1000:2", "--vary",
+                 "w=170.1901334924234:300:2", "--steps", "300", "--scheme", "symplectic-euler-b",
+                 "--reference-seconds", "0"})) {
+    EXPECT_NE(cell.at("outcome"), "left the domain") << cell;
+    overflows += cell.at("outcome") == "overflow" ? 1 : 0;
+  }
+  EXPECT_EQ(overflows, 4);
+}
+
+TEST(Stress, WhereTheRootOfANegativeNumberIsMetTheDomainWasLeft) {
+  const Scratch scratch;
+  const std::string path =
+      scratch.write("edge.ham",
+                    "system edge\ncoordinate q\nmomentum p\nH = p^2/2 + q - sqrt(1 - q)\n"
+                    "scene s {\n  q = 0\n  p = 20\n  h = 0.1\n  steps = 10\n}\n");
+  for (const Json& cell :
+       cells_of({path, "--vary", "h=1:2:2", "--steps", "1000", "--scheme", "symplectic-euler-a"}))
+    EXPECT_EQ(cell.at("outcome"), "left the domain") << cell;
+}
+
+// The Kepler scene begins at p2 = sqrt((1 + e)/(1 - e)): no ellipse from e = 1 on.
+TEST(Stress, ValuesThatTheSceneDoesNotAllowAreAnOutcomeOfTheirCells) {
+  const Json cells = cells_of({models + "kepler.ham", "--vary", "e=0:2:5", "--vary", "h=0.1:10:3",
+                               "--steps", "10", "--reference-seconds", "1"});
+  ASSERT_EQ(cells.size(), 15u);
+  for (const Json& cell : cells) {
+    const double e = cell.at("at").at("e");
+    EXPECT_EQ(cell.at("outcome") == "undefined", e >= 1.0) << cell;
+    EXPECT_EQ(cell.at("reason").is_null(), e < 1.0) << cell;
+    EXPECT_EQ(cell.at("energy_error").is_null(), e >= 1.0) << cell;
+    EXPECT_EQ(cell.at("reason") == "division by zero", e == 1.0) << cell;
+    EXPECT_EQ(cell.at("state_error").is_null(), e >= 1.0) << cell;
+  }
+  // Nothing but that is an error of the command.
+  const Result none = hamgen({"stress", models + "kepler.ham", "--vary", "e=1:2:5"});
+  EXPECT_EQ(none.status, 3) << none.err;
+  EXPECT_TRUE(contains(none.err, "kepler.ham:19")) << none.err;
+}
+
+// At rest in the equilibrium every step is exact, and that is no error of 10^0.
+TEST(Stress, AnErrorOfExactlyZeroIsDrawnAsTheBest) {
+  const Result result =
+      hamgen({"stress", models + "pendulum.ham", "--scene", "libration_08", "--initial", "q=0,p=0",
+              "--vary", "h=1:2:3", "--steps", "10", "--quiet"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, " ***\n")) << result.out;
+  EXPECT_FALSE(contains(result.out, " 000\n")) << result.out;
+}
+
+// In print a cell of which nothing is known may not look like a perfect one: hatched, all others
+// plain.  q' = q^2 from 1 is infinite at t = 1; three explicit steps of 0.5 do not notice.
+TEST(Stress, AnUnknownCellIsDrawnUnlikeAnyOther) {
+  const Scratch scratch;
+  const std::string path =
+      scratch.write("ends.ham",
+                    "system ends\ncoordinate q\nmomentum p\nH = p*q^2\n"
+                    "scene s {\n  q = 1\n  p = 1\n  h = 0.5\n  steps = 10\n}\n");
+  const Result result = hamgen({"stress", path, "--vary", "h=0.1:1:2", "--steps", "3", "--scheme",
+                                "symplectic-euler-a", "--quiet", "--plot", scratch.path("m.svg")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "known in 1 of 2 cells")) << result.out;
+  std::istringstream script(read(scratch.path("m.gp")));
+  int hatched = 0;
+  for (std::string line; std::getline(script, line);) {
+    if (!contains(line, "keyentry with boxes")) continue;
+    EXPECT_EQ(contains(line, "fs pattern"), contains(line, "'not known'")) << line;
+    hatched += contains(line, "fs pattern") ? 1 : 0;
+  }
+  EXPECT_EQ(hatched, 1);
 }
 
 TEST(Stress, AnEscapeIsNotAFailureOfTheStep) {
