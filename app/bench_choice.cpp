@@ -1,7 +1,6 @@
 #include "app/bench_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hamgen::app {
 
@@ -35,36 +34,6 @@ std::optional<std::size_t> quickest_within(const std::vector<BenchRow>& rows, Ob
     if (*error_of(rows[i], observed) <= target) return i;
   }
   return {};
-}
-
-std::optional<double> step_for_target(const std::vector<BenchRow>& rows, std::size_t method,
-                                      Observed observed, double target) {
-  struct Sample {
-    double h = 0.0;
-    double error = 0.0;
-  };
-  std::vector<Sample> samples;  // by falling h
-  for (const BenchRow& row : rows) {
-    const std::optional<double> error = error_of(row, observed);
-    if (row.method == method && error && *error > 0.0)
-      samples.push_back({std::fabs(to_double(row.h)), *error});
-  }
-  std::ranges::sort(samples, std::ranges::greater{}, &Sample::h);
-  if (samples.size() < 2) return {};
-  const auto good = std::ranges::find_if(
-      samples, [target](const Sample& sample) { return sample.error <= target; });
-  const bool found = good != samples.end();
-  const bool first = good == samples.begin();
-  const Sample& fine = first ? samples[1] : found ? *good : samples.back();
-  const Sample& coarse = first ? samples[0] : found ? *(good - 1) : samples[samples.size() - 2];
-  const double power = std::log(coarse.error / fine.error) / std::log(coarse.h / fine.h);
-  if (power < 0.5) return {};  // round-off, or no convergence yet
-  const double h = coarse.h * std::pow(target / coarse.error, 1.0 / power);
-  constexpr double safety = 0.97;
-  constexpr double furthest = 64.0;  // below the measured steps
-  constexpr double largest = 8.0;    // times the largest of them
-  if (h * furthest < fine.h) return {};
-  return safety * std::min(h, largest * samples.front().h);
 }
 
 }  // namespace hamgen::app

@@ -23,11 +23,4 @@ enum class Observed { energy, state };
 [[nodiscard]] std::optional<std::size_t> quickest_within(const std::vector<BenchRow>& rows,
                                                          Observed observed, double target);
 
-// A step size between the measured ones of a method (or up to 64 times below, 8 times above), with
-// which its error should just reach the target: the errors are interpolated as powers of h.  Empty
-// if the errors do not fall with h.
-[[nodiscard]] std::optional<double> step_for_target(const std::vector<BenchRow>& rows,
-                                                    std::size_t method, Observed observed,
-                                                    double target);
-
 }  // namespace hamgen::app

@@ -127,8 +127,8 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
     row.energy_spread = summary.energy->spread();
   }
   if (!reference.state.empty()) row.state_error = distance(integrator.state(), reference.state);
-  const double once = timed_run(method, start, row.steps);
-  row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / once), 1.0, 1e5));
+  row.once = timed_run(method, start, row.steps);
+  row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
 }
 
 void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row) {

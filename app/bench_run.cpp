@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/bench_refine.hpp"
 #include "app/command_line.hpp"
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
@@ -144,30 +145,33 @@ std::vector<BenchMethod> methods_of(const BenchRequest& options, const Setting& 
   return methods;
 }
 
-ReferenceSolution reference_with_bar(const BenchRequest& options, const Setting& setting) {
+// For work of which a fraction is known.
+std::function<void(double)> fraction_bar(runtime::ProgressBar& bar, bool quiet) {
   constexpr double parts = 1000.0;
-  runtime::ProgressBar bar("reference");
-  const auto begin = std::chrono::steady_clock::now();
-  ReferenceRequest request{.sizes = setting.base.sizes, .compiler = options.compiler};
-  request.on_progress = [&](double part) {
+  if (quiet) return [](double) {};
+  return [&bar, begin = std::chrono::steady_clock::now()](double part) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (!options.quiet)
-      bar.update({.steps_done = static_cast<long long>(parts * part),
-                  .steps = static_cast<long long>(parts),
-                  .seconds = seconds,
-                  .show_rate = false});
+    bar.update({.steps_done = static_cast<long long>(parts * part),
+                .steps = static_cast<long long>(parts),
+                .seconds = seconds,
+                .show_rate = false});
   };
+}
+
+ReferenceSolution reference_with_bar(const BenchRequest& options, const Setting& setting) {
+  runtime::ProgressBar bar("reference");
+  ReferenceRequest request{.sizes = setting.base.sizes, .compiler = options.compiler};
+  request.on_progress = fraction_bar(bar, options.quiet);
   return reference_solution(setting.source, setting.scene, setting.time, request);
 }
 
-void measure_all_errors(const BenchRequest& options, const Setting& setting, Bench& bench,
-                        std::size_t first) {
+void measure_all_errors(const BenchRequest& options, const Setting& setting, Bench& bench) {
   long long all = 0;
-  for (std::size_t i = first; i < bench.rows.size(); ++i) all += bench.rows[i].steps;
+  for (const BenchRow& row : bench.rows) all += row.steps;
   Work work("errors", all, options.quiet);
-  for (std::size_t i = first; i < bench.rows.size() && !interrupt_flag(); ++i) {
-    BenchRow& row = bench.rows[i];
+  for (BenchRow& row : bench.rows) {
+    if (interrupt_flag()) return;
     measure_errors(bench.methods[row.method], setting.scene, bench.reference, row);
     work.done(row.steps);
   }
@@ -189,15 +193,24 @@ void measure_all_times(const BenchRequest& options, const Setting& setting, Benc
   }
 }
 
-void add_steps_for_target(const Setting& setting, Bench& bench, double target) {
-  for (std::size_t m = 0; m < bench.methods.size(); ++m) {
-    const auto h = step_for_target(bench.rows, m, bench.observed, target);
-    if (!h) continue;
-    const double direction = setting.time > 0 ? 1.0 : -1.0;
-    const double steps = to_double(setting.time) * direction / *h;
-    if (steps > static_cast<double>(kMostSteps) || steps < 1.0) continue;
-    bench.rows.push_back(row_of(m, setting.time, from_double(direction * *h)));
-  }
+// No step is finer than a 64th of the finest that was asked for.
+void add_steps_for_target(const BenchRequest& options, const Setting& setting, Bench& bench,
+                          double target) {
+  constexpr double furthest = 64;
+  const double length = std::fabs(to_double(setting.time));
+  double least = HUGE_VAL;
+  for (const Rational& h : setting.steps) least = std::min(least, std::fabs(to_double(h)));
+  runtime::ProgressBar bar("target");
+  add_refined_rows(bench, {.target = target,
+                           .time = setting.time,
+                           .finest = std::max(least / furthest, length / kMostSteps),
+                           .measure =
+                               [&](BenchRow& row) {
+                                 measure_errors(bench.methods[row.method], setting.scene,
+                                                bench.reference, row);
+                                 return !interrupt_flag();
+                               },
+                           .on_progress = fraction_bar(bar, options.quiet)});
 }
 
 }  // namespace
@@ -224,12 +237,8 @@ Bench run_bench(const BenchRequest& options) {
                     bench.reference.failure));
     bench.observed = Observed::energy;
   }
-  measure_all_errors(options, setting, bench, 0);
-  if (target > 0.0) {
-    const std::size_t first = bench.rows.size();
-    add_steps_for_target(setting, bench, target);
-    measure_all_errors(options, setting, bench, first);
-  }
+  measure_all_errors(options, setting, bench);
+  if (target > 0.0) add_steps_for_target(options, setting, bench, target);
   measure_all_times(options, setting, bench);
   if (target > 0.0) {
     bench.answer =

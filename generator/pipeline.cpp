@@ -373,6 +373,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
     plugin.scheme_name = stages.equations.scheme.description;
     if (request.order > 0) plugin.scheme_name += fmt::format(", order {}", request.order);
   }
+  plugin.order = stages.equations.scheme.order;
   plugin.solver = stages.plan.solver;
   plugin.left_out = stages.plan.left_out;
   for (const Quantity& parameter : stages.mechanics.parameters) {

@@ -78,6 +78,7 @@ struct PluginSource {
   std::string text;                          // one translation unit, self-contained
   std::string header_text;                   // the same mathematics as a header for the user
   std::string scheme_name;                   // "implicit-midpoint", "alpha = 3/10, ..."
+  int order = 1;                             // of the method
   std::string solver;                        // "Newton of size 1, ..." one line
   std::vector<std::string> left_out;         // what the planner left out and why
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
