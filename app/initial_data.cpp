@@ -108,13 +108,14 @@ std::vector<double> rounded(const std::vector<runtime::Wide>& values) {
   return result;
 }
 
-SceneValues complete_scene(const Model& model, const SceneRequest& request) {
+SceneValues complete_scene(const Model& model, const SceneRequest& request, const char* length) {
   const std::string& path = model.source.path;
   if (model.scenes.empty() && request.initial.empty() && degrees_of_freedom(model) > 0)
-    throw UsageError(fmt::format(
-        "{} has no scene and no --initial is given: no initial state\n"
-        "help: for example --initial {}=0.1,{}=0 --h 0.01 --steps 1000",
-        path, element_names(model.coordinates).front(), element_names(model.momenta).front()));
+    throw UsageError(
+        fmt::format("{} has no scene and no --initial is given: no initial state\n"
+                    "help: for example --initial {}=0.1,{}=0 --h 0.01 {}",
+                    path, element_names(model.coordinates).front(),
+                    element_names(model.momenta).front(), length));
   SceneValues values = scene_values(model, request);
   const std::string where = values.name.empty() ? path : fmt::format("scene '{}'", values.name);
   if (!values.h)
@@ -122,7 +123,7 @@ SceneValues complete_scene(const Model& model, const SceneRequest& request) {
         fmt::format("{} has no step size\nhelp: give one, for example --h 0.01", where));
   if (!values.steps)
     throw UsageError(
-        fmt::format("{} has no number of steps\nhelp: give one, for example --steps 1000", where));
+        fmt::format("{} does not say how long\nhelp: give it, for example {}", where, length));
   return values;
 }
 

@@ -13,8 +13,10 @@
 namespace hamgen::app {
 
 // The scene's values with the user's changes, of a run that has an initial state, h and steps.
-// Throws UsageError with an example if something is missing.
-[[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request);
+// Throws UsageError with an example if something is missing;
+// `length` says how this command is told how long a run is.
+[[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request,
+                                         const char* length = "--steps 1000");
 
 // A locally exact gauge is taken at the run's own initial state and parameters, where the user has
 // not said otherwise: what differs from the origin and the model's defaults is added to the

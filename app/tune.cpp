@@ -30,7 +30,7 @@ struct TuneOptions {
   std::string h, time, compiler, scalar, map, map_beta, map_gamma;
   std::string form = "scalar";
   std::string samples = "1000";
-  std::string grid = "41";
+  std::string grid;
   bool polish = false;
   bool json = false;
   bool quiet = false;
@@ -73,13 +73,13 @@ TuneSetting tune_setting(const TuneOptions& options) {
   if (setting.shape.n == 0) throw UsageError(fmt::format("{} has no coordinates", options.model));
   if (!options.time.empty()) setting.request.steps = "1";
   if (options.h.empty()) {
-    setting.scene = complete_scene(model, setting.request);
+    setting.scene = complete_scene(model, setting.request, "--time 10");
     setting.time = *setting.scene.h * *setting.scene.steps;
   } else {
     // The scene's own time, if it has one, whatever h is.
     const SceneValues own = scene_values(model, setting.request);
     setting.request.h = options.h;
-    setting.scene = complete_scene(model, setting.request);
+    setting.scene = complete_scene(model, setting.request, "--time 10");
     setting.time = own.h.value_or(*setting.scene.h) * *setting.scene.steps;
   }
   const Rational h = *setting.scene.h;
@@ -111,6 +111,49 @@ std::function<void(double)> bar_of(runtime::ProgressBar& bar, bool quiet) {
   };
 }
 
+struct MapRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+struct MapOptions {
+  int cells = 0;  // a side
+  std::optional<MapRange> beta, gamma;
+};
+
+std::optional<MapRange> range_option(const std::string& option, const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos)
+    throw UsageError(fmt::format("{} {}: write LOW:HIGH", option, text));
+  const MapRange range = {to_double(constant_option(option, text.substr(0, colon))),
+                          to_double(constant_option(option, text.substr(colon + 1)))};
+  if (!(range.low < range.high))
+    throw UsageError(fmt::format("{} {}: LOW is below HIGH", option, text));
+  return range;
+}
+
+MapOptions map_options_of(const TuneOptions& options) {
+  if (options.map.empty()) {
+    for (const auto& [name, value] :
+         {std::pair{"--grid", &options.grid}, std::pair{"--map-beta", &options.map_beta},
+          std::pair{"--map-gamma", &options.map_gamma}}) {
+      if (!value->empty())
+        throw UsageError(fmt::format("{} {}: of which map?\nhelp: add --map FILE", name, *value));
+    }
+    return {};
+  }
+  const std::string ending = std::filesystem::path(options.map).extension().string();
+  if (!ending.empty() && ending != ".png" && ending != ".svg")
+    throw UsageError(fmt::format("--map {}: the name ends in .svg or .png", options.map));
+  const std::string grid = options.grid.empty() ? "41" : options.grid;
+  const long cells = integer_value("--grid " + grid, grid, 2);
+  if (cells > 1000) throw UsageError(fmt::format("--grid {}: at most 1000 cells a side", grid));
+  return {.cells = static_cast<int>(cells),
+          .beta = range_option("--map-beta", options.map_beta),
+          .gamma = range_option("--map-gamma", options.map_gamma)};
+}
+
 class Tuner {
  public:
   Tuner(const TuneOptions& options, const TuneSetting& setting)
@@ -135,7 +178,7 @@ class Tuner {
     report_.rank = flat.rank;
     add("implicit midpoint", std::vector<double>(setting_.shape.size(), 0.0));
     add("tuned", flat.coefficients);
-    if (options_.polish) polish_last();
+    if (options_.polish) polish_all();
     Request request = setting_.base;
     const GaugeTexts texts =
         gauge_texts(setting_.shape, number_texts(report_.gauges.back().coefficients));
@@ -146,11 +189,10 @@ class Tuner {
   }
 
   // The plane around the analytic pair: from 0 to twice its values, or as far as was asked.
-  [[nodiscard]] EnergyMap map() const {
+  [[nodiscard]] EnergyMap map(const MapOptions& wanted) const {
     const std::vector<double>& pair = report_.gauges[1].coefficients;
-    const MapAxis b =
-        axis("--map-beta", options_.map_beta, pair[0], std::fabs(orbit_.initial_energy));
-    const MapAxis c = axis("--map-gamma", options_.map_gamma, pair[1], 1.0);
+    const MapAxis b = axis(wanted.beta, wanted.cells, pair[0], std::fabs(orbit_.initial_energy));
+    const MapAxis c = axis(wanted.gamma, wanted.cells, pair[1], 1.0);
     runtime::ProgressBar bar("map");
     const auto progress = bar_of(bar, options_.quiet);
     const double cells = static_cast<double>(b.count) * c.count;
@@ -201,42 +243,53 @@ class Tuner {
     report_.gauges.push_back(std::move(gauge));
   }
 
-  void polish_last() {
-    const std::vector<double> start = report_.gauges.back().coefficients;
-    // The next term of the energy is O(h^2) smaller: the best coefficients are near.
-    std::vector<double> steps = start;
-    double largest = 0.0;
-    for (const double x : start) largest = std::max(largest, std::fabs(x));
-    for (double& x : steps) x = 1e-3 * (x != 0.0 ? std::fabs(x) : largest);
-    if (largest == 0.0) return;
+  // From the narrowest form on, each from the better of its own fit and of the form before: a wider
+  // form never ends worse than one that it contains.
+  void polish_all() {
+    std::vector<double> best = report_.gauges.back().coefficients;
     const auto spread = [this](const std::vector<double>& coefficients) {
       const Measurement measured = integrator_.measure(coefficients, h_, setting_.steps);
       return measured.failure.empty() ? measured.energy_spread : HUGE_VAL;
     };
-    const Polished polished = polish(spread, start, steps, 200 * static_cast<int>(start.size()));
-    report_.evaluations = polished.evaluations;
-    add("polished", polished.coefficients);
+    std::optional<GaugeShape> before;
+    for (const GaugeForm form : {GaugeForm::scalar, GaugeForm::diagonal, GaugeForm::matrix}) {
+      if (form > setting_.shape.form) break;
+      const GaugeShape shape = {.form = form, .n = setting_.shape.n};
+      if (before && shape.size() == before->size()) continue;
+      const auto value = [&](const std::vector<double>& coefficients) {
+        return spread(widened(shape, coefficients, setting_.shape));
+      };
+      std::vector<double> start = fit_gauge(orbit_, shape).coefficients;
+      if (before) {
+        std::vector<double> narrow = widened(*before, best, shape);
+        if (!(value(start) < value(narrow))) start = std::move(narrow);
+      }
+      const Polished polished = polish_from(value, start);
+      best = polished.coefficients;
+      report_.evaluations += polished.evaluations;
+      report_.polish_ended = polished.ended;
+      before = shape;
+    }
+    add("polished", widened(*before, best, setting_.shape));
   }
 
-  [[nodiscard]] MapAxis axis(const std::string& option, const std::string& text, double tuned,
-                             double scale) const {
-    MapAxis result;
-    result.count = static_cast<int>(integer_value("--grid " + options_.grid, options_.grid, 2));
-    if (result.count > 1000) throw UsageError("--grid: at most 1000 cells a side");
-    if (text.empty()) {
-      const double end = tuned != 0.0 ? 2 * tuned : scale / 6;
-      result.low = std::min(0.0, end);
-      result.high = std::max(0.0, end);
-      return result;
-    }
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos)
-      throw UsageError(fmt::format("{} {}: write LOW:HIGH", option, text));
-    result.low = to_double(constant_option(option, text.substr(0, colon)));
-    result.high = to_double(constant_option(option, text.substr(colon + 1)));
-    if (!(result.low < result.high))
-      throw UsageError(fmt::format("{} {}: LOW is below HIGH", option, text));
-    return result;
+  static Polished polish_from(const std::function<double(const std::vector<double>&)>& value,
+                              const std::vector<double>& start) {
+    constexpr int most_runs = 400;  // a coefficient
+    // The next term of the energy is O(h^2) smaller: the best coefficients are near.
+    double largest = 0.0;
+    for (const double x : start) largest = std::max(largest, std::fabs(x));
+    if (largest == 0.0) return {.coefficients = start, .ended = true};
+    std::vector<double> steps = start;
+    for (double& x : steps) x = 1e-3 * (x != 0.0 ? std::fabs(x) : largest);
+    return polish(value, start, steps, most_runs * static_cast<int>(start.size()));
+  }
+
+  [[nodiscard]] static MapAxis axis(const std::optional<MapRange>& range, int cells, double tuned,
+                                    double scale) {
+    if (range) return {.low = range->low, .high = range->high, .count = cells};
+    const double end = tuned != 0.0 ? 2 * tuned : scale / 6;
+    return {.low = std::min(0.0, end), .high = std::max(0.0, end), .count = cells};
   }
 
   const TuneOptions& options_;
@@ -280,6 +333,7 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
 }
 
 int run_tune(const TuneOptions& options) {
+  const MapOptions map_options = map_options_of(options);
   const TuneSetting setting = tune_setting(options);
   if (!options.map.empty() && setting.shape.form != GaugeForm::scalar && setting.shape.n > 1)
     throw UsageError("--map draws one beta and one gamma: --gauge-form scalar");
@@ -289,7 +343,7 @@ int run_tune(const TuneOptions& options) {
   if (!report) return numerical_failure;
   print(options.json ? tune_json(*report) : tune_text(*report));
   if (!options.map.empty()) {
-    const EnergyMap map = tuner.map();
+    const EnergyMap map = tuner.map(map_options);
     if (interrupt_flag()) {
       print_error("hamgen: stopped; no map was written\n");
       return interrupted;

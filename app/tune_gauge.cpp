@@ -70,6 +70,22 @@ SquareMatrix block_of(const GaugeShape& shape, const std::vector<double>& coeffi
   return block;
 }
 
+std::vector<double> widened(const GaugeShape& from, const std::vector<double>& coefficients,
+                            const GaugeShape& to) {
+  std::vector<double> result;
+  for (const bool is_gamma : {false, true}) {
+    const SquareMatrix block = block_of(from, coefficients, is_gamma);
+    const std::size_t n = to.form == GaugeForm::scalar ? 1 : block.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      result.push_back(block[i][i]);
+      if (to.form != GaugeForm::matrix) continue;
+      result.insert(result.end(), block[i].begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                    block[i].end());
+    }
+  }
+  return result;
+}
+
 std::vector<double> energy_terms(const GaugeShape& shape, const std::vector<double>& gradient) {
   const std::size_t n = number_of(shape);
   const std::size_t block = shape.block_size();

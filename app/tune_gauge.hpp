@@ -26,6 +26,11 @@ using SquareMatrix = std::vector<std::vector<double>>;
 [[nodiscard]] SquareMatrix block_of(const GaugeShape& shape,
                                     const std::vector<double>& coefficients, bool is_gamma);
 
+// The same B and G in a wider form, one that contains `from`.
+[[nodiscard]] std::vector<double> widened(const GaugeShape& from,
+                                          const std::vector<double>& coefficients,
+                                          const GaugeShape& to);
+
 // The functions of the energy's h^2 term that the coefficients multiply, at a state with this
 // gradient (H_q, then H_p): (1/2) grad H^T C1 J grad H = (1/2) (H_q^T G H_q - H_p^T B H_p).
 [[nodiscard]] std::vector<double> energy_terms(const GaugeShape& shape,

@@ -62,7 +62,8 @@ Polished polish(const std::function<double(const std::vector<double>&)>& functio
       best.value = value;
       best.coefficients = problem.coefficients(x.data());
     }
-    if (!(best.value < 0.99 * before)) break;
+    best.ended = best.evaluations < most_evaluations && !(best.value < 0.99 * before);
+    if (best.ended) break;
     size /= 10;
   }
   return best;

@@ -10,6 +10,7 @@ struct Polished {
   std::vector<double> coefficients;
   double value = 0.0;
   int evaluations = 0;
+  bool ended = false;  // at a minimum, not at the limit of the evaluations
 };
 
 // Nelder and Mead's simplex method (NLopt) from `start`, whose k-th coefficient first moves by

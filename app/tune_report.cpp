@@ -129,8 +129,12 @@ std::string tune_text(const TuneReport& report) {
     text += fmt::format("  no state errors: {}\n", report.reference_failure);
   text += fmt::format("  verdict     {}\n", verdict_of(report));
   if (report.evaluations > 0)
-    text += fmt::format("  polished    with {} runs, for this h: another h has other best values\n",
-                        report.evaluations);
+    text +=
+        fmt::format("  polished    with {} runs, for this h: another h has other best values{}\n",
+                    report.evaluations,
+                    report.polish_ended ? ""
+                                        : ";\n              stopped there, the most that are "
+                                          "allowed: not yet at a minimum");
   return text + fmt::format("  use         {}\n", report.command);
 }
 
@@ -164,6 +168,7 @@ std::string tune_json(const TuneReport& report) {
                      {"gain", tune_json_number(report.gain())},
                      {"worth_while", report.gain().value_or(0.0) >= kWorthTuning},
                      {"evaluations", report.evaluations},
+                     {"polish_ended", report.polish_ended},
                      {"command", report.command}};
   return json.dump(2) + "\n";
 }

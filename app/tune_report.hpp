@@ -30,6 +30,7 @@ struct TuneReport {
   double initial_energy = 0.0;
   std::vector<TunedGauge> gauges;  // the midpoint rule first, the best last
   int evaluations = 0;             // of the polishing
+  bool polish_ended = true;        // at a minimum, not at the most runs that are allowed
   std::string reference_failure;   // why there are no state errors
   std::string command;             // `hamgen generate` with the last gauge
 

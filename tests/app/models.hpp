@@ -18,6 +18,16 @@ scene swing {
 }
 )";
 
+// Its scene has neither a step size nor steps.
+inline constexpr std::string_view without_steps = R"(system no_steps
+coordinate q
+momentum p
+H = p^2/2 - cos(q)
+scene start {
+  q = 1
+}
+)";
+
 // Two separate parts and an invariant; no scene.
 inline constexpr std::string_view two_oscillators = R"(system two_oscillators
 coordinate x, y

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
 
 namespace hamgen::app_test {
 namespace {
@@ -68,6 +69,24 @@ TEST(Tune, PolishingReachesTheBestPairKnown) {
   EXPECT_NEAR(coefficient(best, "beta"), -2.497814259e-3, 2e-12);
   EXPECT_NEAR(coefficient(best, "gamma"), -0.08333208388, 2e-10);
   EXPECT_NEAR(best["energy_spread"].get<double>(), 9.4e-13, 0.05e-13);
+}
+
+// Each form contains the one before, and the same compiled step measures them all.
+TEST(Tune, AWiderFormPolishesNoWorseThanANarrowerOne) {
+  double before = HUGE_VAL;
+  for (const char* form : {"scalar", "diagonal", "matrix"}) {
+    const json result = tuned(
+        {kHenonHeiles, "--time", "100", "--samples", "200", "--polish", "--gauge-form", form});
+    const double spread = result["gauges"].back()["energy_spread"];
+    // A scalar's step is compiled to sums that round otherwise than those of a matrix: some units
+    // of 2^-53 of H = 1/12, as in the test below.
+    EXPECT_LE(spread, before + 1e-15) << form;
+    before = spread;
+    const bool ended = result["polish_ended"];
+    const Result text = hamgen({"tune", kHenonHeiles, "--time", "100", "--samples", "200",
+                                "--polish", "--gauge-form", form, "--quiet"});
+    EXPECT_EQ(contains(text.out, "not yet at a minimum"), !ended) << text.out;
+  }
 }
 
 TEST(Tune, SaysThatItIsWorthNothingWhereTheGainIsSmall) {
@@ -140,6 +159,20 @@ TEST(Tune, RefusesWhatMakesNoSense) {
   refused({kPendulum, "--time", "-10"}, "give another --time or --h");
   refused({kPendulum, "--samples", "2"}, "--samples 2");
   refused({kHenonHeiles, "--map", "m.png", "--gauge-form", "matrix"}, "--gauge-form scalar");
+  // Before anything is computed: nothing is printed.
+  refused({kPendulum, "--map", "m.png", "--grid", "0"}, "--grid 0");
+  refused({kPendulum, "--map", "m.png", "--map-beta", "1:0"}, "LOW is below HIGH");
+  refused({kPendulum, "--map", "m.pdf"}, "the name ends in .svg or .png");
+  refused({kPendulum, "--grid", "5"}, "add --map FILE");
+  refused({kPendulum, "--map-gamma", "0:1"}, "add --map FILE");
+}
+
+TEST(Tune, NamesItsOwnOptionForTheTime) {
+  const Scratch scratch;
+  const Result result = hamgen({"tune", scratch.write("m.ham", without_steps), "--h", "0.1"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "--time 10")) << result.err;
+  EXPECT_FALSE(contains(result.err, "--steps")) << result.err;
 }
 
 }  // namespace
