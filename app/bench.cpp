@@ -44,7 +44,7 @@ void write_files(const BenchOptions& options, const Bench& bench) {
   const fs::path directory = options.output;
   write(directory / "bench.csv", csv_text(bench));
   write(directory / "bench.json", json_text(bench));
-  if (options.plot.empty()) draw(directory / "bench.svg", directory / "bench.gp");
+  draw(directory / "bench.svg", directory / "bench.gp");
 }
 
 int bench(const BenchOptions& options) {

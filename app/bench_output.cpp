@@ -135,12 +135,14 @@ std::string table_text(const Bench& bench) {
 
 std::string csv_text(const Bench& bench) {
   std::string text = fmt::format(
-      "# made by   hamgen {}\n# model     {}\n# time      {}\n# reference {}\n# compiler  {}\n"
+      "# made by   hamgen {}\n# model     {}\n# time      {}\n# reference {}\n"
+      "# machine   {}\n# compiler  {}\n# flags     {}\n# date      {}\n"
       "scheme,h,steps,outcome,s_per_time,time_spread,ns_per_step,iterations_per_step,"
       "gradients_per_step,"
       "max_energy_error,energy_spread,state_error",
       HAMGEN_VERSION, bench.path, runtime::number_text(bench.time), reference_text(bench),
-      bench.compiler);
+      bench.provenance.machine, bench.provenance.compiler, bench.provenance.flags,
+      bench.provenance.date);
   std::vector<std::string> names;
   for (const BenchMethod& method : bench.methods) {
     if (method.refusal.empty()) names = method.plugin.invariant_names;
@@ -172,7 +174,10 @@ std::string json_text(const Bench& bench) {
       {"path", bench.path},
       {"scene", bench.scene.empty() ? OrderedJson(nullptr) : OrderedJson(bench.scene)},
       {"time", bench.time},
-      {"compiler", bench.compiler}};
+      {"machine", bench.provenance.machine},
+      {"compiler", bench.provenance.compiler},
+      {"flags", bench.provenance.flags},
+      {"date", bench.provenance.date}};
   const ReferenceSolution& reference = bench.reference;
   if (reference.state.empty()) {
     result["reference"] = {{"failure", reference.failure}};

@@ -8,6 +8,7 @@
 #include "app/bench_choice.hpp"
 #include "app/bench_measure.hpp"
 #include "app/plot.hpp"
+#include "runtime/provenance.hpp"
 
 namespace hamgen::app {
 
@@ -27,7 +28,7 @@ struct Bench {
   std::vector<BenchRow> rows;
   ReferenceSolution reference;
   std::optional<BenchAnswer> answer;
-  std::string compiler;  // its identity
+  runtime::Provenance provenance;
 };
 
 [[nodiscard]] std::string table_text(const Bench& bench);

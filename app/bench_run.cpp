@@ -69,17 +69,19 @@ Setting read_setting(const BenchRequest& options) {
   setting.base.sizes = set.sizes;
   setting.model = read_model(setting.source, set.sizes);
   SceneRequest request = scene_request(options.scene, std::move(set.rest));
+  request.h = options.scene_h;
+  request.steps = options.scene_steps;
   // Given steps and time, the scene needs to have neither.
   if (!options.time.empty()) request.steps = "1";
   for (const std::string& h :
        options.h.empty() ? std::vector<std::string>{} : split_specs(options.h)) {
     request.h = h;
-    setting.scene = complete_scene(setting.model, request);
+    setting.scene = complete_scene(setting.model, request, options.length);
     setting.steps.push_back(*setting.scene.h);
   }
-  request.h.reset();
+  request.h = options.scene_h;
   if (setting.steps.empty()) {
-    setting.scene = complete_scene(setting.model, request);
+    setting.scene = complete_scene(setting.model, request, options.length);
     for (int power = 3; power >= -4; --power) {
       const Rational factor = power >= 0 ? Rational(1L << power) : Rational(1, 1L << -power);
       setting.steps.push_back(*setting.scene.h * factor);
@@ -94,7 +96,7 @@ Setting read_setting(const BenchRequest& options) {
   } else {
     if (!options.h.empty()) {  // the scene's own time, whatever steps are compared
       SceneRequest own = request;
-      setting.scene = complete_scene(setting.model, own);
+      setting.scene = complete_scene(setting.model, own, options.length);
     }
     setting.time = *setting.scene.h * std::min(*setting.scene.steps, kDefaultSteps);
   }
@@ -224,7 +226,7 @@ Bench run_bench(const BenchRequest& options) {
               .scene = setting.scene.name,
               .time = to_double(setting.time),
               .observed = observed};
-  bench.compiler = runtime::compiler_version(runtime::find_compiler(
+  bench.provenance = runtime::provenance_of(runtime::find_compiler(
       options.compiler.empty() ? std::nullopt : std::optional(options.compiler)));
   bench.methods = methods_of(options, setting);
   for (std::size_t m = 0; m < bench.methods.size(); ++m) {

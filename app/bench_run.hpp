@@ -1,6 +1,7 @@
 // The whole measurement of `hamgen bench`, for the commands that show it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct BenchRequest {
   std::string observe = "state";
   std::string rounds = "9";
   bool quiet = false;
+  std::optional<std::string> scene_h, scene_steps;  // in place of the scene's
+  const char* length = "--time 10";                 // the option for a scene without steps
 };
 
 // Loads the methods, computes the reference, measures errors, then times; with progress bars on a

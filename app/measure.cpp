@@ -44,7 +44,7 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
                  bool symmetric) {
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
-  const SceneValues scene = complete_scene(plugin.model, wanted);
+  const SceneValues scene = complete_scene(plugin.model, wanted, "steps = 1000 in the scene");
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "");
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   Proof proof;

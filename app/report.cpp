@@ -25,6 +25,7 @@ namespace {
 struct ReportOptions {
   MethodOptions method;
   SceneOptions scene;
+  std::optional<std::string> h, steps;
   std::string output, schemes, compiler;
   std::string rounds = "5";
   bool quiet = false;
@@ -100,8 +101,10 @@ int report(const ReportOptions& options) {
   Request request = request_of(options.method);
   request.sizes = set.sizes;
   const Model model = read_model(source, set.sizes);
-  const SceneValues scene =
-      complete_scene(model, scene_request(options.scene, std::move(set.rest)));
+  SceneRequest wanted = scene_request(options.scene, std::move(set.rest));
+  wanted.h = options.h;
+  wanted.steps = options.steps;
+  const SceneValues scene = complete_scene(model, wanted);
   take_gauge_at(scene, model, request);
   record_origin(options.method, source, request);
   const BenchMethod method = chosen_method(options, source, request);
@@ -112,7 +115,10 @@ int report(const ReportOptions& options) {
                                  .schemes = options.schemes,
                                  .compiler = options.compiler,
                                  .rounds = options.rounds,
-                                 .quiet = options.quiet});
+                                 .quiet = options.quiet,
+                                 .scene_h = options.h,
+                                 .scene_steps = options.steps,
+                                 .length = "--steps 1000"});
   if (interrupt_flag()) return interrupted;
   const ReferenceRequest reference{.sizes = request.sizes, .compiler = options.compiler};
   ReportFigures drawn = report_figures(method, scene, source, bench, reference);
@@ -143,6 +149,9 @@ Command add_report(CLI::App& app) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* parser = app.add_subcommand("report", "writes a page about a model and a method");
   add_scene_options(*parser, options->scene);
+  add_step_option(*parser, options->h);
+  parser->add_option("--steps", options->steps, "number of steps; default: the scene's")
+      ->type_name("N");
   parser
       ->add_option("-o,--output", options->output,
                    "report.html, pictures and scripts; default: MODEL-report")

@@ -248,9 +248,11 @@ std::string bench_section(const ReportContent& content) {
   std::string text = fmt::format(
       "<h2>Error against run time</h2>\n<p>Every method to t = {:.6g}, with the time its steps "
       "took: "
-      "medians of samples taken in turn, to be compared within this page only. {}</p>\n"
+      "medians of samples taken in turn, ± the distance of their quartiles, to be compared within "
+      "this page only. {}</p>\n"
       "<div class='wide'><table>\n<tr><th>method</th><th class='number'>h</th>"
       "<th class='number'>ns/step</th><th class='number'>µs/unit time</th>"
+      "<th class='number'>±</th>"
       "<th class='number'>iterations</th><th class='number'>gradients</th><th "
       "class='number'>energy error</th>"
       "<th class='number'>state error</th></tr>\n",
@@ -267,23 +269,35 @@ std::string bench_section(const ReportContent& content) {
                     std::ranges::find(front, i) != front.end() ? " class='front'" : "",
                     html_text(bench.methods[row.method].spec), to_double(row.h));
     if (!row.ok()) {
-      text += begin + "<td colspan='6'>" + html_text(row.outcome) + "</td></tr>\n";
+      text += begin + "<td colspan='7'>" + html_text(row.outcome) + "</td></tr>\n";
       continue;
     }
     const BenchTime time = time_of(row);
     text += begin + fmt::format(
                         "<td class='number'>{:.0f}</td><td class='number'>{:.3g}</td>"
+                        "<td class='number'>{:.0f} %</td>"
                         "<td class='number'>{:.2f}</td><td class='number'>{:.3g}</td>"
                         "<td class='number'>{}</td>"
                         "<td class='number'>{}</td></tr>\n",
-                        time.nanoseconds_per_step, 1e6 * time.seconds_per_time,
+                        time.nanoseconds_per_step, 1e6 * time.seconds_per_time, 100.0 * time.spread,
                         row.iterations_per_step, row.gradients_per_step,
                         error_text(row.energy_error), error_text(row.state_error));
   }
   return text + fmt::format(
                     "</table></div>\n<p class='note'>Bold: nothing else is both faster and "
-                    "better in {} error. Compiler: {}.</p>\n",
-                    to_text(bench.observed), html_text(bench.compiler));
+                    "better in {} error.</p>\n",
+                    to_text(bench.observed));
+}
+
+// What the times depend on, in one place.
+std::string provenance_section(const runtime::Provenance& provenance) {
+  std::string text = "<h2>Where it was measured</h2>\n<div class='wide'><table>\n";
+  for (const auto& [name, value] :
+       {std::pair{"machine", &provenance.machine}, std::pair{"compiler", &provenance.compiler},
+        std::pair{"flags", &provenance.flags}, std::pair{"date", &provenance.date}})
+    text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", name, html_text(*value));
+  return text +
+         fmt::format("<tr><td>hamgen</td><td>{}</td></tr>\n</table></div>\n", HAMGEN_VERSION);
 }
 
 // The comment at the top of the emitted header: scheme, solver, what was left out, cost.
@@ -325,7 +339,8 @@ std::string report_page(const ReportContent& content) {
              HAMGEN_VERSION, html_text(model.source.path)) +
          introduction(model) + system_section(content) + proof_section(content) +
          modified_section(content) + figures_section(content) + bench_section(content) +
-         code_section(content) + "</main>\n</body>\n</html>\n";
+         code_section(content) + provenance_section(content.bench->provenance) +
+         "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace hamgen::app

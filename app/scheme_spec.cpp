@@ -87,6 +87,8 @@ Request request_of_spec(std::string_view spec, const Request& base) {
     }
     request.*(field->second) = value;
   }
+  // The same member: a gauge is one of alpha = 1/2.
+  if (request.scheme == "implicit-midpoint" && !request.gauge.empty()) request.scheme.clear();
   return request;
 }
 

@@ -121,7 +121,8 @@ int verify(const VerifyOptions& options) {
   if (!options.modified.terms.empty()) {
     std::optional<SceneValues> scene;  // without one by name only the terms are printed
     if (!options.scene.empty())
-      scene = complete_scene(read_request(source, request), scene_request(options));
+      scene = complete_scene(read_request(source, request), scene_request(options),
+                             "steps = 1000 in the scene");
     const ModifiedReport report = modified_report(source, request, options.modified, scene);
     rows.push_back(report.json);
     text += report.text;

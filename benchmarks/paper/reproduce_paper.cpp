@@ -1,20 +1,17 @@
 // Measures every figure of the paper and writes the page, gnuplot's tables and the key numbers.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "benchmarks/paper/study.hpp"
 #include "runtime/atomic_file.hpp"
-#include "runtime/compile.hpp"
 #include "runtime/compiler.hpp"
+#include "runtime/provenance.hpp"
 
 namespace hamgen::paper {
 namespace {
@@ -23,20 +20,11 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown processor";
-}
-
 std::string provenance(const Study& study) {
-  std::string flags;
-  for (const std::string& flag : runtime::compile_flags({}, {})) flags += " " + flag;
+  const runtime::Provenance run = runtime::provenance_of(runtime::find_compiler());
   return fmt::format(
-      "| | |\n| --- | --- |\n| machine | {}, {} threads |\n| compiler | {} |\n| flags |{} |\n"
-      "| hamgen | {} |\n| date | {:%Y-%m-%d}{} |\n\n"
+      "| | |\n| --- | --- |\n| machine | {} |\n| compiler | {} |\n| flags | {} |\n"
+      "| hamgen | {} |\n| date | {}{} |\n\n"
       "*Solved* means to round-off, *kappa = 5* five sweeps of the paper's Algorithm 1, which run "
       "in\n"
       "double, as do figures 2 and 3 and h = 10. The rest runs in long double, in which all "
@@ -44,9 +32,7 @@ std::string provenance(const Study& study) {
       "are evaluated. *Spread* is max H - min H over the steps of a run. *Order 4, 6, 8* are "
       "members\n"
       "of the family, alpha = 1/2 and beta = gamma = 0, raised by their generating function.\n",
-      processor(), std::thread::hardware_concurrency(),
-      runtime::compiler_version(runtime::find_compiler()), flags, HAMGEN_VERSION,
-      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())),
+      run.machine, run.compiler, run.flags, HAMGEN_VERSION, run.date,
       study.quick ? ", quick run: few steps, coarse planes" : "");
 }
 

@@ -220,6 +220,48 @@ TEST(Bench, WritesTableScriptAndPicture) {
   EXPECT_TRUE(contains(picture, "implicit-midpoint"));
 }
 
+TEST(Bench, SaysWhereItWasMeasured) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  const std::string picture = scratch.path("own.png");
+  const Result result =
+      bench({scratch.write("m.ham", pendulum), "--time", "1", "--h", "0.1", "--schemes",
+             "implicit-midpoint", "-o", directory, "--plot", picture});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const json whole = json::parse(read(directory + "/bench.json"));
+  const std::string table = read(directory + "/bench.csv");
+  for (const char* key : {"machine", "compiler", "flags", "date"})
+    EXPECT_TRUE(contains(table, whole[key].get<std::string>())) << key;
+  EXPECT_TRUE(contains(whole["flags"].get<std::string>(), "-O3"));
+  EXPECT_TRUE(contains(whole["machine"].get<std::string>(), " threads"));
+  EXPECT_EQ(whole["date"].get<std::string>().size(), std::string("2026-01-31").size());
+  // A picture of its own is drawn beside that of the directory.
+  EXPECT_TRUE(std::filesystem::exists(directory + "/bench.svg"));
+  EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
+TEST(Bench, TakesAGaugeOfTheMidpointRuleByEitherName) {
+  const Scratch scratch;
+  const json result =
+      bench_json({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.1", "--schemes",
+                  "implicit-midpoint:gauge=locally-exact,gauge=locally-exact,implicit-midpoint"});
+  const json& rows = result["rows"];
+  EXPECT_EQ(rows[0]["outcome"], "done");
+  EXPECT_EQ(rows[0]["state_error"], rows[1]["state_error"]);
+  EXPECT_NE(rows[0]["state_error"], rows[2]["state_error"]);
+}
+
+TEST(Bench, NamesItsOwnOptionForTheTime) {
+  const Scratch scratch;
+  for (const std::string& model :
+       {scratch.write("a.ham", without_steps), scratch.write("b.ham", two_oscillators)}) {
+    const Result result = hamgen({"bench", model, "--h", "0.1"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, "--time 10")) << result.err;
+    EXPECT_FALSE(contains(result.err, "--steps")) << result.err;
+  }
+}
+
 TEST(Bench, WithoutGnuplotTheScriptStays) {
   const Scratch scratch;
   // Nothing but what the compiler calls in the path, so no gnuplot.

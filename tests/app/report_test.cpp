@@ -46,6 +46,24 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
     EXPECT_FALSE(contains(page, part)) << part;
 }
 
+TEST(Report, TakesStepsThatTheSceneDoesNotHaveAndSaysWhereItWasMeasured) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", without_steps);
+  const std::string directory = scratch.path("out");
+  const Result none = report(model, directory);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(contains(none.err, "--h 0.01")) << none.err;
+  const Result half = report(model, directory, {"--h", "0.1"});
+  EXPECT_EQ(half.status, 2);
+  EXPECT_TRUE(contains(half.err, "--steps 1000")) << half.err;
+  const Result result = report(model, directory, {"--h", "0.1", "--steps", "100"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string page = read(directory + "/report.html");
+  for (const char* part : {"Step size 0.1, 100 steps.", "Every method to t = 10,", " threads",
+                           "-O3", "<td>date</td>", ">±</th>", " %</td>"})
+    EXPECT_TRUE(contains(page, part)) << part;
+}
+
 TEST(Report, WhatTheUserWroteIsTextAndNotMarkup) {
   const Scratch scratch;
   std::string text = std::string(pendulum);

@@ -1,0 +1,34 @@
+#include "runtime/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "runtime/compile.hpp"
+
+namespace hamgen::runtime {
+namespace {
+
+std::string processor_name() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+}  // namespace
+
+Provenance provenance_of(const Compiler& compiler) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return {.machine =
+              fmt::format("{}, {} threads", processor_name(), std::thread::hardware_concurrency()),
+          .compiler = compiler_version(compiler),
+          .flags = fmt::format("{}", fmt::join(compile_flags({}, {}), " ")),
+          .date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(now))};
+}
+
+}  // namespace hamgen::runtime

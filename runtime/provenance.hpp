@@ -1,0 +1,19 @@
+// Where and when a measurement was made: what its times depend on.
+#pragma once
+
+#include <string>
+
+#include "runtime/compiler.hpp"
+
+namespace hamgen::runtime {
+
+struct Provenance {
+  std::string machine;   // processor and number of threads
+  std::string compiler;  // of the integrators
+  std::string flags;     // of the integrators, without what a model adds
+  std::string date;      // "2026-01-31", UTC
+};
+
+[[nodiscard]] Provenance provenance_of(const Compiler& compiler);
+
+}  // namespace hamgen::runtime
