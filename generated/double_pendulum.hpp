@@ -1,6 +1,6 @@
 // double_pendulum, symplectic-euler-a.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/double_pendulum.ham --alpha 0
 //   model     hamiltonians/double_pendulum.ham
 //   sha256    8f04d71e6b0a9b9c49f2522aab8f451479133d20efdaede9e3a3ca1a76b86907
@@ -33,7 +33,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 
@@ -275,7 +275,7 @@ class Propagator {
     StepReport report = solve(par_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
-      const int wasted = report.iterations;
+      const long long wasted = report.iterations;
       start_ = Start();
       report = solve(par_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;

@@ -1,6 +1,6 @@
 // driven_oscillator, implicit-midpoint.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/driven_oscillator.ham
 //   model     hamiltonians/driven_oscillator.ham
 //   sha256    f09d9fdf4b67d7717137f8cfacd415e4b660325a3ca497e9fb2b173a2778c976
@@ -35,7 +35,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 

@@ -1,6 +1,6 @@
 // fput, implicit-midpoint.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/fput.ham
 //   model     hamiltonians/fput.ham
 //   sha256    224b46ae962ab84d43e2b44e3f7bf279671a7663e950b3ec00e1a0d830a404ca
@@ -37,7 +37,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 

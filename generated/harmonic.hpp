@@ -1,6 +1,6 @@
 // harmonic, implicit-midpoint.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/harmonic.ham
 //   model     hamiltonians/harmonic.ham
 //   sha256    fcf2f89f040617f03f5a8147fa7f74832e9c455dee8e25aad6dcde9e54458dc6
@@ -30,7 +30,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 

@@ -1,6 +1,6 @@
 // henon_heiles, symplectic-euler-a.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/henon_heiles.ham --scheme symplectic-euler-a
 //   model     hamiltonians/henon_heiles.ham
 //   sha256    8e46b3740a4830724122a7fa467096da159788e64cb64b79a88f5b14c7363aaf
@@ -32,7 +32,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 

@@ -1,6 +1,6 @@
 // kepler, implicit-midpoint.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/kepler.ham
 //   model     hamiltonians/kepler.ham
 //   sha256    7274355e6771529febcf6c1d9ce184fa3ab1b756eb8d31c58ffb9e707199c4e2
@@ -33,7 +33,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 
@@ -306,7 +306,7 @@ class Propagator {
     StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
-      const int wasted = report.iterations;
+      const long long wasted = report.iterations;
       start_ = Start();
       report = solve(par_, k_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;

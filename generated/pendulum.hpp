@@ -1,6 +1,6 @@
 // pendulum, implicit-midpoint.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/pendulum.ham
 //   model     hamiltonians/pendulum.ham
 //   sha256    492f143ced2b8c56ef576565398ce1c424f5eab431b84482fbae777e4bc970ad
@@ -32,7 +32,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 
@@ -246,7 +246,7 @@ class Propagator {
     StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
-      const int wasted = report.iterations;
+      const long long wasted = report.iterations;
       start_ = Start();
       report = solve(par_, k_, h_, z_, carry_, start_, dz);
       report.iterations += wasted;

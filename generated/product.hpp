@@ -1,6 +1,6 @@
 // product, symplectic-euler-b.  Generated: change the model, not this file.
 //
-//   made by   hamgen 0.1.0
+//   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/product.ham --scheme symplectic-euler-b
 //   model     hamiltonians/product.ham
 //   sha256    827ad3095c58c92aea25a81d74b660a8b7ea95a923c7be1f99858ea7e4361d88
@@ -30,7 +30,7 @@ struct State {
 // where the step left the domain of H.
 struct StepReport {
   bool converged = false;
-  int iterations = 0;
+  long long iterations = 0;
   Real increment = 0.0;
 };
 

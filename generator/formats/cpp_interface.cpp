@@ -111,7 +111,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   hamgen_report total{HAMGEN_DONE, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
   for (long long i = 0; i < steps; ++i) {
     const StepReport last = run->propagator.step();
-    total.last_iterations = last.iterations;
+    total.last_iterations = static_cast<int>(last.iterations);
     total.last_increment = static_cast<double>(last.increment);
     if (!last.converged) {
       const bool finite = total.last_increment - total.last_increment == 0.0;

@@ -53,7 +53,7 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
   out.line(fmt::format("// {}, {}.  Generated: change the model, not this file.",
                        context.mechanics.name, scheme.name));
   out.line("//");
-  out.line(fmt::format("//   made by   hamgen {}", HAMGEN_VERSION));
+  out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
   const CppOptions& options = context.options;
   if (!options.command.empty()) out.line("//   command   " + one_line(options.command));
   if (!options.model_path.empty()) out.line("//   model     " + one_line(options.model_path));

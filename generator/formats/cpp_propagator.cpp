@@ -107,7 +107,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
     out.line("StepReport report = " + call + ";");
     out.open("if (!report.converged && start_.known)");
     out.line("// Extrapolation may lead astray, the state itself seldom does.");
-    out.line("const int wasted = report.iterations;");
+    out.line("const long long wasted = report.iterations;");
     out.line("start_ = Start();");
     out.line("report = " + call + ";");
     out.line("report.iterations += wasted;");

@@ -206,7 +206,8 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
             "at all.\n"
           : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
   text += R"(  bool fixed_point(StepReport& report) {
-    StageRule rule{.cycle = 2};
+    StageRule rule;
+    rule.cycle = 2;
 )";
   if (switches) text += "    Real before = 0;\n    int slow = 0;\n";
   text += R"(    for (int iteration = 1;; ++iteration) {

@@ -57,7 +57,7 @@ void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
   out.line("// where the step left the domain of H.");
   out.open("struct StepReport");
   out.line("bool converged = false;");
-  out.line("int iterations = 0;");
+  out.line("long long iterations = 0;");
   out.line(fmt::format("Real increment = {};", literal(0, context.scalar)));
   out.close(";");
   out.line();

@@ -17,7 +17,7 @@ runtime::ProcessResult run(std::vector<std::string> command) {
 }  // namespace
 
 std::vector<std::string> strict_flags() {
-  return {"-std=c++20",         "-Wall",  "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
+  return {"-std=c++17",         "-Wall",  "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
           "-Wdouble-promotion", "-Werror"};
 }
 

@@ -144,7 +144,8 @@ TEST(OptimisedHeader, CompilesWithoutAWarning) {
       const std::string space = "shipped_" + name + "::" + variant.name + "_double";
       uses += "int use_" + std::to_string(number++) + "(" + space + "::State& z) {\n  " + space +
               "::Propagator run(" + space + "::Parameters{}, 0.1, z);\n" +
-              "  const int n = run.advance(3).iterations;\n  z = run.state();\n  return n + (" +
+              "  const long long n = run.advance(3).iterations;\n  z = run.state();\n  return (n > "
+              "0) + (" +
               space + "::energy({}, z) > 0);\n}\n";
     }
   }

@@ -43,7 +43,7 @@ std::string warnings_of(const std::string& compiler, const std::string& text) {
   const std::filesystem::path source = directory.path() / "unit.cpp";
   std::ofstream(source) << text;
   const auto result =
-      run({compiler, "-fsyntax-only", "-std=c++20", "-Wall", "-Wextra", "-Wpedantic",
+      run({compiler, "-fsyntax-only", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic",
            "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror", source.string()});
   return result.succeeded() && result.output.empty() ? "" : "failed:\n" + result.output;
 }

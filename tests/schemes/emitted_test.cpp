@@ -224,7 +224,7 @@ TEST(Emitted, GaussSolvesStiffProblemsByNewton) {
     const double error = energy({}, run.state()) / start - 1;
     if (!report.converged) std::puts("not converged");
     if (!(error < 1e-3 && error > -1e-3)) std::printf("energy error %g\n", error);
-    if (report.iterations > 12000) std::printf("%d iterations\n", report.iterations);
+    if (report.iterations > 12000) std::printf("%lld iterations\n", report.iterations);
   }
 )";
   }
