@@ -1,11 +1,13 @@
-// hamgen check: is the model fine, up to the plan of its step?
+// hamgen check: is the model fine, up to the text of its step?
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "app/command_line.hpp"
+#include "app/initial_data.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/scalar.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 
@@ -17,13 +19,13 @@ std::string counted(long count, std::string_view one, std::string_view many) {
 }
 
 // Evaluates every scene, so that a mistake in one nobody runs is found too.
-void check_scenes(const Model& model) {
+void check_scenes(const Model& model, const ScalarType& scalar) {
   std::vector<Diagnostic> mistakes;
   for (const Scene& scene : model.scenes) {
     try {
       SceneRequest request;
       request.scene = scene.name;
-      static_cast<void>(scene_values(model, request));
+      require_in_range(model, scene_values(model, request), scalar);
     } catch (const ModelError& error) {
       mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -36,8 +38,8 @@ int check(const MethodOptions& options) {
   const Request request = request_with_sizes(options, source);
   const Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) print_error(render(model.warnings, source));
-  check_scenes(model);
-  static_cast<void>(show_stage(source, request, "plan"));
+  check_scenes(model, find_scalar(request.scalar));
+  check_step(source, request);
   print(fmt::format(
       "{}: fine: {}, {}, {}, {}\n", options.model,
       counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),

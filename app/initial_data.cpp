@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/algebra/evaluate.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/derive.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -95,6 +97,20 @@ void require_defined(const Model& model, const SceneValues& scene, const runtime
       model.source);
 }
 
+// E0 = H(q0, p0) with the digits of a wide scalar: a plugin tells energies as doubles.
+std::optional<Rational> exact_energy(const Model& model, const SceneValues& scene) {
+  if (degrees_of_freedom(model) > kMostWrittenOut) return std::nullopt;
+  Values values;
+  const auto add = [&values](const std::vector<std::string>& names,
+                             const std::vector<Rational>& numbers) {
+    for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = numbers[i];
+  };
+  add(element_names(model.parameters), scene.parameters);
+  add(element_names(model.coordinates), scene.q);
+  add(element_names(model.momenta), scene.p);
+  return evaluate(written_out_hamiltonian(model), values);
+}
+
 }  // namespace
 
 runtime::Wide wide(const Rational& value) {
@@ -125,6 +141,24 @@ SceneValues complete_scene(const Model& model, const SceneRequest& request, cons
     throw UsageError(
         fmt::format("{} does not say how long\nhelp: give it, for example {}", where, length));
   return values;
+}
+
+void require_in_range(const Model& model, const SceneValues& scene, const ScalarType& scalar) {
+  const auto require = [&](const std::string& name, const Rational& value) {
+    if (is_in_range(value, scalar)) return;
+    const std::string where = scene.name.empty() ? "" : fmt::format(" of scene '{}'", scene.name);
+    throw UsageError(fmt::format("{}{} is {}\nhelp: {}", name, where,
+                                 out_of_range_message(value, scalar),
+                                 out_of_range_help(value, scalar)));
+  };
+  const auto require_all = [&](const std::vector<std::string>& names,
+                               const std::vector<Rational>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) require(names[i], values[i]);
+  };
+  if (scene.h) require("h", *scene.h);
+  require_all(element_names(model.parameters), scene.parameters);
+  require_all(element_names(model.coordinates), scene.q);
+  require_all(element_names(model.momenta), scene.p);
 }
 
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request) {
@@ -160,6 +194,9 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
                                       const runtime::Library& library) {
   const Model& model = plugin.model;
   require_folded_defaults(model, scene);
+  const auto scalar =
+      std::ranges::find(all_scalars(), library.plugin().scalar_digits, &ScalarType::digits);
+  require_in_range(model, scene, *scalar);
   require_regular_step(plugin, *scene.h);
   const std::vector<std::string> names = element_names(model.parameters);
   const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
@@ -176,8 +213,13 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   }
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
   require_defined(model, scene, library, values);
-  if (plugin.needs_energy_parameter)
-    values.parameters.back().hi = library.energy(rounded(values.parameters), rounded(values.state));
+  if (!plugin.needs_energy_parameter) return values;
+  std::optional<Rational> energy;
+  if (scalar->digits > 53) energy = exact_energy(model, scene);
+  values.parameters.back() =
+      energy
+          ? wide(*energy)
+          : runtime::Wide{.hi = library.energy(rounded(values.parameters), rounded(values.state))};
   return values;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "generator/formats/scalar.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 #include "runtime/integrator.hpp"
@@ -18,15 +19,19 @@ namespace hamgen::app {
 [[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request,
                                          const char* length = "--steps 1000");
 
+// Throws UsageError, naming it, if one of the scene's values has no number of the scalar: a step
+// size that becomes 0 would run, and go nowhere.
+void require_in_range(const Model& model, const SceneValues& scene, const ScalarType& scalar);
+
 // A locally exact gauge is taken at the run's own initial state and parameters, where the user has
 // not said otherwise: what differs from the origin and the model's defaults is added to the
 // request's reference; of the state, if it names no coordinate and no momentum.
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request);
 
 // The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs
-// it, is computed by the plugin.  Throws UsageError if the run would change a folded parameter or
-// its step is at a pole of the scheme, and ModelError naming the component if H or its gradient is
-// not defined at the initial state.
+// it, is computed by the plugin, and for a wide scalar exactly where H is written out.  Throws UsageError if the run would change a folded parameter, its
+// step is at a pole of the scheme or a value is outside the range of its scalar, and ModelError
+// naming the component if H or its gradient is not defined at the initial state.
 [[nodiscard]] runtime::InitialValues initial_values(const PluginSource& plugin,
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);

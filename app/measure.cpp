@@ -31,7 +31,9 @@ std::vector<InvariantDefect> invariant_defects(const PluginSource& plugin,
     done += now;
     const std::vector<double> after = integrator.invariants();
     for (std::size_t i = 0; i < defects.size(); ++i) {
-      defects[i].largest = std::max(defects[i].largest, std::abs(after[i] - before[i]));
+      const double change = std::abs(after[i] - before[i]);
+      // Once not a number, always: the maximum keeps its first argument.
+      defects[i].largest = std::isnan(change) ? change : std::max(defects[i].largest, change);
       defects[i].steps = done;
     }
   }
@@ -57,7 +59,14 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
 }
 
 Finding finding(const InvariantDefect& defect) {
-  return {defect.name + " measured", Verdict::measured,
+  const std::string property = defect.name + " measured";
+  if (!std::isfinite(defect.initial))
+    return {property, Verdict::not_decided, "not defined at the initial state"};
+  if (!std::isfinite(defect.largest))
+    return {property, Verdict::measured,
+            fmt::format("{:.6g} at first, not defined later within {} steps of the scene",
+                        defect.initial, defect.steps)};
+  return {property, Verdict::measured,
           fmt::format("changes by at most {:.2e} from {:.6g} in {} steps of the scene",
                       defect.largest, defect.initial, defect.steps)};
 }

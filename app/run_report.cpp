@@ -88,6 +88,13 @@ std::string time_text(const RunReport& report) {
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
 }
 
+std::string invariant_text(const std::string& name, double before, double after) {
+  if (!std::isfinite(before)) return name + " is not defined at the initial state";
+  const std::string text = fmt::format("{} = {:.10g}; ", name, before);
+  if (!std::isfinite(after)) return text + "not defined at the last state";
+  return text + fmt::format("last error {:.3g}", after - before);
+}
+
 // JSON has no nan: the status says why a value is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -181,9 +188,8 @@ std::string summary_text(const RunReport& report) {
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
     text +=
-        entry("invariant", fmt::format("{} = {:.10g}; last error {:.3g}", plugin.invariant_names[i],
-                                       report.initial_invariants[i],
-                                       report.final_invariants[i] - report.initial_invariants[i]));
+        entry("invariant", invariant_text(plugin.invariant_names[i], report.initial_invariants[i],
+                                          report.final_invariants[i]));
   const std::size_t n = report.state.size() / 2;
   text += entry("last q", numbers(report.state, 0, n));
   text += entry("last p", numbers(report.state, n, 2 * n));

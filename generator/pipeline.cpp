@@ -12,6 +12,7 @@
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/scalar.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -79,6 +80,26 @@ void fold_parameters(Model& model, const Request& request) {
     }
     it->folded = true;
   }
+}
+
+// Defaults of parameters are literals of the emitted code.
+void require_defaults_in_range(const Model& model, const ScalarType& scalar) {
+  Model without_scenes = model;
+  without_scenes.scenes.clear();
+  const std::vector<Rational> defaults = scene_values(without_scenes, {}).parameters;
+  std::vector<Diagnostic> mistakes;
+  std::size_t i = 0;
+  for (const Parameter& parameter : model.parameters) {
+    for (const NodePtr& node : parameter.values) {
+      const Rational& value = defaults.at(i++);
+      if (is_in_range(value, scalar)) continue;
+      mistakes.push_back({.span = node->span,
+                          .message = fmt::format("the default of '{}' is {}", parameter.name,
+                                                 out_of_range_message(value, scalar)),
+                          .help = out_of_range_help(value, scalar)});
+    }
+  }
+  if (!mistakes.empty()) throw ModelError(std::move(mistakes), model.source);
 }
 
 void check_gauge(const Request& request) {
@@ -237,6 +258,7 @@ void drop_unused_parameters(StepEquations& equations) {
 
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
+  require_defaults_in_range(model, find_scalar(request.scalar));
   // Loops know one set of parameters for all degrees of freedom.
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
@@ -272,24 +294,46 @@ Proof prove(const Stages& stages) {
   return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian);
 }
 
-OutputFiles cmake_package(const SourceText& source, const Program& program,
-                          const CppOptions& options) {
+// What `write` emits.  A constant the scalar has no number for comes out of H, combined from its
+// numbers, unless the request has numbers of its own.
+template <typename Write>
+std::string written(const Model& model, const Request& request, Write write) {
+  try {
+    return write();
+  } catch (const OutOfRange& error) {
+    if (!(request.alpha + request.beta + request.gamma + request.gauge).empty() ||
+        request.watch_modified > 0)
+      throw;
+    Diagnostic diagnostic = error.diagnostic();
+    diagnostic.span = model.hamiltonian->span;
+    throw ModelError({std::move(diagnostic)}, model.source);
+  }
+}
+
+std::string header_text(const Stages& stages, const CppOptions& options, const Request& request) {
+  return written(stages.model, request, [&] { return cpp_header(stages.program, options); });
+}
+
+std::string plugin_text(const Stages& stages, const CppOptions& options, const Request& request) {
+  return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
+}
+
+OutputFiles cmake_package(const SourceText& source, const std::string& header, bool eigen) {
   const std::string name = stem(source.path);
   const std::string target = identifier(name);
-  return {
-      {name + ".hpp", cpp_header(program, options)},
-      {"CMakeLists.txt",
-       fmt::format("cmake_minimum_required(VERSION 3.20)\n"
-                   "project({0} CXX)\n\n"
-                   "add_library({0} INTERFACE)\n"
-                   "target_include_directories({0} INTERFACE "
-                   "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
-                   "target_compile_features({0} INTERFACE cxx_std_20)\n"
-                   "{1}",
-                   target,
-                   needs_eigen(program) ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" +
-                                              target + " INTERFACE Eigen3::Eigen)\n"
-                                        : "")}};
+  return {{name + ".hpp", header},
+          {"CMakeLists.txt",
+           fmt::format("cmake_minimum_required(VERSION 3.20)\n"
+                       "project({0} CXX)\n\n"
+                       "add_library({0} INTERFACE)\n"
+                       "target_include_directories({0} INTERFACE "
+                       "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
+                       "target_compile_features({0} INTERFACE cxx_std_17)\n"
+                       "{1}",
+                       target,
+                       eigen ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" + target +
+                                   " INTERFACE Eigen3::Eigen)\n"
+                             : "")}};
 }
 
 }  // namespace
@@ -315,9 +359,12 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   options.refuted = properties_with(proof, Verdict::refuted);
   const std::string format = request.format.empty() ? "cpp-header" : request.format;
   const std::string name = stem(source.path);
-  if (format == "cpp-header") return {{name + ".hpp", cpp_header(stages.program, options)}};
-  if (format == "cpp-plugin") return {{name + ".plugin.cpp", cpp_plugin(stages.program, options)}};
-  if (format == "cmake-package") return cmake_package(source, stages.program, options);
+  if (format == "cpp-header") return {{name + ".hpp", header_text(stages, options, request)}};
+  if (format == "cpp-plugin")
+    return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
+  if (format == "cmake-package")
+    return cmake_package(source, header_text(stages, options, request),
+                         needs_eigen(stages.program));
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
 }
 
@@ -330,6 +377,11 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "program") return to_text(stages.program);
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
+}
+
+void check_step(const SourceText& source, const Request& request) {
+  const Stages stages = run_stages(source, request);
+  static_cast<void>(header_text(stages, cpp_options(source, stages.program, request), request));
 }
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
@@ -366,8 +418,8 @@ PluginSource generate_plugin(const SourceText& source, const Request& request) {
   Stages stages = run_stages(source, request);
   const CppOptions options = cpp_options(source, stages.program, request);
   PluginSource plugin;
-  plugin.text = cpp_plugin(stages.program, options);
-  plugin.header_text = cpp_header(stages.program, options);
+  plugin.text = plugin_text(stages, options, request);
+  plugin.header_text = header_text(stages, options, request);
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
     plugin.scheme_name = stages.equations.scheme.description;

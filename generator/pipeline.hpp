@@ -58,6 +58,9 @@ struct Request {
 [[nodiscard]] std::string show_stage(const SourceText& source, const Request& request,
                                      const std::string& stage);
 
+// Goes through all stages and writes nothing: throws what they throw.
+void check_step(const SourceText& source, const Request& request);
+
 // What algebra can say of the step: one finding a property.
 [[nodiscard]] Proof verify_step(const SourceText& source, const Request& request);
 

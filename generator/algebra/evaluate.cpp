@@ -5,18 +5,9 @@
 
 namespace hamgen {
 
-std::optional<Rational> evaluate(const Expression& e, const Values& values) {
-  if (e.is_number()) return e.number();
-  if (e.kind() == Kind::symbol) {
-    if (const auto it = values.find(e.name()); it != values.end()) return it->second;
-    return e.name() == "pi" ? evaluate_function("pi", {}) : std::nullopt;
-  }
-  std::vector<Rational> operands;
-  for (const Expression& operand : e.operands()) {
-    const std::optional<Rational> value = evaluate(operand, values);
-    if (!value) return std::nullopt;
-    operands.push_back(*value);
-  }
+namespace {
+
+std::optional<Rational> combined(const Expression& e, const std::vector<Rational>& operands) {
   switch (e.kind()) {
     case Kind::sum: {
       Rational sum = 0;
@@ -36,7 +27,29 @@ std::optional<Rational> evaluate(const Expression& e, const Values& values) {
     case Kind::symbol:
       break;
   }
-  internal_error("handled above");
+  internal_error("handled by the caller");
+}
+
+}  // namespace
+
+std::optional<Rational> evaluate(const Expression& e, const Values& values) {
+  std::map<const void*, std::optional<Rational>> known;  // a graph, not a tree
+  const auto visit = [&](auto&& self, const Expression& node) -> std::optional<Rational> {
+    if (node.is_number()) return node.number();
+    if (node.kind() == Kind::symbol) {
+      if (const auto it = values.find(node.name()); it != values.end()) return it->second;
+      return node.name() == "pi" ? evaluate_function("pi", {}) : std::nullopt;
+    }
+    if (const auto it = known.find(node.identity()); it != known.end()) return it->second;
+    std::vector<Rational> operands;
+    for (const Expression& operand : node.operands()) {
+      const std::optional<Rational> value = self(self, operand);
+      if (!value) return std::nullopt;
+      operands.push_back(*value);
+    }
+    return known[node.identity()] = combined(node, operands);
+  };
+  return visit(visit, e);
 }
 
 }  // namespace hamgen

@@ -340,5 +340,26 @@ TEST(Cache, ListsAndClears) {
   EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "0 compiled integrators,"));
 }
 
+// E0 = 1/200 exactly, and as a double only to 53 bits: 1e-19 of beta, and as much of the state.
+TEST(Run, TakesTheInitialEnergyWithTheDigitsOfTheScalar) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("harmonic.ham",
+                    "system harmonic\ncoordinate q\nmomentum p\nH = (p^2 + q^2)/2\n"
+                    "scene s {\n  q = 0.1\n  h = 0.1\n  steps = 100\n}\n");
+  const auto state = [&](const std::string& beta) {
+    return run_json({model, "--beta", beta, "--scalar", "quad"})["state"];
+  };
+  const json energy = state("E0*h");
+  const json number = state("h/200");
+  EXPECT_NE(number, state("h/201"));
+  for (const std::string part : {"q", "p"}) {
+    EXPECT_EQ(energy[part], number[part]);
+    // hi + lo has 106 bits, the state 113: 100 steps at their rounding, 2^-113 of 0.1, are 1e-33.
+    EXPECT_NEAR(energy[part + "_lo"][0].get<double>(), number[part + "_lo"][0].get<double>(),
+                1e-31);
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::app_test

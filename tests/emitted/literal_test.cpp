@@ -49,6 +49,7 @@ std::string printer(const std::vector<Rational>& values) {
   for (const ScalarType& scalar : all_scalars()) {
     text += "  { using Real = " + std::string(scalar.cpp) + ";\n";
     for (const Rational& value : values) {
+      if (!is_in_range(value, scalar)) continue;
       text += "    print<Real>(" + literal(value, scalar) + ");\n";
     }
     text += "  }\n";
@@ -92,6 +93,7 @@ TEST(Literals, BelowTheSmallestNormalNumberAreCorrectlyRounded) {
   std::istringstream lines(run_program(printer(values)));
   for (const ScalarType& scalar : all_scalars()) {
     for (const Rational& value : values) {
+      if (!is_in_range(value, scalar)) continue;
       std::string part[4];
       lines >> part[0] >> part[1] >> part[2] >> part[3];
       Rational got = 0;
@@ -102,6 +104,38 @@ TEST(Literals, BelowTheSmallestNormalNumberAreCorrectlyRounded) {
       EXPECT_LE(abs(got - value), half_unit(value, scalar))
           << value.get_d() << " as " << scalar.name << " is " << literal(value, scalar);
     }
+  }
+}
+
+// Each scalar's last numbers, and what would round to infinity or to 0.
+TEST(Literals, OutsideTheRangeAreRefused) {
+  struct Case {
+    const char* scalar;
+    const char* value;
+    bool fits;
+  };
+  for (const auto& [name, text, fits] :
+       {Case{"float", "3.4028234e38", true}, Case{"float", "3.4028236e38", false},
+        Case{"float", "1.4e-45", true}, Case{"float", "7e-46", false},
+        Case{"double", "1.7976931348623157e308", true},
+        Case{"double", "1.797693134862316e308", false}, Case{"double", "4.9e-324", true},
+        Case{"double", "2.4e-324", false}, Case{"long-double", "1e309", true},
+        Case{"quad", "1e-390", true}}) {
+    const ScalarType& scalar = find_scalar(name);
+    const Rational value = *parse_decimal(text);
+    EXPECT_EQ(is_in_range(value, scalar), fits) << name << " " << text;
+    if (fits) {
+      EXPECT_NO_THROW(static_cast<void>(literal(value, scalar))) << text;
+    } else {
+      EXPECT_THROW(static_cast<void>(literal(value, scalar)), OutOfRange) << text;
+    }
+  }
+  Rational huge = *parse_decimal("1e400");
+  for (int i = 0; i < 4; ++i) huge *= huge;  // 1e6400
+  for (const ScalarType& scalar : all_scalars()) {
+    EXPECT_THROW(static_cast<void>(literal(huge, scalar)), OutOfRange) << scalar.name;
+    EXPECT_THROW(static_cast<void>(literal(1 / huge, scalar)), OutOfRange) << scalar.name;
+    EXPECT_NO_THROW(static_cast<void>(literal(0, scalar))) << scalar.name;
   }
 }
 
