@@ -38,6 +38,30 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
+// A name given twice leaves open which value is meant.
+void require_once(std::string_view option, const std::vector<Assignment>& assignments) {
+  std::map<std::string, std::string> values;
+  for (const auto& [written, value] : assignments) {
+    std::string name = written;
+    std::erase(name, ' ');
+    const auto [first, is_new] = values.emplace(name, value);
+    if (!is_new)
+      throw UsageError(fmt::format("{0}: {1} is set twice, to {2} and to {3}", option, name,
+                                   first->second, value));
+  }
+}
+
+std::vector<Assignment> all_assignments(std::string_view option,
+                                        const std::vector<std::string>& texts) {
+  std::vector<Assignment> result;
+  for (const std::string& text : texts) {
+    for (Assignment& assignment : split_assignments(option, text))
+      result.push_back(std::move(assignment));
+  }
+  require_once(option, result);
+  return result;
+}
+
 }  // namespace
 
 void add_method_options(CLI::App& command, MethodOptions& options) {
@@ -54,7 +78,8 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("R");
   command.add_option("--gauge", options.gauge, "locally-exact: the linear part without error")
       ->type_name("NAME");
-  add_repeated(command, "--reference", options.reference, "where: q=1,w=50; default: the initial state")
+  add_repeated(command, "--reference", options.reference,
+               "where: q=1,w=50; default: the initial state")
       ->type_name("NAME=VALUE,...");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
@@ -79,12 +104,9 @@ void add_step_option(CLI::App& command, std::optional<std::string>& h) {
 }
 
 SceneRequest scene_request(const SceneOptions& options, std::vector<Assignment> set) {
-  SceneRequest request{.scene = options.scene, .set = std::move(set)};
-  for (const std::string& text : options.initial) {
-    for (Assignment& assignment : split_assignments("--initial", text))
-      request.initial.push_back(std::move(assignment));
-  }
-  return request;
+  return {.scene = options.scene,
+          .set = std::move(set),
+          .initial = all_assignments("--initial", options.initial)};
 }
 
 CLI::Option* add_repeated(CLI::App& command, const std::string& name,
@@ -133,14 +155,17 @@ long integer_value(const std::string& what, const std::string& text, long least)
 }
 
 SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set) {
+  std::vector<Assignment> assignments;
+  for (const std::string& text : set) assignments.push_back(split_assignment("--set", text));
+  require_once("--set", assignments);
   SizesAndRest result;
-  for (const std::string& text : set) {
-    const Assignment assignment = split_assignment("--set", text);
+  for (const Assignment& assignment : assignments) {
     const auto& [name, value] = assignment;
     const bool is_size = std::ranges::any_of(
         model.sizes, [&name = name](const Size& size) { return size.name == name; });
     if (is_size)
-      result.sizes[name] = integer_value("--set " + text, value, -1'000'000'000'000'000);
+      result.sizes[name] =
+          integer_value(fmt::format("--set {}={}", name, value), value, -1'000'000'000'000'000);
     else
       result.rest.push_back(assignment);
   }
@@ -166,10 +191,7 @@ Request request_of(const MethodOptions& options) {
         std::min(integer_value("--order " + options.order, options.order, 1), 99L));
   }
   request.gauge = options.gauge;
-  for (const std::string& text : options.reference) {
-    for (Assignment& assignment : split_assignments("--reference", text))
-      request.reference.push_back(std::move(assignment));
-  }
+  request.reference = all_assignments("--reference", options.reference);
   request.solver = options.solver;
   request.scalar = options.scalar;
   request.fold = options.fold;

@@ -11,7 +11,9 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void interrupt(int signal) {
   flag = true;
-  std::signal(signal, SIG_DFL);
+  // A second Ctrl-C ends it at once.  SIGTERM often comes twice, as to a process and to its group:
+  // what it interrupts still removes its temporary files.
+  if (signal == SIGINT) std::signal(signal, SIG_DFL);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-// Ctrl-C ends a run in good order.
+// Ctrl-C, or a polite kill, ends a run in good order.
 #pragma once
 
 #include <atomic>
 
 namespace hamgen::app {
 
-// From the first call on, the first SIGINT or SIGTERM sets the flag; a second one ends the program.
+// From the first call on, SIGINT and SIGTERM set the flag; a second SIGINT ends the program.
 [[nodiscard]] const std::atomic<bool>& interrupt_flag();
 
 }  // namespace hamgen::app

@@ -13,11 +13,16 @@
 namespace hamgen::app {
 namespace {
 
-// CLI11 takes the next word as the value of "--alpha=", be it the model.
+// CLI11 takes the next word as the value of "--alpha=", be it the model, and an empty word, as from
+// an unset variable of the shell, as if the option were not there.
 void refuse_empty_values(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (word.starts_with("--") && word.size() > 3 && word.find('=') == word.size() - 1)
       throw UsageError(fmt::format("{} has no value", word));
+    if (!word.empty()) continue;
+    throw UsageError(
+        fmt::format("an empty word after {}\nhelp: is a variable of the shell not set?",
+                    &word == words.data() ? "hamgen" : *(&word - 1)));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "generator/algebra/from_ginac.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "generator/algebra/functions.hpp"
@@ -7,6 +8,40 @@
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
+
+namespace {
+
+constexpr double kMostTerms = 10'000;
+
+using TermCounts = std::map<GiNaC::ex, double, GiNaC::ex_is_less>;
+
+// At most so many terms has the expanded expression: of t terms, the n-th power has as many as
+// there are monomials of degree n in t variables, (t + n - 1 over n).
+double expanded_terms(const GiNaC::ex& e, TermCounts& known) {
+  if (e.nops() == 0 || GiNaC::is_a<GiNaC::function>(e)) return 1;
+  if (const auto it = known.find(e); it != known.end()) return it->second;
+  const bool sum = GiNaC::is_a<GiNaC::add>(e);
+  double terms = sum ? 0 : 1;
+  if (GiNaC::is_a<GiNaC::power>(e)) {
+    const double base = expanded_terms(e.op(0), known);
+    const GiNaC::ex exponent = e.op(1);
+    terms = base * expanded_terms(exponent, known);
+    if (exponent.info(GiNaC::info_flags::integer)) {
+      const double n = std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double());
+      for (double i = 1; base > 1 && i <= n && (i == 1 || terms <= kMostTerms); ++i)
+        terms = i == 1 ? base : terms * (base + i - 1) / i;
+    }
+  } else {
+    for (std::size_t i = 0; i < e.nops(); ++i) {
+      const double part = expanded_terms(e.op(i), known);
+      terms = sum ? terms + part : terms * part;
+    }
+  }
+  known.emplace(e, terms);
+  return terms;
+}
+
+}  // namespace
 
 GiNaC::ex SymbolTable::symbol(const std::string& name, int rank) {
   const auto it = symbols_.find(name);
@@ -113,6 +148,11 @@ GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
     return result;
   };
   return convert(convert, e);
+}
+
+bool vanishes_when_expanded(const GiNaC::ex& e) {
+  TermCounts known;
+  return e.is_zero() || (expanded_terms(e, known) <= kMostTerms && e.expand().is_zero());
 }
 
 bool vanishes(const Expression& e) {

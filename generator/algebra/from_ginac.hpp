@@ -28,6 +28,9 @@ class SymbolTable {
 [[nodiscard]] GiNaC::ex to_ginac(const Expression& e, SymbolTable& table);
 // Is it identically 0, as far as expanding shows?
 [[nodiscard]] bool vanishes(const Expression& e);
+// The same, of an expression that expands to a moderate number of terms; false for all others that
+// are not written as 0.
+[[nodiscard]] bool vanishes_when_expanded(const GiNaC::ex& e);
 [[nodiscard]] GiNaC::numeric to_ginac(const Rational& value);
 [[nodiscard]] Rational to_rational(const GiNaC::numeric& value);
 

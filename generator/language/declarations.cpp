@@ -211,6 +211,12 @@ class Declarations {
                       "'with' gives values outside the range; a scene sets the others");
       return;
     }
+    if (variable->beyond.contains(*at)) {
+      symbols_.report(boundary.name.span,
+                      fmt::format("'{}[{}]' has a value already", boundary.name.text, *at),
+                      "give it one value");
+      return;
+    }
     variable->beyond[*at] = boundary.value;
     symbols_.find(boundary.name.text)->beyond.insert(*at);
   }

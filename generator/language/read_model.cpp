@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -14,12 +15,17 @@
 #include "generator/language/parser.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/language/words.hpp"
+#include "generator/language/written_out.hpp"
 
 namespace hamgen {
 namespace {
 
 // Scenes of larger systems are evaluated only when they are run.
 constexpr long largest_checked_scene = 1000;
+
+// Derivatives are taken of formulas as they are when written out, definitions put in: seconds for
+// so many operations, and four times as long for twice as many.
+constexpr double most_operations = 10'000;
 
 class ModelReader {
  public:
@@ -40,6 +46,7 @@ class ModelReader {
                                    .text = each.text,
                                    .comment = each.comment,
                                    .span = each.name.span});
+      check_length(each);
     }
     read_scenes(!sizes.empty());
     throw_if_wrong();
@@ -85,10 +92,23 @@ class ModelReader {
     return check_values(node, known_, symbols_);
   }
 
+  // Reported where it first becomes too long; what uses that is counted as if it were short.
+  void check_length(const Formula& formula) {
+    const double count = written_out_operations(formula.value, operations_);
+    operations_[formula.name.text] = count > most_operations ? 0 : count;
+    if (count <= most_operations) return;
+    symbols_.report(
+        formula.name.span,
+        fmt::format("'{}' has {:.6g} operations with its definitions written out, more than {}",
+                    formula.name.text, count, most_operations),
+        "a definition used twice counts twice, and twice again in every one that uses it so");
+  }
+
   void define(const Formula& formula) {
     if (const auto value = check_formula(formula.value, formula_role(formula.name.span.begin))) {
       known_[formula.name.text] = *value;
     }
+    check_length(formula);
     model_.definitions.push_back({.name = formula.name.text,
                                   .value = formula.value,
                                   .text = formula.text,
@@ -116,6 +136,7 @@ class ModelReader {
     model_.hamiltonian = first.value;
     model_.hamiltonian_text = first.text;
     check_formula(first.value, formula_role(std::nullopt));
+    check_length(first);
     if (!syntax_.times.empty() && names_in(first.value).contains("p_t")) {
       symbols_.report(first.name.span, "H uses 'p_t', the momentum that belongs to time",
                       "leave it out: 'time' adds it to H");
@@ -221,6 +242,7 @@ class ModelReader {
   std::vector<Diagnostic> diagnostics_;
   Symbols symbols_;
   KnownValues known_;
+  std::map<std::string, double> operations_;  // of definitions, written out
   Model model_;
 };
 

@@ -24,7 +24,7 @@ std::size_t node_count(const GiNaC::ex& e, std::size_t limit) {
 
 bool vanishes(const GiNaC::ex& e) {
   if (e.is_zero()) return true;
-  return node_count(e, kSmall) < kSmall && e.expand().is_zero();
+  return node_count(e, kSmall) < kSmall && vanishes_when_expanded(e);
 }
 
 std::vector<Quantity> quantities(const std::vector<Variable>& variables) {

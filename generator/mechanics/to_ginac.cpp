@@ -148,12 +148,12 @@ GiNaC::ex TreeConverter::convert_binary(const BinaryNode& node, const Indices& i
     case BinaryOperator::multiply:
       return left * right;
     case BinaryOperator::divide:
-      if (right.expand().is_zero()) fail(node.right->span, "division by zero");
+      if (vanishes_when_expanded(right)) fail(node.right->span, "division by zero");
       return left / right;
     case BinaryOperator::power: {
       const bool negative =
           GiNaC::is_a<GiNaC::numeric>(right) && right.info(GiNaC::info_flags::negative);
-      if (left.expand().is_zero() && (negative || right.is_zero())) {
+      if ((negative || right.is_zero()) && vanishes_when_expanded(left)) {
         fail(node.left->span, negative ? "division by zero" : "0^0 is undefined");
       }
       const GiNaC::ex value = GiNaC::pow(left, right);
