@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
@@ -22,6 +23,23 @@ Identities half_gradient(const Program& program, const Evaluation& half,
   identities.emitted.insert(identities.emitted.begin(), program.coefficients.begin(),
                             program.coefficients.end());
   return identities;
+}
+
+// Ht, cut off after each of its powers of h.
+std::vector<Expression> modified_energies(const Mechanics& mechanics, const Member& member,
+                                          const std::vector<int>& powers) {
+  const std::vector<Expression> terms =
+      modified_hamiltonian(mechanics, member.c, member.generating_order, powers.back() + 1);
+  std::vector<Expression> sums;
+  for (const int last : powers) {
+    std::vector<Expression> sum;
+    for (int j = 0; j <= last; ++j) {
+      const auto place = static_cast<std::size_t>(j);
+      sum.push_back(Expression::power(step_size(), Expression(j)) * terms[place]);
+    }
+    sums.push_back(Expression::sum(std::move(sum)));
+  }
+  return sums;
 }
 
 std::vector<Identities> straight_line_identities(const Mechanics& mechanics,
@@ -49,6 +67,11 @@ std::vector<Identities> straight_line_identities(const Mechanics& mechanics,
     std::vector<Expression> field(middle, gradient.end());
     for (auto it = gradient.begin(); it != middle; ++it) field.push_back(-*it);
     parts.push_back(identities_of(program.vector_field, "component of J grad H", field));
+  }
+  if (!program.modified_powers.empty()) {
+    parts.push_back(
+        identities_of(program.modified_energies, "modified energy",
+                      modified_energies(mechanics, scheme.member(), program.modified_powers)));
   }
   if (!program.hessian_places.empty()) {
     std::vector<Expression> entries;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "generator/equations/step_equations.hpp"
+#include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
 #include "tests/verify/mutants.hpp"
@@ -119,6 +120,43 @@ TEST(EmittedMethods, EveryMutationIsRefuted) {
   fmt::print("{} mutants{}; {} others compute the same\n", total, counts, equivalent);
   EXPECT_GE(total, 300);
   EXPECT_EQ(by_kind.size(), 13U);
+}
+
+TEST(EmittedModifiedEnergies, AreTheSeriesAndEveryMutationIsRefuted) {
+  int total = 0;
+  for (const Case& c : {Case{"implicit-midpoint", kPendulum}, Case{"symplectic-euler-a", kPendulum},
+                        Case{"implicit-midpoint", kHenonHeiles}}) {
+    const Mechanics mechanics = mechanics_of(c.text);
+    const Scheme scheme = scheme_of(c, mechanics);
+    Program original = program_of(mechanics, scheme, c.solver);
+    const std::vector<Expression> terms =
+        modified_hamiltonian(mechanics, scheme.member().c, 0, scheme.symmetric ? 5 : 3);
+    std::vector<Expression> sums;
+    Expression sum;
+    for (std::size_t j = 0; j < terms.size(); ++j) {
+      sum += Expression::power(step_size(), Expression(static_cast<long>(j))) * terms[j];
+      if (j == 0 || terms[j].is_zero()) continue;
+      sums.push_back(sum);
+      original.modified_powers.push_back(static_cast<int>(j));
+    }
+    EXPECT_EQ(sums.size(), 2U);
+    original.modified_energies = evaluate_together(sums);
+    EXPECT_EQ(prove_emitted(mechanics, scheme, original, mechanics.energy).verdict,
+              Verdict::proved);
+    // The step itself has its own test.
+    Program only{.plan = original.plan};
+    only.modified_energies = original.modified_energies;
+    for (const Mutant& mutant : mutants_of(only)) {
+      if (computes_the_same(only, mutant.program)) continue;
+      Program changed = original;
+      changed.modified_energies = mutant.program.modified_energies;
+      EXPECT_EQ(prove_emitted(mechanics, scheme, changed, mechanics.energy).verdict,
+                Verdict::refuted)
+          << c.name << ": " << mutant.description;
+      ++total;
+    }
+  }
+  EXPECT_GE(total, 50);
 }
 
 // The linearised step, from one without a solve to a matrix that is left to elimination.

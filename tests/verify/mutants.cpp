@@ -44,7 +44,8 @@ void for_each_expression(Program& program, const std::function<void(Expression&)
   expressions(program.increments);
   for (Evaluation* evaluation :
        {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-        &program.kinetic_gradient, &program.vector_field, &program.hessian}) {
+        &program.kinetic_gradient, &program.vector_field, &program.hessian,
+        &program.modified_energies}) {
     statements(evaluation->statements);
     expressions(evaluation->results);
   }
@@ -182,7 +183,8 @@ class Interpreter {
       for (const Expression& e : program.increments) results_.push_back(value(e));
       for (const Evaluation* e :
            {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-            &program.kinetic_gradient, &program.vector_field, &program.hessian}) {
+            &program.kinetic_gradient, &program.vector_field, &program.hessian,
+            &program.modified_energies}) {
         run(e->statements);
         for (const Expression& result : e->results) results_.push_back(value(result));
       }
