@@ -6,7 +6,13 @@ namespace hamgen {
 
 std::vector<Scheme> runge_kutta_methods() {
   const Expression half = ratio(1, 2);
-  return {{.name = "rk4",
+  return {{.name = "explicit-euler",
+           .description = "Z = z + h J grad H(z), what not to use: energies grow",
+           .order = 1,
+           .symplectic = false,
+           .source = "Euler 1768; HLW I.1.2",
+           .method = RungeKutta{.a = {{0}}, .b = {1}, .c = {0}}},
+          {.name = "rk4",
            .description = "the classical method of Runge and Kutta, explicit",
            .order = 4,
            .symplectic = false,

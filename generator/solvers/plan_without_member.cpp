@@ -28,7 +28,7 @@ void plan_splitting(SolvePlan& plan, const Splitting& splitting) {
 void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& solver) {
   const std::size_t stages = tableau.b.size();
   if (tableau.is_explicit()) {
-    plan.solver = fmt::format("explicit: {} gradients", stages);
+    plan.solver = fmt::format("explicit: {} gradient{}", stages, stages == 1 ? "" : "s");
     plan.left_out.emplace_back("equation solver: the step is explicit");
     return;
   }

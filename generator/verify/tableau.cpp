@@ -222,9 +222,10 @@ Finding order_by_trees(const Numbers& t, int claimed) {
     if (size_of_precise(defect[k]) <= kTableauDigits) continue;
     return {fmt::format("order {}", trees[k].order - 1),
             t.exact ? Verdict::proved : Verdict::tested,
-            fmt::format("all {} order conditions before; leading error: the tree {} with relative "
+            fmt::format("{} order condition{} before; leading error: the tree {} with relative "
                         "error {:.4g}, f = J grad H",
-                        k, trees[k].text, to_double(defect[k]))};
+                        k == 1 ? "the one" : fmt::format("all {}", k), k == 1 ? "" : "s",
+                        trees[k].text, to_double(defect[k]))};
   }
   return {fmt::format("order {} at least", trees.back().order),
           t.exact ? Verdict::proved : Verdict::tested,

@@ -105,6 +105,7 @@ TEST_P(NamedSchemes, LosesItsOrderByAWrongDigitInAnyCoefficient) {
   } else if (const auto* tableau = std::get_if<RungeKutta>(&good.method)) {
     for (std::size_t i = 0; i < tableau->b.size(); ++i) {
       mutate([&](Method& m) { change(std::get<RungeKutta>(m).b[i], by); });
+      if (good.order == 1) continue;  // its only condition is the sum of the b_i
       mutate([&](Method& m) {
         auto& a = std::get<RungeKutta>(m).a;
         change(a[i][i == 0 ? a.size() - 1 : i - 1], by);
