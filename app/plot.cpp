@@ -124,7 +124,30 @@ bool has_points(const PlotPanel& panel, std::size_t i) {
                              [&panel](const auto& point) { return drawable(panel, point); });
 }
 
-std::string panel_text(const PlotPanel& panel, std::size_t number, int height) {
+// A multiple of 1, 2 or 5 times a power of ten, `count` times in the range at most.
+double round_distance(const Range& range, double count) {
+  const double wish = (range.high - range.low) / count;
+  const double power = std::pow(10.0, std::floor(std::log10(wish)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= wish) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+// Where x and y have the same unit and one of them is much the shorter, gnuplot puts as many
+// numbers on it as on the longer: one a 45 pixels at most, across, and one a 30 up.
+std::string square_tics(const Range& x, const Range& y, int width, int height) {
+  const double across = 0.8 * width;
+  const double up = 0.78 * height;
+  const double pixels = std::min(across / (x.high - x.low), up / (y.high - y.low));
+  const auto tics = [pixels](char name, const Range& range, double least) {
+    const double count = std::max(1.0, pixels * (range.high - range.low) / least);
+    return fmt::format("set {}tics {:.9g}\n", name, round_distance(range, std::min(count, 8.0)));
+  };
+  return tics('x', x, 45.0) + tics('y', y, 30.0);
+}
+
+std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {
   Range x;
   Range y;
   for (const PlotSeries& series : panel.series) {
@@ -153,7 +176,8 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int height) {
         logarithmic && decades > 8.0 ? std::string("100") : std::string("autofreq"));
   };
   text += axis('x', panel.logarithmic_x, x) + axis('y', panel.logarithmic_y, y);
-  text += panel.square ? "set size ratio -1\n" : "set size noratio\n";
+  text += panel.square ? "set size ratio -1\n" + square_tics(x, y, width, height)
+                       : std::string("set size noratio\n");
   text += fmt::format("set rmargin {}\nunset label\n",
                       longest == 0 ? 3.0 : 5.0 + 0.78 * static_cast<double>(longest));
   for (const EndLabel& label : labels) {
@@ -189,7 +213,8 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
       png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", quoted(output));
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
   text += fmt::format("set multiplot layout 1,{}\n", count);
-  for (std::size_t i = 0; i < count; ++i) text += panel_text(plot.panels[i], i, plot.height);
+  for (std::size_t i = 0; i < count; ++i)
+    text += panel_text(plot.panels[i], i, plot.width, plot.height);
   return text + "unset multiplot\nunset output\n";
 }
 

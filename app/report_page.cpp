@@ -228,10 +228,13 @@ std::string figures_section(const ReportContent& content) {
                     orbit.run.energy->initial);
   text += "<div class='figures'>\n";
   for (const ReportPicture& picture : content.pictures) {
-    const std::string image = picture.svg.empty()
-                                  ? "<p class='note'>No picture: gnuplot is missing.</p>"
-                                  : fmt::format("<img alt='{}' src='data:image/svg+xml;base64,{}'>",
-                                                html_text(picture.caption), base64(picture.svg));
+    const std::string image =
+        picture.svg.empty() ? "<p class='note'>No picture: gnuplot is missing.</p>"
+                            : fmt::format(
+                                  "<p class='more'>Wider than this screen: scroll it sideways →</p>"
+                                  "<div class='picture' tabindex='0'><img alt='{}' "
+                                  "src='data:image/svg+xml;base64,{}'></div>",
+                                  html_text(picture.caption), base64(picture.svg));
     text += fmt::format("<figure id='{}'>{}<figcaption>{}</figcaption></figure>\n", picture.name,
                         image, html_text(picture.caption));
   }
@@ -250,7 +253,8 @@ std::string bench_section(const ReportContent& content) {
       "took: "
       "medians of samples taken in turn, ± the distance of their quartiles, to be compared within "
       "this page only. {}</p>\n"
-      "<div class='wide'><table>\n<tr><th>method</th><th class='number'>h</th>"
+      "<p class='more'>Errors are in the last columns: scroll sideways →</p>"
+      "<div class='wide' tabindex='0'><table>\n<tr><th>method</th><th class='number'>h</th>"
       "<th class='number'>ns/step</th><th class='number'>µs/unit time</th>"
       "<th class='number'>±</th>"
       "<th class='number'>iterations</th><th class='number'>gradients</th><th "

@@ -82,12 +82,15 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set output {}\n"
       "set title {} noenhanced\n"
       "set xlabel \"b, {{/Symbol b}} = b h{}\"\nset ylabel 'c, {{/Symbol g}} = c h'\n"
-      "set cblabel 'max H - min H'\nset logscale cb\n"
+      "set cblabel 'max H - min H' offset {},0\nset logscale cb\n"
       "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n"
       "set tics out nomirror\n"
-      "set key below center horizontal noenhanced\n",
+      // Room for the numbers and the title of the colours, and for the key below the axis' label.
+      "set rmargin at screen 0.79\nset lmargin at screen 0.12\n"
+      "set tmargin at screen 0.92\nset bmargin at screen 0.25\n"
+      "set key at screen 0.455,0.11 center top horizontal maxcols 2 noenhanced\n",
       svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", gnuplot_quoted(output),
-      gnuplot_quoted(title), what_stays_bounded(map));
+      gnuplot_quoted(title), what_stays_bounded(map), svg ? 2 : 1);
   text += map_range("x", map.b) + map_range("y", map.c);
   std::vector<double> drawn;
   std::ranges::copy_if(map.spread, std::back_inserter(drawn), is_drawn);

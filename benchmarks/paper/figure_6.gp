@@ -1,9 +1,9 @@
 call 'benchmarks/paper/common.gp' ARG1 ARG2
-eval 'set terminal ' . terminal(1500, 540)
+eval 'set terminal ' . terminal(1500, 620)
 set output pictures . 'figure_6.png'
 file = data . 'figure_6.dat'
 set multiplot
-set bmargin at screen 0.14
+set bmargin at screen 0.28
 set tmargin at screen 0.9
 set lmargin at screen 0.085
 set rmargin at screen 0.315
@@ -14,7 +14,8 @@ set format y '%.1e'
 set ytics 5e-13
 set xrange [0:122]
 set yrange [-1.2e-12:1.9e-12]
-set key top left opaque
+# Below its panel: wherever it stood inside, curves would run through it.
+set key at screen 0.02,0.15 left top Left reverse maxrows 3
 plot for [i = 0:blocks(file) - 1] file index i with lines lt i + 1 title name(file, i)
 set key off
 set ytics autofreq
@@ -24,7 +25,7 @@ set palette defined (0 '#00204d', 0.35 '#31688e', 0.7 '#5ec962', 1 '#fde725')
 set xlabel 'beta'
 set ylabel 'gamma' offset 1,0
 set lmargin at screen 0.40
-set rmargin at screen 0.61
+set rmargin at screen 0.60
 set title 'log10 of the spread'
 set format x '%.0e'
 set format y '%.3f'
@@ -35,11 +36,11 @@ set autoscale y
 set autoscale xfix
 set autoscale yfix
 plot data . 'figure_6_wide.dat' using 1:2:(log10($5)) with image
-set lmargin at screen 0.73
+set lmargin at screen 0.745
 set rmargin at screen 0.93
 set title 'close to the best pair'
 set xlabel 'beta - best'
-set ylabel 'gamma - best' offset 1.5,0
+set ylabel 'gamma - best' offset -0.5,0
 set format y '%.0e'
 set xtics 4e-10
 set format cb '%.1f'

@@ -6,7 +6,7 @@ set lmargin 12
 set xlabel 't'
 set ylabel 'H - H(0)'
 set format y '%.0e'
-set key top right
+set key top left Left reverse
 set yrange [-0.0035:0.0035]
 plot file index 0 with lines lt 1 title 'alpha = 0.3', file index 1 with lines lt 1 notitle, \
      file index 2 with lines lt 2 dt (8,4) title 'alpha = 0.7', \
