@@ -116,7 +116,13 @@ Section figure_2(const Study& study) {
       {"4.1.1 a, Fig. 2", "(0.5, 0.5, 0.5) oscillates much more than (0.5, 0, 0)",
        fmt::format("{:.0f} times at q(0) = 0.8, {:.0f} times at 3.1",
                    spread[0][0][5] / spread[1][0][5], spread[0][1][5] / spread[1][1][5]),
-       verdict(larger > 100)}};
+       verdict(larger > 100)},
+      {"3.1, 4.1.1", "Values close to (0.5, 0, 0) have very small error",
+       fmt::format(
+           "beta = gamma = 0: the spread at alpha = 0.4 is {:.0f} times that at 0.5 for q(0) = "
+           "0.8, {:.0f} times for 3.1",
+           spread[1][0][4] / spread[1][0][5], spread[1][1][4] / spread[1][1][5]),
+       verdict(spread[1][0][4] > 10 * spread[1][0][5] && spread[1][1][4] > 10 * spread[1][1][5])}};
 
   Table table{.header = {"spread max H - min H", "rotation, q(0) = 0.8", "rotation, 3.1",
                          "beta = gamma = 0, 0.8", "beta = gamma = 0, 3.1"}};

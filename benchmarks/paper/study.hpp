@@ -73,5 +73,6 @@ Orbit trace(DataTable& data, const std::string& title, const CompiledScheme& sch
 [[nodiscard]] Section figure_5(const Study& study);
 [[nodiscard]] Section figure_6(const Study& study);
 [[nodiscard]] Section figures_7_and_8(const Study& study);
+[[nodiscard]] Section all_integrators(const Study& study);
 
 }  // namespace hamgen::paper

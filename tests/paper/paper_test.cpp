@@ -89,9 +89,13 @@ TEST(Paper, TheQuickRunFindsThePapersNumbersWhereTheyHoldAndOursWhereTheyDoNot) 
   EXPECT_GT(number("return_half"), 1e-3) << "(1/2, 1/2, 1/2) is not reversible";
   EXPECT_EQ(number("h10_bounded_by_sweeps"), 0);
   EXPECT_EQ(number("h10_bounded_solved"), 3);
+  EXPECT_EQ(number("dimension_1"), 3);  // n (2n + 1), which is 3n for n = 1 only
+  EXPECT_EQ(number("dimension_2"), 10);
 
   const std::string page = read(directory.path() / "README.md");
   EXPECT_EQ(page.find("nan"), std::string::npos);
+  EXPECT_EQ(page.find("unbounded at"), std::string::npos) << "a word that is not defined there";
+  EXPECT_NE(page.find("*leaves libration* when abs(q) exceeds pi"), std::string::npos);
   static const std::regex picture(R"(\]\((\w+\.png)\))");
   int pictures = 0;
   for (std::sregex_iterator match(page.begin(), page.end(), picture), end; match != end; ++match) {
