@@ -53,7 +53,7 @@ TEST(Measure, FindsSymplecticStepsSymplecticToRoundOff) {
         {"fput.ham", {"--alpha", "1"}},
         {"fput.ham", {"--scheme", "stormer-verlet"}},
         {"fput.ham", {"--scheme", "suzuki-4"}},
-        {"fput.ham", {"--scheme", "gauss-4"}}}) {
+        {"fput.ham", {"--scheme", "gauss-4", "--set", "N=12"}}}) {
     const Measured found = measured(model, options);
     EXPECT_EQ(found.verdict, "tested") << model;
     EXPECT_GE(found.most, 0) << model;

@@ -1,0 +1,133 @@
+#include "app/dispatch.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "app/command_line.hpp"
+#include "app/interrupt.hpp"
+#include "app/terminal.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::app {
+namespace {
+
+// CLI11 takes the next word as the value of "--alpha=", be it the model, and an empty word, as from
+// an unset variable of the shell, as if the option were not there.
+void refuse_empty_values(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word.starts_with("--") && word.size() > 3 && word.find('=') == word.size() - 1)
+      throw UsageError(fmt::format("{} has no value", word));
+    if (!word.empty()) continue;
+    throw UsageError(
+        fmt::format("an empty word after {}\nhelp: is a variable of the shell not set?",
+                    &word == words.data() ? "hamgen" : *(&word - 1)));
+  }
+}
+
+std::string_view without_line_end(std::string_view text) {
+  return text.substr(0, text.find_last_not_of('\n') + 1);
+}
+
+const CLI::App& chosen(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : *parsed.front();
+}
+
+// The nearest option or subcommand to a word that was not expected.
+std::string suggestion(const CLI::App& command, const std::string& word) {
+  std::vector<std::string> candidates;
+  for (const CLI::App* subcommand : command.get_subcommands({}))
+    candidates.push_back(subcommand->get_name());
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) candidates.push_back("--" + name);
+  }
+  return nearest(word.substr(0, word.find('=')), candidates);
+}
+
+std::string explain(const CLI::ParseError& error, const CLI::App& app,
+                    const std::vector<std::string>& words) {
+  const CLI::App& command = chosen(app);
+  std::string text = fmt::format("hamgen: {}\n", error.what());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    text = fmt::format("hamgen: {}: one value is wanted, once\n",
+                       text.substr(8, text.find(':', 8) - 8));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+      (command.get_parent() == nullptr && !words.empty())) {
+    const std::vector<std::string> extras = command.remaining();
+    const std::string word = extras.empty() ? words.front() : extras.front();
+    text = fmt::format("hamgen: unexpected '{}'\n", word);
+    const std::string near = suggestion(command, word);
+    if (!near.empty()) return text + fmt::format("help: did you mean '{}'?\n", near);
+  }
+  const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
+  return text + fmt::format("help: see hamgen {}--help\n", name);
+}
+
+int run_command(const std::vector<std::string>& words) {
+  CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
+               "hamgen");
+  const std::vector<Command> commands = {add_check(app),  add_show(app),  add_generate(app),
+                                         add_run(app),    add_bench(app), add_report(app),
+                                         add_stress(app), add_tune(app),  add_verify(app),
+                                         add_list(app),   add_cache(app)};
+  app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
+  app.require_subcommand(1);
+  app.footer(
+      "exit status: 0 done, 1 numerical failure or a difference found, 2 usage, 3 model error,\n"
+      "             4 tool failure (compiler, files), 5 proof failed");
+  use_short_help(app);
+  try {
+    refuse_empty_values(words);
+    app.parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+  } catch (const CLI::CallForHelp&) {
+    print(app.help());
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return done;
+  } catch (const CLI::ParseError& error) {
+    print_error(explain(error, app, words));
+    return usage_error;
+  }
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) return command.run();
+  }
+  internal_error("no subcommand was chosen");
+}
+
+}  // namespace
+
+// Every way to fail, and only here, becomes a message and an exit status.
+int dispatch(const std::vector<std::string>& words) {
+  try {
+    return run_command(words);
+  } catch (const ModelError& error) {
+    print_error(error.what());
+    return model_error;
+  } catch (const UsageError& error) {
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
+    return usage_error;
+  } catch (const ProofError& error) {
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
+    return proof_failed;
+  } catch (const runtime::ToolError& error) {
+    if (interrupt_flag()) return interrupted;  // a compilation that was given up
+    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
+    return tool_failure;
+  } catch (const std::bad_alloc&) {
+    print_error("hamgen: out of memory\n");
+    return tool_failure;
+  } catch (const std::exception& error) {
+    print_error(
+        fmt::format("hamgen: internal error: {}\n"
+                    "help: this is a fault of hamgen, not of the model; please report it\n",
+                    error.what()));
+    return tool_failure;
+  }
+}
+
+}  // namespace hamgen::app
