@@ -19,7 +19,7 @@ namespace {
 
 struct GenerateOptions {
   MethodOptions method;
-  std::string output;  // a directory
+  std::string output = "-";  // a directory, or standard output
   std::string format;
   std::string name_space;
   std::string require;
@@ -88,7 +88,7 @@ void require_namespace(const std::string& text) {
 }
 
 int generate_files(const GenerateOptions& options) {
-  if (options.check && options.output.empty())
+  if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   require_namespace(options.name_space);
   const SourceText source = read_model_source(options.method);
@@ -102,7 +102,7 @@ int generate_files(const GenerateOptions& options) {
   record_origin(options.method, source, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, request.command);
-  return options.output.empty() ? print_only_file(files) : write(files, options.output);
+  return options.output == "-" ? print_only_file(files) : write(files, options.output);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ int generate_files(const GenerateOptions& options) {
 Command add_generate(CLI::App& app) {
   const auto options = std::make_shared<GenerateOptions>();
   CLI::App* parser = app.add_subcommand("generate", "writes the integrator as C++ source");
-  parser->add_option("-o,--output", options->output, "write there; default: print a single file")
+  parser->add_option("-o,--output", options->output, "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
   parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
       ->type_name("NAME");

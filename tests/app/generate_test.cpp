@@ -17,6 +17,8 @@ TEST(Generate, PrintsTheHeaderWithItsCommand) {
   // The order of the options is fixed and words a shell would change are quoted.
   EXPECT_TRUE(contains(result.out, "hamgen generate " + model + " --alpha 1/2 '--beta=-1/400*h'"))
       << result.out;
+  EXPECT_EQ(hamgen({"generate", model, "--beta=-1/400*h", "--alpha", "1/2", "-o", "-"}).out,
+            result.out);
 }
 
 TEST(Generate, NamesTheModelByItsDigest) {
