@@ -108,9 +108,15 @@ void check_gauge(const Request& request) {
     throw UsageError(
         "--reference says where --gauge locally-exact is exact, but there is no --gauge");
   }
-  if (request.gauge != "locally-exact") {
-    throw UsageError(fmt::format("unknown gauge '{}'; there is locally-exact", request.gauge));
+  const bool is_matrix = request.gauge.starts_with('[');
+  if (!is_matrix && request.gauge != "locally-exact") {
+    throw UsageError(
+        fmt::format("unknown gauge '{}'; there is locally-exact, and a matrix C is written "
+                    "'[[a, b], [c, -a]]'",
+                    request.gauge));
   }
+  if (is_matrix && !request.reference.empty())
+    throw UsageError("--reference says where --gauge locally-exact is exact; a matrix has no point");
   if (!(request.alpha + request.beta + request.gamma).empty()) {
     throw UsageError("give either --gauge or --alpha, --beta, --gamma");
   }
@@ -128,6 +134,12 @@ const Scheme& named_scheme(const std::string& name) {
 
 // The member of the request; in its description the user's own words: 0.03, not 3/100.
 Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
+  if (request.gauge.starts_with('[')) {
+    Scheme scheme =
+        member_of_matrix(mechanics.degrees_of_freedom, read_gauge_matrix(model, request.gauge));
+    scheme.description = "C = " + request.gauge;
+    return scheme;
+  }
   if (!request.gauge.empty()) {
     return locally_exact_member(mechanics, read_reference(model, request.reference));
   }
@@ -209,6 +221,10 @@ std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme&
                     scheme.name, mechanics.name));
   }
   const Member& member = scheme.member();
+  if (!scheme.symplectic) {
+    throw UsageError(fmt::format("{} is not symplectic: it follows no modified Hamiltonian",
+                                 scheme.description));
+  }
   // H_0, then from the order of the scheme on; of a symmetric one every other.
   const int stride = scheme.symmetric ? 2 : 1;
   const int last = count == 1 ? 0 : scheme.order + stride * (count - 2);

@@ -25,8 +25,8 @@ struct Request {
   std::string alpha, beta, gamma;  // number, expression in h, parameters, E0, or a list;
                                    // by their own names: run-time parameters
   int order = 0;                   // of a member by its generating function; 0: its own
-  std::string gauge;               // locally-exact, instead of alpha, beta, gamma
-  // Where that gauge is exact: state (0 if not given) and parameters (the model's defaults).
+  std::string gauge;               // locally-exact or all of C, instead of alpha, beta, gamma
+  // Where locally-exact is exact: state (0 if not given) and parameters (the model's defaults).
   std::vector<std::pair<std::string, std::string>> reference;
   // Further names that alpha, beta, gamma may use: run-time parameters, 0 by default.
   std::vector<std::string> scheme_parameters;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_tableau.hpp"

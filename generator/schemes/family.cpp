@@ -90,45 +90,9 @@ bool is_diagonal_gauge(const Member& member, const Expression& value) {
          parameters->alpha == value;
 }
 
-std::string block_text(const GaugeBlock& block, int n) {
-  std::string text;
-  for (std::size_t k = 0; k < block.entries.size(); ++k) {
-    if (k != 0) text += block.is_matrix && k % static_cast<std::size_t>(n) == 0 ? "], [" : ", ";
-    text += to_text(block.entries[k]);
-  }
-  return block.is_matrix ? "[[" + text + "]]" : text;
-}
-
-}  // namespace
-
-Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
-                     const GaugeBlock& gamma) {
+Scheme member_scheme(int degrees_of_freedom, SparseMatrix c) {
   Scheme scheme;
-  Member member;
-  member.degrees_of_freedom = n;
-  const Expression half(Rational(1, 2));
-  const SparseMatrix beta_block = block_matrix("beta", beta, n);
-  const SparseMatrix gamma_block = block_matrix("gamma", gamma, n);
-  require_symmetric("beta", beta_block);
-  require_symmetric("gamma", gamma_block);
-  SparseMatrix a = block_matrix("alpha", alpha, n);
-  for (int i = 0; i < n; ++i) {
-    Expression& diagonal = a[{i, i}];
-    diagonal = diagonal - half;
-  }
-  for (const auto& [place, value] : a) {
-    if (value.is_zero()) continue;
-    member.c.emplace(place, value);
-    member.c.emplace(std::pair(n + place.second, n + place.first), -value);
-  }
-  for (const auto& [place, value] : gamma_block) {
-    member.c.emplace(std::pair(place.first, n + place.second), -value);
-  }
-  for (const auto& [place, value] : beta_block) {
-    member.c.emplace(std::pair(n + place.first, place.second), -value);
-  }
-  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", block_text(alpha, n),
-                                   block_text(beta, n), block_text(gamma, n));
+  Member member{.degrees_of_freedom = degrees_of_freedom, .c = std::move(c)};
   // Mathematics: the adjoint of C is -C, so C(-h) = -C(h) makes the member symmetric; order 2 needs
   // C = O(h).
   scheme.symmetric = is_odd_in_h(member.c);
@@ -144,6 +108,47 @@ Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
     scheme.name = "member";
   }
   scheme.method = std::move(member);
+  return scheme;
+}
+
+std::string block_text(const GaugeBlock& block, int n) {
+  std::string text;
+  for (std::size_t k = 0; k < block.entries.size(); ++k) {
+    if (k != 0) text += block.is_matrix && k % static_cast<std::size_t>(n) == 0 ? "], [" : ", ";
+    text += to_text(block.entries[k]);
+  }
+  return block.is_matrix ? "[[" + text + "]]" : text;
+}
+
+}  // namespace
+
+Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
+                     const GaugeBlock& gamma) {
+  const Expression half(Rational(1, 2));
+  const SparseMatrix beta_block = block_matrix("beta", beta, n);
+  const SparseMatrix gamma_block = block_matrix("gamma", gamma, n);
+  require_symmetric("beta", beta_block);
+  require_symmetric("gamma", gamma_block);
+  SparseMatrix a = block_matrix("alpha", alpha, n);
+  for (int i = 0; i < n; ++i) {
+    Expression& diagonal = a[{i, i}];
+    diagonal = diagonal - half;
+  }
+  SparseMatrix c;
+  for (const auto& [place, value] : a) {
+    if (value.is_zero()) continue;
+    c.emplace(place, value);
+    c.emplace(std::pair(n + place.second, n + place.first), -value);
+  }
+  for (const auto& [place, value] : gamma_block) {
+    c.emplace(std::pair(place.first, n + place.second), -value);
+  }
+  for (const auto& [place, value] : beta_block) {
+    c.emplace(std::pair(n + place.first, place.second), -value);
+  }
+  Scheme scheme = member_scheme(n, std::move(c));
+  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", block_text(alpha, n),
+                                   block_text(beta, n), block_text(gamma, n));
   return scheme;
 }
 
@@ -170,6 +175,31 @@ std::vector<Scheme> named_members() {
              Expression(1))};
 }
 
+Scheme member_of_matrix(int degrees_of_freedom, SparseMatrix c) {
+  std::erase_if(c, [](const auto& place) { return place.second.is_zero(); });
+  Scheme scheme = member_scheme(degrees_of_freedom, std::move(c));
+  scheme.symplectic = gauge_defect(scheme.member()).empty();
+  return scheme;
+}
+
+SparseMatrix gauge_defect(const Member& member) {
+  const int n = member.degrees_of_freedom;
+  // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign
+  // turned.
+  SparseMatrix defect;
+  for (const auto& [place, value] : member.c) {
+    const auto [row, column] = place;
+    const int target = column < n ? column + n : column - n;
+    const Expression signed_value = column < n ? value : -value;
+    Expression& cj = defect[{row, target}];
+    cj = cj + signed_value;
+    Expression& jct = defect[{target, row}];
+    jct = jct - signed_value;
+  }
+  std::erase_if(defect, [](const auto& place) { return vanishes(place.second); });
+  return defect;
+}
+
 std::optional<FamilyParameters> uniform_parameters(const Member& member) {
   const int n = member.degrees_of_freedom;
   FamilyParameters first{.alpha = Expression(Rational(1, 2))};
@@ -180,7 +210,7 @@ std::optional<FamilyParameters> uniform_parameters(const Member& member) {
   std::size_t entries = 0;
   for (int i = 0; i < n; ++i) {
     if (entry(member.c, i, i) != entry(member.c, 0, 0) ||
-        entry(member.c, n + i, n + i) != entry(member.c, n, n) ||
+        entry(member.c, n + i, n + i) != -entry(member.c, 0, 0) ||
         entry(member.c, n + i, i) != entry(member.c, n, 0) ||
         entry(member.c, i, n + i) != entry(member.c, 0, n)) {
       return std::nullopt;

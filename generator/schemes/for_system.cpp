@@ -77,6 +77,12 @@ Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
 }
 
 Scheme compose(const Scheme& composition, const Scheme& base) {
+  if (!base.symplectic) {
+    throw UsageError(
+        fmt::format("--scheme {} composes a symplectic member, and that of {} is not\n"
+                    "help: C has to lie in sp(2n), C J + J C^T = 0",
+                    composition.name, base.description));
+  }
   if (!base.symmetric) {
     throw UsageError(
         fmt::format("--scheme {} composes a symmetric member, and that of {} is not\n"

@@ -15,6 +15,12 @@ Scheme raise_order(Scheme scheme, int order) {
                     "help: leave --scheme out, or name a member of the family",
                     order, scheme.name, scheme.order));
   }
+  if (!scheme.symplectic) {
+    throw UsageError(
+        fmt::format("--order {}: {} is not symplectic and has no generating function\n"
+                    "help: C has to lie in sp(2n), C J + J C^T = 0",
+                    order, scheme.description));
+  }
   if (order < scheme.order || order > kHighestOrder) {
     throw UsageError(
         fmt::format("--order {}: this member has order {}; it can be raised to at most {}", order,

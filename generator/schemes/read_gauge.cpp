@@ -22,7 +22,8 @@ class GaugeText {
     for (const std::string& name : element_names(model.parameters)) names_.push_back(name);
   }
 
-  GaugeBlock read(const std::string& text) const {
+  // `size` is the number of rows and of columns of a matrix.
+  GaugeBlock read(const std::string& text, std::size_t size) const {
     const std::string_view outer = without_blanks(text);
     GaugeBlock block;
     if (!outer.starts_with('[')) {
@@ -31,16 +32,15 @@ class GaugeText {
       return block;
     }
     const std::vector<std::string_view> rows = outermost_pieces(inside(outer));
-    const auto n = static_cast<std::size_t>(degrees_of_freedom(model_));
     block.is_matrix = rows[0].starts_with('[');
-    if (block.is_matrix && rows.size() != n) refuse(rows.size(), "rows");
+    if (block.is_matrix && rows.size() != size) refuse(rows.size(), "rows", size);
     for (const std::string_view row : rows) {
       if (!block.is_matrix) {
         block.entries.push_back(entry(row));
         continue;
       }
       const std::vector<std::string_view> entries = outermost_pieces(inside(row));
-      if (entries.size() != n) refuse(entries.size(), "entries in a row");
+      if (entries.size() != size) refuse(entries.size(), "entries in a row", size);
       for (const std::string_view piece : entries) block.entries.push_back(entry(piece));
     }
     return block;
@@ -48,15 +48,21 @@ class GaugeText {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw UsageError(fmt::format(
-        "--{0}: {1}\nhelp: write a number, a list a,b with one entry per degree of freedom, or a "
-        "matrix row by row: --{0} '[[a, b], [b, c]]'",
-        option_, what));
+    const std::string form =
+        option_ == "gauge"
+            ? "locally-exact, or the matrix C row by row: --gauge '[[a, b], [c, -a]]'"
+            : fmt::format("a number, a list a,b with one entry per degree of freedom, or a matrix "
+                          "row by row: --{} '[[a, b], [b, c]]'",
+                          option_);
+    throw UsageError(fmt::format("--{}: {}\nhelp: write {}", option_, what, form));
   }
 
-  [[noreturn]] void refuse(std::size_t count, const char* what) const {
-    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom", count, what,
-                     degrees_of_freedom(model_)));
+  [[noreturn]] void refuse(std::size_t count, const char* what, std::size_t wanted) const {
+    const int n = degrees_of_freedom(model_);
+    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom{}", count, what, n,
+                     static_cast<std::size_t>(n) == wanted
+                         ? ""
+                         : fmt::format(": C is {0} x {0}", wanted)));
   }
 
   // What stands between the brackets that enclose the text.
@@ -81,7 +87,18 @@ class GaugeText {
 
 GaugeBlock read_gauge_block(const Model& model, const std::string& option,
                             const std::string& text) {
-  return GaugeText(model, option).read(text);
+  return GaugeText(model, option).read(text, static_cast<std::size_t>(degrees_of_freedom(model)));
+}
+
+SparseMatrix read_gauge_matrix(const Model& model, const std::string& text) {
+  const auto size = 2 * static_cast<std::size_t>(degrees_of_freedom(model));
+  const std::string option = "gauge";
+  const GaugeBlock block = GaugeText(model, option).read(text, size);
+  if (!block.is_matrix) throw UsageError("--gauge: C has rows\nhelp: write '[[a, b], [c, -a]]'");
+  SparseMatrix c;
+  for (std::size_t k = 0; k < block.entries.size(); ++k)
+    c[{static_cast<int>(k / size), static_cast<int>(k % size)}] = block.entries[k];
+  return c;
 }
 
 Values read_reference(const Model& model,

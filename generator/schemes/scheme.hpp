@@ -79,6 +79,12 @@ struct GaugeBlock {
 [[nodiscard]] Scheme family_member(int degrees_of_freedom, const GaugeBlock& alpha,
                                    const GaugeBlock& beta, const GaugeBlock& gamma);
 
+// The member with this C, 2n x 2n; not symplectic where C J + J C^T is not 0.
+[[nodiscard]] Scheme member_of_matrix(int degrees_of_freedom, SparseMatrix c);
+
+// C J + J C^T, without the entries that algebra finds to be zero.
+[[nodiscard]] SparseMatrix gauge_defect(const Member& member);
+
 // The parameters of a member that has the same ones for all degrees of freedom and no other
 // entries.
 struct FamilyParameters {

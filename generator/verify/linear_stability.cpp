@@ -288,6 +288,10 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
         "the flow itself grows like t: a frequency is double, with a Jordan block of A = J S";
     return result;
   }
+  if (scheme.has_member() && !scheme.symplectic) {
+    result.detail = "C is outside sp(2n): the conditions are those of symplectic members";
+    return result;
+  }
   std::optional<Modes> modes;
   if (is_cayley(scheme)) {
     std::vector<Matrix2d> planes;

@@ -28,26 +28,12 @@ GiNaC::matrix canonical_j(unsigned n) {
 }  // namespace
 
 Finding prove_gauge(const Member& member) {
-  const int n = member.degrees_of_freedom;
-  // (C J)_ij = -C_{i,n+j} for j < n, C_{i,j-n} else; J C^T is its mirror image with the sign
-  // turned.
-  SparseMatrix residual;
-  for (const auto& [place, value] : member.c) {
-    const auto [row, column] = place;
-    const int target = column < n ? column + n : column - n;
-    const Expression signed_value = column < n ? value : -value;
-    Expression& cj = residual[{row, target}];
-    cj = cj + signed_value;
-    Expression& jct = residual[{target, row}];
-    jct = jct - signed_value;
-  }
-  for (const auto& [place, value] : residual) {
-    if (vanishes(value)) continue;
-    return {"gauge in sp(2n)", Verdict::refuted,
-            fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,
-                        to_text(value))};
-  }
-  return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
+  const SparseMatrix defect = gauge_defect(member);
+  if (defect.empty()) return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
+  const auto& [place, value] = *defect.begin();
+  return {"gauge in sp(2n)", Verdict::refuted,
+          fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,
+                      to_text(value))};
 }
 
 Finding prove_step_symplectic(const Member& member) {

@@ -100,6 +100,50 @@ TEST(GaugeBlocks, AlgebraProvesFullMatricesSymplecticAndTheirSymmetryAndOrder) {
   EXPECT_EQ(verdict(constant, "order 1"), Verdict::proved);
 }
 
+TEST(GaugeMatrix, IsAllOfC) {
+  const auto equations = [](const Request& request) {
+    std::string text = show_stage(two(), request, "equations");
+    return text.substr(text.find('\n'));  // the first line quotes the user
+  };
+  const std::string gauge = "[[0, a, 0, h], [0, 0, h, 0], [-h, -2*h, 0, 0], [-2*h, 0, -a, 0]]";
+  EXPECT_EQ(equations({.gauge = gauge}), equations({.alpha = "[[1/2, a], [0, 1/2]]",
+                                                    .beta = "[[h, 2*h], [2*h, 0]]",
+                                                    .gamma = "[[0, -h], [-h, 0]]"}));
+  EXPECT_EQ(verdict({.gauge = gauge}, "symplectic"), Verdict::proved);
+}
+
+TEST(GaugeMatrix, OutsideTheAlgebraIsRefutedWithTheEntryAndStillEmittedAsItIs) {
+  // A wrong sign in one entry of the matrix above, and numbers at random.
+  for (const char* gauge :
+       {"[[0, a, 0, h], [0, 0, h, 0], [-h, -2*h, 0, 0], [-2*h, 0, a, 0]]",
+        "[[3/7, -2/5, 1/9, 4/3], [1/8, 5/6, -1, 2/7], [2, 1/3, -3/8, 1/5], [1/6, -1/4, 7/9, 1]]"}) {
+    for (const Finding& finding : verify_step(two(), {.gauge = gauge})) {
+      if (finding.property == "gauge in sp(2n)") {
+        EXPECT_EQ(finding.verdict, Verdict::refuted);
+        EXPECT_TRUE(finding.detail.starts_with("entry (")) << finding.detail;
+      }
+      if (finding.property == "emitted code") {
+        EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
+      }
+    }
+    EXPECT_EQ(verdict({.gauge = gauge}, "symplectic"), Verdict::refuted);
+    EXPECT_THROW((void)generate(two(), {.gauge = gauge, .require = "symplectic"}), ProofError);
+    const std::string header = generate(two(), {.gauge = gauge}).front().text;
+    EXPECT_NE(header.find("not symplectic"), std::string::npos);
+    EXPECT_NE(header.find("//   refuted   symplectic"), std::string::npos);
+    EXPECT_NE(refusal({.order = 4, .gauge = gauge}).find("no generating function"),
+              std::string::npos);
+    EXPECT_NE(refusal({.scheme = "yoshida-4", .gauge = gauge}).find("composes a symplectic member"),
+              std::string::npos);
+  }
+}
+
+TEST(GaugeMatrix, OfAnotherSizeIsRefused) {
+  EXPECT_NE(refusal({.gauge = "[[h, 0], [0, -h]]"}).find("C is 4 x 4"), std::string::npos);
+  EXPECT_NE(refusal({.gauge = "[h, 0]"}).find("C has rows"), std::string::npos);
+  EXPECT_NE(refusal({.beta = "h", .gauge = "[[h]]"}).find("either --gauge or"), std::string::npos);
+}
+
 TEST(GaugeBlocks, ThePlanLeavesOutOnlyTheBlocksThatAreZero) {
   const std::string plan = show_stage(two(), {.beta = "[[0, h], [h, 0]]"}, "plan");
   EXPECT_EQ(plan.find("beta terms"), std::string::npos) << plan;
