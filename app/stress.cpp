@@ -72,6 +72,15 @@ void run_all(const std::string& label, std::size_t count, bool quiet,
 void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
   std::vector<runtime::InitialValues> starts(map.cells.size());
   std::size_t undefined = 0;
+  // In a map of nothing but these the model or the command is wrong: the caller's exception.
+  const auto is_undefined = [&](StressCell& cell, const std::string& reason) {
+    if (++undefined == map.cells.size()) return false;
+    cell.outcome = StressOutcome::undefined;
+    cell.bounded = false;
+    cell.reason = reason;
+    cell.state_missing = to_text(cell.outcome);
+    return true;
+  };
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     StressCell& cell = map.cells[i];
     const std::vector<double> at = map.place(i);
@@ -79,12 +88,11 @@ void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, boo
     try {
       starts[i] = grid.start_at(at);
     } catch (const ModelError& error) {
-      // A map of nothing but this one: then the model or the command is wrong.
-      if (++undefined == map.cells.size()) throw;
-      cell.outcome = StressOutcome::undefined;
-      cell.bounded = false;
-      cell.reason = error.diagnostics().front().message;
-      cell.state_missing = to_text(cell.outcome);
+      if (!is_undefined(cell, error.diagnostics().front().message)) throw;
+      continue;
+    } catch (const UsageError& error) {  // a pole of the gauge, a value beyond the scalar's range
+      const std::string text = error.what();
+      if (!is_undefined(cell, text.substr(0, text.find('\n')))) throw;
       continue;
     }
     cell.h = starts[i].h.hi;

@@ -177,6 +177,8 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
     start = start_at(at);
   } catch (const ModelError&) {
     return std::nullopt;
+  } catch (const UsageError&) {
+    return std::nullopt;
   }
   std::vector<double> place;  // what omega depends on
   for (std::size_t i = 0; i < axes_.size(); ++i) {

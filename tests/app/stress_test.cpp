@@ -126,6 +126,16 @@ TEST(Stress, ValuesThatTheSceneDoesNotAllowAreAnOutcomeOfTheirCells) {
   EXPECT_TRUE(contains(none.err, "kepler.ham:19")) << none.err;
 }
 
+TEST(Stress, APoleOfTheGaugeIsAnOutcomeOfItsCells) {
+  // w = 1, h = 0.1 in the scene: h w = 2 pi, and between two poles.
+  const Json cells = cells_of({models + "harmonic.ham", "--gauge", "locally-exact", "--vary",
+                               "h=62.83185307179586:94.24777960769379:2", "--steps", "10"});
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_EQ(cells[0].at("outcome"), "undefined");
+  EXPECT_TRUE(contains(cells[0].at("reason"), "the gauge has a pole at h = 6.283")) << cells[0];
+  EXPECT_EQ(cells[1].at("outcome"), "done") << cells[1];
+}
+
 // At rest in the equilibrium every step is exact, and that is no error of 10^0.
 TEST(Stress, AnErrorOfExactlyZeroIsDrawnAsTheBest) {
   const Result result =
