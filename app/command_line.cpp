@@ -79,7 +79,7 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   command.add_option("--gauge", options.gauge, "locally-exact (the linear part without error), or C, 2n x 2n")
       ->type_name("NAME");
   add_repeated(command, "--reference", options.reference,
-               "where: q=1,w=50; default: the initial state")
+               "where: q=1,w=50; default: initial state of a run, else 0")
       ->type_name("NAME=VALUE,...");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")

@@ -58,22 +58,22 @@ std::string state_text(const std::vector<std::string>& names, const std::vector<
   return state.size() > largest ? text + ", ..." : text;
 }
 
-// The sign of a nan means nothing.
-std::string not_finite_text(double value) {
-  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+// "dH/dq[2] is not a number".  The sign of a nan means nothing.
+std::string not_finite_text(const std::string& name, double value) {
+  return name + (std::isnan(value) ? " is not a number" : " is infinite");
 }
 
-// "dH/dq[2] = nan", empty if H and its gradient are finite.
+// Which value is not finite, empty if H and its gradient are finite.
 std::string undefined_component(const runtime::Library& library,
                                 const std::vector<std::string>& names,
                                 const std::vector<double>& parameters,
                                 const std::vector<double>& state) {
   const double energy = library.energy(parameters, state);
-  if (!std::isfinite(energy)) return "H = " + not_finite_text(energy);
+  if (!std::isfinite(energy)) return not_finite_text("H", energy);
   const std::vector<double> gradient = library.gradient(parameters, state);
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     if (!std::isfinite(gradient[i]))
-      return fmt::format("dH/d{} = {}", names[i], not_finite_text(gradient[i]));
+      return not_finite_text("dH/d" + names[i], gradient[i]);
   }
   return "";
 }

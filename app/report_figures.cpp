@@ -57,7 +57,12 @@ Figure orbit_picture(const Model& model, const std::vector<std::vector<double>>&
       bodies ? static_cast<std::size_t>(coordinates[0].range->size()) : std::size_t{1};
   const std::string x = bodies ? coordinates[0].name : names[0];
   const std::string y = bodies ? coordinates[1].name : names[1];
-  PlotPanel plane{.x_label = x, .y_label = y, .square = true};
+  const auto is_time = [&](const std::string& name) {
+    return std::ranges::any_of(model.coordinates, [&](const Variable& variable) {
+      return variable.is_time && variable.name == name;
+    });
+  };
+  PlotPanel plane{.x_label = x, .y_label = y, .square = !is_time(x) && !is_time(y)};
   for (std::size_t i = 0; i < std::min(count, kBodies); ++i)
     plane.series.push_back(path(states, i, bodies ? count + i : 1, static_cast<int>(i)));
   const std::string shown = count > kBodies ? fmt::format(" of the first {} bodies", kBodies)

@@ -203,11 +203,18 @@ std::string modified_section(const ReportContent& content) {
   }
   text += formula(tilde + "<mo>=</mo>" + sum + "<mo>+</mo><mo>…</mo>") + terms;
   if (!content.modified.contains("variation")) return text;
+  std::vector<double> variations;
+  for (const auto& row : content.modified.at("variation")) variations.push_back(row.at("max"));
+  const bool falls = variations.size() > 1 &&
+                     std::ranges::adjacent_find(variations, std::less_equal<>()) == variations.end();
+  const char* const finding =
+      variations.size() < 2 || variations.back() < 1e-30 ? ""
+      : falls ? ": each further term takes the variation down"
+              : ": further terms do not take the variation down, h is too large for the series here";
   text += fmt::format(
-      "<p>Along the orbit, {} steps of {} in quad precision, each further term takes the variation "
-      "down by its power of h:</p>\n<div class='wide'><table>\n<tr><th>terms to</th>"
+      "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div class='wide'><table>\n<tr><th>terms to</th>"
       "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
-      content.modified.at("steps").get<long>(), number_cell(content.modified.at("h")));
+      content.modified.at("steps").get<long>(), number_cell(content.modified.at("h")), finding);
   for (const auto& row : content.modified.at("variation")) {
     text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{:.3e}</td></tr>\n",
                         row.at("power").get<int>(), row.at("max").get<double>());

@@ -126,6 +126,13 @@ StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(
   Request request = request_of(options_.method);
   set_ = split_sizes(read_model(source), options_.scene.set);
   request.sizes = set_.sizes;
+  if (request.gauge == "locally-exact") {
+    const Model model = read_request(source, request);
+    SceneRequest base = scene_request(options_.scene, set_.rest);
+    base.h = options_.h;
+    base.steps = options_.steps;
+    take_gauge_at(complete_scene(model, base), model, request);
+  }
   plugin_ = generate_plugin(source, request);
   const std::vector<std::string> known = element_names(plugin_.model.parameters);
   for (const StressAxis& axis : axes_) {

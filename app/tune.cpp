@@ -318,6 +318,11 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
                                          "H - min H, empty where the run failed\n",
                                          title);
   runtime::atomic_write(csv, map_csv(map, header));
+  if (std::ranges::none_of(map.spread, is_drawn)) {
+    print_error("hamgen: no picture: nowhere on the map is there an energy error to draw\n");
+    if (!options.quiet) print_error(fmt::format("{}\n", csv.string()));
+    return;
+  }
   runtime::atomic_write(script, map_script(map, title, picture.string()));
   const std::string problem = run_gnuplot(script);
   std::error_code ignored;

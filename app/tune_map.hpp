@@ -37,6 +37,9 @@ struct EnergyMap {
                                    const MapAxis& c, double h, long steps,
                                    const std::function<void(std::size_t)>& on_progress);
 
+// Is there a colour for this spread: on a scale of logarithms?
+[[nodiscard]] bool is_drawn(double spread);
+
 // b, c and spread, one cell a row; an empty spread where the run failed.
 [[nodiscard]] std::string map_csv(const EnergyMap& map, const std::string& header);
 // A gnuplot script with its data that draws the logarithm of the spread, with marks at the midpoint

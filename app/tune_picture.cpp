@@ -33,8 +33,6 @@ std::string map_range(const char* name, const MapAxis& axis) {
                      axis.high + half, tick_distance(axis));
 }
 
-bool is_drawn(double spread) { return std::isfinite(spread) && spread > 0.0; }
-
 // Powers of ten; where there would be fewer than three of them, five numbers of the range.
 std::string colour_ticks(const std::vector<double>& drawn) {
   if (drawn.empty()) return "";
@@ -74,14 +72,17 @@ bool is_bounded(const EnergyMap& map, const MapPoint& at) {
 
 }  // namespace
 
+bool is_drawn(double spread) { return std::isfinite(spread) && spread > 0.0; }
+
 std::string map_script(const EnergyMap& map, const std::string& title, const std::string& output) {
   const bool svg = output.ends_with(".svg");
   std::string text = fmt::format(
       "# Drawn by: gnuplot THIS_FILE\n"
       "set terminal {} enhanced font 'Sans,11' background rgb 'white'\n"
       "set output {}\n"
+      "set encoding utf8\n"
       "set title {} noenhanced\n"
-      "set xlabel \"b, {{/Symbol b}} = b h{}\"\nset ylabel 'c, {{/Symbol g}} = c h'\n"
+      "set xlabel \"b, β = b h{}\"\nset ylabel 'c, γ = c h'\n"
       "set cblabel 'max H - min H' offset {},0\nset logscale cb\n"
       "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n"
       "set tics out nomirror\n"

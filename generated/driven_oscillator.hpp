@@ -3,7 +3,7 @@
 //   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/driven_oscillator.ham
 //   model     hamiltonians/driven_oscillator.ham
-//   sha256    f09d9fdf4b67d7717137f8cfacd415e4b660325a3ca497e9fb2b173a2778c976
+//   sha256    0d13f020166373df1a9857cc611989e238d8089994687880f0185c1f259efcda
 //   H(q, p, t) = p^2/2 + (1 + eps*cos(omega*t))*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   proved    symplectic, symmetric, order 2, emitted code

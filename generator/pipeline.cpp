@@ -334,9 +334,16 @@ std::string plugin_text(const Stages& stages, const CppOptions& options, const R
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
-OutputFiles cmake_package(const SourceText& source, const std::string& header, bool eigen) {
+OutputFiles cmake_package(const SourceText& source, const std::string& header, bool eigen,
+                          bool quadmath) {
   const std::string name = stem(source.path);
   const std::string target = identifier(name);
+  std::string links;
+  if (eigen)
+    links += fmt::format(
+        "find_package(Eigen3 REQUIRED)\ntarget_link_libraries({} INTERFACE Eigen3::Eigen)\n",
+        target);
+  if (quadmath) links += fmt::format("target_link_libraries({} INTERFACE quadmath)\n", target);
   return {{name + ".hpp", header},
           {"CMakeLists.txt",
            fmt::format("cmake_minimum_required(VERSION 3.20)\n"
@@ -346,10 +353,7 @@ OutputFiles cmake_package(const SourceText& source, const std::string& header, b
                        "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
                        "target_compile_features({0} INTERFACE cxx_std_17)\n"
                        "{1}",
-                       target,
-                       eigen ? "find_package(Eigen3 REQUIRED)\ntarget_link_libraries(" + target +
-                                   " INTERFACE Eigen3::Eigen)\n"
-                             : "")}};
+                       target, links)}};
 }
 
 }  // namespace
@@ -380,7 +384,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
     return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
   if (format == "cmake-package")
     return cmake_package(source, header_text(stages, options, request),
-                         needs_eigen(stages.program));
+                         needs_eigen(stages.program), request.scalar == "quad");
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
 }
 

@@ -14,6 +14,7 @@
 #include "app/processor_time.hpp"
 #include "app/scheme_spec.hpp"
 #include "benchmarks/peers/peer.hpp"
+#include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 
@@ -93,8 +94,11 @@ Problem read_problem(const Case& chosen) {
   problem.scene = app::complete_scene(model, {.scene = chosen.scene});
   problem.time = evaluate_constant(read_expression("time", chosen.time, {}),
                                    make_source("time", chosen.time), {});
+  if (problem.time <= 0) throw UsageError("the time is not positive: " + chosen.time);
   problem.mechanics = derive(model);
   problem.reference = app::reference_solution(problem.source, problem.scene, problem.time, {});
+  if (problem.reference.state.empty())
+    throw UsageError("no reference to measure errors against: " + problem.reference.failure);
   return problem;
 }
 

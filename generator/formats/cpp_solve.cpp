@@ -1,6 +1,8 @@
 // The function that solves the equations of a member's step.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "generator/formats/cpp_member.hpp"
 
 namespace hamgen {
@@ -51,7 +53,9 @@ class SolveWriter {
         "[[maybe_unused]] Real h, [[maybe_unused]] const State& z, [[maybe_unused]] const State& "
         "carry, ";
     if (parts_.has_start()) signature += "Start& start, ";
-    out.open(signature + "State& dz)");
+    const bool moves = std::ranges::any_of(context_.program.increments,
+                                           [](const Expression& e) { return !e.is_zero(); });
+    out.open(signature + (moves ? "State& dz)" : "[[maybe_unused]] State& dz)"));
     out.line("StepReport report;");
     if (parts_.inverse) out.line("if (!k.regular) return report;");
     context_.load_state(out, names, used);

@@ -286,10 +286,15 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
         age = 0;
       }
       Real vector[Elimination::size];
+      Real residual = 0;
+      Real reach = 0;
       for (int row = 0; row < Elimination::size; ++row) {
         const int i = row / dimension;
         const int k = row % dimension;
-        vector[row] = increment_[i][k] - collected(i, k);
+        const Real image = collected(i, k);
+        vector[row] = increment_[i][k] - image;
+        residual += magnitude(vector[row]);
+        reach += magnitude(y_[k]) + magnitude(increment_[i][k]) + magnitude(image);
       }
       matrix_.solve(vector);
       Real moved[dimension] = {};
@@ -305,8 +310,10 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
       for (int k = 0; k < dimension; ++k) scale += magnitude(y_[k]) + length[k];
       const Progress progress = rule(moved, length, scale, iteration);
       report.increment = rule.size;
-      if (progress == Progress::done) return true;
-      if (progress == Progress::failed) {
+      // Where the Hessian is huge the increments are small, far from any solution.
+      const bool holds = 16 * residual <= reach;
+      if (progress == Progress::done && holds) return true;
+      if (progress != Progress::go_on) {
         factorised_ = false;
         if (age == 0 || iteration > 100) return false;
         restart();  // once more with a matrix of this step
@@ -360,7 +367,7 @@ void write_stage_hessian(CodeWriter& out, CppContext& context) {
   write_evaluation(
       out, context,
       "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
-      "const Real (&z)[dimension], Real (&values)[dimension][dimension])",
+      "const Real (&z)[dimension], [[maybe_unused]] Real (&values)[dimension][dimension])",
       program.hessian,
       [&](CodeWriter& w, const CppExpression& cpp) {
         for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {

@@ -21,8 +21,6 @@ constexpr std::size_t kMostTogether = 8;
 
 using Indices = std::map<std::string, long>;
 
-bool contains_sum(const NodePtr& node);
-
 template <class Visit>
 void for_children(const NodePtr& node, Visit visit) {
   if (const auto* n = std::get_if<NameNode>(&node->value)) {
@@ -37,13 +35,6 @@ void for_children(const NodePtr& node, Visit visit) {
   } else if (const auto* sum = std::get_if<SumNode>(&node->value)) {
     visit(sum->body);
   }
-}
-
-bool contains_sum(const NodePtr& node) {
-  if (std::holds_alternative<SumNode>(node->value)) return true;
-  bool found = false;
-  for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
-  return found;
 }
 
 // What is summed: a body without sums and factors (divided by, if so marked).
@@ -141,6 +132,10 @@ class KernelBuilder {
       }
     }
     if (const auto* sum = std::get_if<SumNode>(&node->value)) {
+      for (const SumRange& range : sum->ranges) {
+        // A definition may use an index of the sum that it is named in.
+        if (std::ranges::find(ranges, range.index, &SumRange::index) != ranges.end()) return false;
+      }
       ranges.insert(ranges.end(), sum->ranges.begin(), sum->ranges.end());
       return split(sum->body, ranges, summand);
     }
@@ -183,6 +178,21 @@ class KernelBuilder {
       terms_.push_back({ranges, mentioned, {summand}});
     }
     return true;
+  }
+
+  // Does a sum stand there, or in a definition that is named there?
+  [[nodiscard]] bool contains_sum(const NodePtr& node) const {
+    if (std::holds_alternative<SumNode>(node->value)) return true;
+    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
+      const Definition* definition = find_definition(name->name);
+      if (definition == nullptr) return false;
+      if (const auto known = has_sum_.find(name->name); known != has_sum_.end())
+        return known->second;
+      return has_sum_[name->name] = contains_sum(definition->value);
+    }
+    bool found = false;
+    for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
+    return found;
   }
 
   [[nodiscard]] const Definition* find_definition(const std::string& name) const {
@@ -470,6 +480,7 @@ class KernelBuilder {
   const Model& model_;
   std::map<std::string, std::pair<const Variable*, long>> variables_;
   std::map<std::string, long> sizes_;
+  mutable std::map<std::string, bool> has_sum_;  // of definitions
   std::vector<Term> terms_;
   std::vector<Kernel> kernels_;
   std::list<Boundary> boundaries_;

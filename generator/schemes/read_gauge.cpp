@@ -58,11 +58,10 @@ class GaugeText {
   }
 
   [[noreturn]] void refuse(std::size_t count, const char* what, std::size_t wanted) const {
-    const int n = degrees_of_freedom(model_);
-    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom{}", count, what, n,
-                     static_cast<std::size_t>(n) == wanted
-                         ? ""
-                         : fmt::format(": C is {0} x {0}", wanted)));
+    if (option_ == "gauge")
+      fail(fmt::format("the matrix has {0} {1}, but C is {2} x {2}", count, what, wanted));
+    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom", count, what,
+                     wanted));
   }
 
   // What stands between the brackets that enclose the text.

@@ -1,7 +1,7 @@
 #[[
 hamgen_generate(TARGET target MODEL model.ham
                 [SCHEME name] [ALPHA x] [BETA x] [GAMMA x] [ORDER n]
-                [GAUGE locally-exact] [REFERENCE NAME=VALUE,...]
+                [GAUGE locally-exact or C] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
                 [NAMESPACE name] [PREFIX folder])
 

@@ -84,6 +84,19 @@ TEST(Generate, RefusesContradictions) {
     EXPECT_EQ(hamgen({"generate", model, "--namespace", name}).status, 2) << name;
 }
 
+TEST(Generate, APackageLinksWhatItsScalarNeeds) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  for (const char* scalar : {"double", "quad"}) {
+    const std::string directory = scratch.path(scalar);
+    const Result result =
+        hamgen({"generate", model, "--format", "cmake-package", "--scalar", scalar, "-o", directory});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(contains(read(directory + "/CMakeLists.txt"), "INTERFACE quadmath)"),
+              std::string(scalar) == "quad");
+  }
+}
+
 TEST(Generate, RegeneratesForAnotherSize) {
   const Scratch scratch;
   const std::string model = scratch.write("chain.ham", chain);

@@ -161,7 +161,7 @@ TEST(Reference, OfTheProduct) {
 TEST(Reference, OfTheDrivenOscillator) {
   expect_references({{"driven, s = 10",
                       "driven_oscillator",
-                      {"--scene", "stable"},
+                      {"--scene", "modulated"},
                       "10",
                       {{0, "-1.03688741508004341"},
                        {1, "10.0"},
@@ -169,7 +169,7 @@ TEST(Reference, OfTheDrivenOscillator) {
                        {3, "0.0552914346548973664"}}},
                      {"driven, s = 100",
                       "driven_oscillator",
-                      {"--scene", "stable"},
+                      {"--scene", "modulated"},
                       "100",
                       {{0, "0.404543617238134315"},
                        {1, "100.0"},

@@ -123,6 +123,25 @@ TEST_P(EmittedHeader, OfALargeSystemCompilesWithoutAWarning) {
   EXPECT_EQ(messages(GetParam(), text), "");
 }
 
+TEST_P(EmittedHeader, OfNothingToSolveCompilesWithoutAWarning) {
+  std::string text;
+  int number = 0;
+  for (const char* h : {"3", "0", "a*p - 3*q"}) {
+    const SourceText source = make_source(
+        "s.ham", std::string("system s\ncoordinate q\nmomentum p\nparameter a = 1\nH = ") + h + "\n");
+    std::vector<Variant> all = variants();
+    all.push_back({"tangent", {.tangent = true}});
+    all.push_back({"gauss", {.scheme = "gauss-4", .tangent = true}});
+    all.push_back({"composed", {.scheme = "yoshida-4"}});
+    for (Variant& variant : all) {
+      variant.request.name_space = "n" + std::to_string(number++);
+      text += "#line 1 \"" + std::string(h) + " " + variant.name + "\"\n" +
+              without_pragma(generate(source, variant.request).at(0).text);
+    }
+  }
+  EXPECT_EQ(messages(GetParam(), text), "");
+}
+
 TEST_P(EmittedHeader, IsCaughtWhenItIsWrong) {
   // Negative control: a conversion that loses digits.
   EXPECT_NE(messages(GetParam(), "inline float narrow(double x) { return x; }\n"), "");

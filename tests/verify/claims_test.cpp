@@ -67,13 +67,13 @@ TEST(Claims, AboutInvariantsAreMadeForEveryKindOfMethod) {
 }
 
 TEST(Claims, OfAnOrderNeedAPowerSeriesOfC) {
-  for (const char* beta : {"sqrt(abs(h))", "abs(h)^(1/10)", "abs(h)", "sqrt(h^2)"}) {
+  for (const char* beta : {"sqrt(abs(h))", "abs(h)^(1/10)", "abs(h)", "sqrt(h^2)", "h*log(h)"}) {
     EXPECT_EQ(verdict(shipped("pendulum"), {.beta = beta}, "order"), Verdict::not_decided) << beta;
     EXPECT_THROW((void)generate(shipped("pendulum"), {.beta = beta, .order = 4}), UsageError)
         << beta;
   }
   // These have one.
-  for (const char* beta : {"h*sqrt(1 + h^2)", "h*abs(1 - h)", "tan(h)"}) {
+  for (const char* beta : {"h*sqrt(1 + h^2)", "h*abs(1 - h)", "tan(h)", "h*log(1 + h)"}) {
     EXPECT_EQ(verdict(shipped("pendulum"), {.beta = beta}, "order 2"), Verdict::proved) << beta;
   }
 }
