@@ -56,11 +56,16 @@ Asymmetry asymmetry(const Study& study, long double alpha, long double h) {
 }
 
 // How far from its start the orbit ends after steps forward with one member, and back with another.
-double return_distance(const Study& study, const Gauge& there, const Gauge& back) {
+double return_distance(const Study& study, const CompiledScheme& scheme, const Gauge& there,
+                       const Gauge& back) {
   const long steps = study.quick ? 1000 : 10'000;
-  const Orbit out = integrate(study.extended, {.q = kAngle, .h = 0.1L, .gauge = there}, steps);
-  const Orbit home = integrate_from(study.extended, out.end, {.h = -0.1L, .gauge = back}, steps);
+  const Orbit out = integrate(scheme, {.q = kAngle, .h = 0.1L, .gauge = there}, steps);
+  const Orbit home = integrate_from(scheme, out.end, {.h = -0.1L, .gauge = back}, steps);
   return distance(home.end, {.q = kAngle});
+}
+
+double return_distance(const Study& study, const Gauge& there, const Gauge& back) {
+  return return_distance(study, study.extended, there, back);
 }
 
 void write_data(const Study& study) {
@@ -100,6 +105,11 @@ Section time_reversal(const Study& study) {
   const double half = return_distance(study, {0.5L, 0.5L, 0.5L}, {0.5L, 0.5L, 0.5L});
   const double tuned = return_distance(study, paper_pair(0.1L), paper_pair(-0.1L));
 
+  std::string orders;
+  for (const CompiledScheme& scheme : study.orders)
+    orders += fmt::format("{}{:.1e} ({})", orders.empty() ? "" : ", ",
+                          return_distance(study, scheme, {}, {}), scheme.name);
+
   Section section{.title = "Time reversal: alpha and 1 - alpha",
                   .picture = "time_reversal.png",
                   .caption =
@@ -131,7 +141,10 @@ Section time_reversal(const Study& study) {
           "{:.1e}. With beta, gamma of one sign in both, as in the paper, the leading term h e1 of "
           "the error changes its sign and the next, h^2 e2, does not. So a member is "
           "reversible if and only if alpha = 1/2 and beta, gamma are zero or odd in h.",
-          by_adjoint)};
+          by_adjoint),
+      "Members of higher order that stand on the midpoint rule are their own adjoints too: there and "
+      "back returns to " +
+          orders + "."};
   section.numbers = {{"mirror_order", std::log2(coarse.opposite / fine.opposite)},
                      {"return_by_adjoint", by_adjoint},
                      {"return_half", half}};
