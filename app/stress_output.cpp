@@ -98,8 +98,27 @@ std::optional<double> scale_if_run(const StressCell& cell) {
   return was_run(cell) ? std::optional(cell.energy_scale) : std::nullopt;
 }
 
+// Empty where the run ended before it could tell.
+std::optional<bool> bounded_to_the_end(const StressCell& cell) {
+  if (!cell.bounded) return was_run(cell) ? std::optional(false) : std::nullopt;
+  switch (cell.outcome) {
+    case StressOutcome::done:
+    case StressOutcome::jumped:
+    case StressOutcome::escaped:
+      return true;
+    case StressOutcome::not_converged:
+    case StressOutcome::left_domain:
+    case StressOutcome::overflow:
+    case StressOutcome::out_of_time:
+    case StressOutcome::undefined:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 std::string_view bounded_text(const StressCell& cell) {
-  return !was_run(cell) ? "" : cell.bounded ? "yes" : "no";
+  const std::optional<bool> bounded = bounded_to_the_end(cell);
+  return !bounded ? "" : *bounded ? "yes" : "no";
 }
 
 std::string number_or_empty(const std::optional<double>& value) {
@@ -172,13 +191,13 @@ std::string stress_json(const StressMap& map) {
     nlohmann::ordered_json at;
     for (std::size_t axis = 0; axis < map.axes.size(); ++axis)
       at[map.axes[axis].label] = cell.at[axis];
+    const std::optional<bool> bounded = bounded_to_the_end(cell);
     cells.push_back(
         {{"at", at},
          {"h", number_or_null(cell.h)},
          {"steps_done", cell.steps_done},
          {"outcome", to_text(cell.outcome)},
-         {"bounded",
-          was_run(cell) ? nlohmann::ordered_json(cell.bounded) : nlohmann::ordered_json(nullptr)},
+         {"bounded", bounded ? nlohmann::ordered_json(*bounded) : nlohmann::ordered_json(nullptr)},
          {"energy_error", number_or_null(error_if_run(cell))},
          {"energy_scale", number_or_null(scale_if_run(cell))},
          {"iterations_median", cell.iterations_median},
