@@ -46,8 +46,15 @@ class Expression::Pool {
     const std::scoped_lock lock(mutex_);
     if (size_ > 2 * alive_ + 4096) sweep();
     auto& bucket = buckets_[node->hash];
-    for (const std::weak_ptr<const Node>& candidate : bucket) {
-      if (auto known = candidate.lock(); known && same(*known, *node)) return known;
+    std::weak_ptr<const Node>* free = nullptr;
+    for (std::weak_ptr<const Node>& candidate : bucket) {
+      const auto known = candidate.lock();
+      if (known && same(*known, *node)) return known;
+      if (!known) free = &candidate;
+    }
+    if (free != nullptr) {  // what is made and dropped over and over does not pile up
+      *free = node;
+      return node;
     }
     bucket.push_back(node);
     ++size_;
