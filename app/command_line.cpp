@@ -76,7 +76,9 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("X");
   command.add_option("--order", options.order, "order of a member by generating function, to 10")
       ->type_name("R");
-  command.add_option("--gauge", options.gauge, "locally-exact (the linear part without error), or C, 2n x 2n")
+  command
+      .add_option("--gauge", options.gauge,
+                  "locally-exact (the linear part without error), or C, 2n x 2n")
       ->type_name("NAME");
   add_repeated(command, "--reference", options.reference,
                "where: q=1,w=50; default: initial state of a run, else 0")

@@ -110,7 +110,9 @@ int generate_files(const GenerateOptions& options) {
 Command add_generate(CLI::App& app) {
   const auto options = std::make_shared<GenerateOptions>();
   CLI::App* parser = app.add_subcommand("generate", "writes the integrator as C++ source");
-  parser->add_option("-o,--output", options->output, "write there; default, and -: print a single file")
+  parser
+      ->add_option("-o,--output", options->output,
+                   "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
   parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
       ->type_name("NAME");

@@ -72,8 +72,7 @@ std::string undefined_component(const runtime::Library& library,
   if (!std::isfinite(energy)) return not_finite_text("H", energy);
   const std::vector<double> gradient = library.gradient(parameters, state);
   for (std::size_t i = 0; i < gradient.size(); ++i) {
-    if (!std::isfinite(gradient[i]))
-      return not_finite_text("dH/d" + names[i], gradient[i]);
+    if (!std::isfinite(gradient[i])) return not_finite_text("dH/d" + names[i], gradient[i]);
   }
   return "";
 }

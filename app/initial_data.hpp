@@ -29,9 +29,10 @@ void require_in_range(const Model& model, const SceneValues& scene, const Scalar
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request);
 
 // The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs
-// it, is computed by the plugin, and for a wide scalar exactly where H is written out.  Throws UsageError if the run would change a folded parameter, its
-// step is at a pole of the scheme or a value is outside the range of its scalar, and ModelError
-// naming the component if H or its gradient is not defined at the initial state.
+// it, is computed by the plugin, and for a wide scalar exactly where H is written out.  Throws
+// UsageError if the run would change a folded parameter, its step is at a pole of the scheme or a
+// value is outside the range of its scalar, and ModelError naming the component if H or its
+// gradient is not defined at the initial state.
 [[nodiscard]] runtime::InitialValues initial_values(const PluginSource& plugin,
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);

@@ -205,14 +205,17 @@ std::string modified_section(const ReportContent& content) {
   if (!content.modified.contains("variation")) return text;
   std::vector<double> variations;
   for (const auto& row : content.modified.at("variation")) variations.push_back(row.at("max"));
-  const bool falls = variations.size() > 1 &&
-                     std::ranges::adjacent_find(variations, std::less_equal<>()) == variations.end();
+  const bool falls =
+      variations.size() > 1 &&
+      std::ranges::adjacent_find(variations, std::less_equal<>()) == variations.end();
   const char* const finding =
       variations.size() < 2 || variations.back() < 1e-30 ? ""
-      : falls ? ": each further term takes the variation down"
-              : ": further terms do not take the variation down, h is too large for the series here";
+      : falls
+          ? ": each further term takes the variation down"
+          : ": further terms do not take the variation down, h is too large for the series here";
   text += fmt::format(
-      "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div class='wide'><table>\n<tr><th>terms to</th>"
+      "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div "
+      "class='wide'><table>\n<tr><th>terms to</th>"
       "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
       content.modified.at("steps").get<long>(), number_cell(content.modified.at("h")), finding);
   for (const auto& row : content.modified.at("variation")) {

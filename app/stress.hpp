@@ -24,8 +24,8 @@ enum class StressOutcome {
   left_domain,    // H or its gradient is not defined where the step went
   overflow,       // beyond the numbers there are
   out_of_time,    // the cell's time was over before its steps
-  undefined,      // the scene has no values here, H none at its initial state, the gauge a pole at h:
-                  // nothing was run
+  undefined,  // the scene has no values here, H none at its initial state, the gauge a pole at h:
+              // nothing was run
 };
 inline constexpr int kStressOutcomes = 8;
 [[nodiscard]] std::string_view to_text(StressOutcome outcome);

@@ -116,7 +116,8 @@ void check_gauge(const Request& request) {
                     request.gauge));
   }
   if (is_matrix && !request.reference.empty())
-    throw UsageError("--reference says where --gauge locally-exact is exact; a matrix has no point");
+    throw UsageError(
+        "--reference says where --gauge locally-exact is exact; a matrix has no point");
   if (!(request.alpha + request.beta + request.gamma).empty()) {
     throw UsageError("give either --gauge or --alpha, --beta, --gamma");
   }
@@ -345,15 +346,14 @@ OutputFiles cmake_package(const SourceText& source, const std::string& header, b
         target);
   if (quadmath) links += fmt::format("target_link_libraries({} INTERFACE quadmath)\n", target);
   return {{name + ".hpp", header},
-          {"CMakeLists.txt",
-           fmt::format("cmake_minimum_required(VERSION 3.20)\n"
-                       "project({0} CXX)\n\n"
-                       "add_library({0} INTERFACE)\n"
-                       "target_include_directories({0} INTERFACE "
-                       "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
-                       "target_compile_features({0} INTERFACE cxx_std_17)\n"
-                       "{1}",
-                       target, links)}};
+          {"CMakeLists.txt", fmt::format("cmake_minimum_required(VERSION 3.20)\n"
+                                         "project({0} CXX)\n\n"
+                                         "add_library({0} INTERFACE)\n"
+                                         "target_include_directories({0} INTERFACE "
+                                         "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
+                                         "target_compile_features({0} INTERFACE cxx_std_17)\n"
+                                         "{1}",
+                                         target, links)}};
 }
 
 }  // namespace
@@ -383,8 +383,8 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (format == "cpp-plugin")
     return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
   if (format == "cmake-package")
-    return cmake_package(source, header_text(stages, options, request),
-                         needs_eigen(stages.program), request.scalar == "quad");
+    return cmake_package(source, header_text(stages, options, request), needs_eigen(stages.program),
+                         request.scalar == "quad");
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
 }
 

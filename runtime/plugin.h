@@ -1,8 +1,8 @@
 /* The interface between a compiled integrator and the runtime: plain C, versioned.
  *
- * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  States and
- * parameters cross the interface as doubles; for wider scalars every value is hi + lo, with `lo`
- * pointers that may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values). */
+ * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  States
+ * and parameters cross the interface as doubles; for wider scalars every value is hi + lo, with
+ * `lo` pointers that may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values). */
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
@@ -14,18 +14,19 @@ extern "C" {
 
 enum hamgen_status {
   HAMGEN_DONE = 0,
-  HAMGEN_NOT_CONVERGED = 1, /* the implicit step found no solution; the state is the last good one */
-  HAMGEN_NOT_FINITE = 2,    /* the step left the domain of H or overflowed; same */
-  HAMGEN_STOPPED = 3        /* the host asked to stop */
+  HAMGEN_NOT_CONVERGED =
+      1,                 /* the implicit step found no solution; the state is the last good one */
+  HAMGEN_NOT_FINITE = 2, /* the step left the domain of H or overflowed; same */
+  HAMGEN_STOPPED = 3     /* the host asked to stop */
 };
 
 struct hamgen_report {
-  int status;              /* hamgen_status */
-  long long steps_done;    /* of this call */
-  long long iterations;    /* summed over the steps done */
-  int last_iterations;     /* of the step that failed, or the last one */
-  double last_increment;   /* size of the last increment of that step's iteration */
-  double energy_min;       /* over the states after each step, if energy was watched */
+  int status;            /* hamgen_status */
+  long long steps_done;  /* of this call */
+  long long iterations;  /* summed over the steps done */
+  int last_iterations;   /* of the step that failed, or the last one */
+  double last_increment; /* size of the last increment of that step's iteration */
+  double energy_min;     /* over the states after each step, if energy was watched */
   double energy_max;
   double energy_last;
 };
@@ -34,13 +35,13 @@ struct hamgen_report {
 struct hamgen_run;
 
 struct hamgen_plugin {
-  int version;               /* HAMGEN_PLUGIN_VERSION */
+  int version; /* HAMGEN_PLUGIN_VERSION */
   int degrees_of_freedom;
-  int parameter_count;       /* run-time parameters in use, E0 (if any) last */
+  int parameter_count; /* run-time parameters in use, E0 (if any) last */
   int invariant_count;
-  int scalar_digits;         /* binary digits of Real: 24, 53, 64, 113 */
-  const char* description;   /* "pendulum, implicit-midpoint" */
-  const char* solver;        /* "newton 1", "explicit", ... for the summary */
+  int scalar_digits;       /* binary digits of Real: 24, 53, 64, 113 */
+  const char* description; /* "pendulum, implicit-midpoint" */
+  const char* solver;      /* "newton 1", "explicit", ... for the summary */
 
   /* parameters: parameter_count values; state: 2n values.  Null if memory is short. */
   struct hamgen_run* (*create)(const double* parameters, const double* parameters_lo, double h,

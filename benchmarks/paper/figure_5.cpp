@@ -164,7 +164,8 @@ Section figure_5(const Study& study) {
           "apart:",
           number(analytic.gamma, 6), number(analytic.beta, 6), off),
       to_markdown(table),
-      "The members of order 4, 6 and 8 have no h^2 term for beta and gamma to control; what is left of "
+      "The members of order 4, 6 and 8 have no h^2 term for beta and gamma to control; what is "
+      "left of "
       "the error, in long double:",
       to_markdown(table_of_orders(study, analytic))};
   section.numbers = {{"formula_off", off},

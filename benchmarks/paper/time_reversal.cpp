@@ -142,7 +142,8 @@ Section time_reversal(const Study& study) {
           "the error changes its sign and the next, h^2 e2, does not. So a member is "
           "reversible if and only if alpha = 1/2 and beta, gamma are zero or odd in h.",
           by_adjoint),
-      "Members of higher order that stand on the midpoint rule are their own adjoints too: there and "
+      "Members of higher order that stand on the midpoint rule are their own adjoints too: there "
+      "and "
       "back returns to " +
           orders + "."};
   section.numbers = {{"mirror_order", std::log2(coarse.opposite / fine.opposite)},

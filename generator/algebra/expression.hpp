@@ -82,9 +82,9 @@ using ExpressionMap = std::unordered_map<Expression, T, ExpressionHash>;
 [[nodiscard]] std::set<std::string> symbols(const Expression& e);
 void collect_symbols(const Expression& e, std::set<std::string>& names);
 [[nodiscard]] bool depends_on(const Expression& e, const std::string& symbol);
-// Those below a function, a root or a reciprocal: of these e is not written as a polynomial.  Only in
-// the others do vanishing derivatives prove it affine or quadratic; abs(x)'' = 0, and yet abs(x) is
-// not affine.
+// Those below a function, a root or a reciprocal: of these e is not written as a polynomial.  Only
+// in the others do vanishing derivatives prove it affine or quadratic; abs(x)'' = 0, and yet abs(x)
+// is not affine.
 [[nodiscard]] std::set<std::string> non_polynomial_symbols(const Expression& e);
 
 // The expression with symbols replaced by expressions, all at once.

@@ -51,9 +51,10 @@ class GaugeText {
     const std::string form =
         option_ == "gauge"
             ? "locally-exact, or the matrix C row by row: --gauge '[[a, b], [c, -a]]'"
-            : fmt::format("a number, a list a,b with one entry per degree of freedom, or a matrix "
-                          "row by row: --{} '[[a, b], [b, c]]'",
-                          option_);
+            : fmt::format(
+                  "a number, a list a,b with one entry per degree of freedom, or a matrix "
+                  "row by row: --{} '[[a, b], [b, c]]'",
+                  option_);
     throw UsageError(fmt::format("--{}: {}\nhelp: write {}", option_, what, form));
   }
 

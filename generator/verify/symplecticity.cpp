@@ -29,7 +29,8 @@ GiNaC::matrix canonical_j(unsigned n) {
 
 Finding prove_gauge(const Member& member) {
   const SparseMatrix defect = gauge_defect(member);
-  if (defect.empty()) return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
+  if (defect.empty())
+    return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
   const auto& [place, value] = *defect.begin();
   return {"gauge in sp(2n)", Verdict::refuted,
           fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,

@@ -89,8 +89,8 @@ TEST(Generate, APackageLinksWhatItsScalarNeeds) {
   const std::string model = scratch.write("pendulum.ham", pendulum);
   for (const char* scalar : {"double", "quad"}) {
     const std::string directory = scratch.path(scalar);
-    const Result result =
-        hamgen({"generate", model, "--format", "cmake-package", "--scalar", scalar, "-o", directory});
+    const Result result = hamgen(
+        {"generate", model, "--format", "cmake-package", "--scalar", scalar, "-o", directory});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(contains(read(directory + "/CMakeLists.txt"), "INTERFACE quadmath)"),
               std::string(scalar) == "quad");

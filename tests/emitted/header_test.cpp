@@ -128,7 +128,8 @@ TEST_P(EmittedHeader, OfNothingToSolveCompilesWithoutAWarning) {
   int number = 0;
   for (const char* h : {"3", "0", "a*p - 3*q"}) {
     const SourceText source = make_source(
-        "s.ham", std::string("system s\ncoordinate q\nmomentum p\nparameter a = 1\nH = ") + h + "\n");
+        "s.ham",
+        std::string("system s\ncoordinate q\nmomentum p\nparameter a = 1\nH = ") + h + "\n");
     std::vector<Variant> all = variants();
     all.push_back({"tangent", {.tangent = true}});
     all.push_back({"gauss", {.scheme = "gauss-4", .tangent = true}});

@@ -145,7 +145,8 @@ TEST(Loops, ADefinitionMayHoldASum) {
                            "let M = 2*sum(k = 1..N, j = 1..N, q[k]*q[j])\nK) + M/(2*N)\n"}) {
     std::string text = rest;
     text.replace(text.find("\nK") + 1, 1, kinetic);
-    EXPECT_LT(distance(Emitted(head + text, explicit_step).after(3, start, 0.1L), wanted), 1e-14L) << text;
+    EXPECT_LT(distance(Emitted(head + text, explicit_step).after(3, start, 0.1L), wanted), 1e-14L)
+        << text;
   }
 }
 
