@@ -84,6 +84,17 @@ TEST(Claims, OfSymmetryAreNotRefutedByAZeroThatAlgebraMisses) {
   EXPECT_EQ(verdict(shipped("pendulum"), {.alpha = "1/2 + h^2"}, "symmetric"), Verdict::refuted);
 }
 
+TEST(Claims, OfAGaugeAreNotRefutedByAZeroThatAlgebraMisses) {
+  const Request hidden{.gauge = "[[sin(h)^2 + cos(h)^2 - 1, h], [h/3, 0]]"};
+  EXPECT_EQ(verdict(shipped("pendulum"), hidden, "gauge in sp(2n)"), Verdict::tested);
+  EXPECT_EQ(verdict(shipped("pendulum"), hidden, "symplectic"), Verdict::tested);
+  const std::string header = generate(shipped("pendulum"), hidden).front().text;
+  EXPECT_EQ(header.find("not symplectic"), std::string::npos);
+  const Request none{.gauge = "[[sin(h)^2 + cos(h)^2 - 1, h], [h/3, h^9]]"};
+  EXPECT_EQ(verdict(shipped("pendulum"), none, "gauge in sp(2n)"), Verdict::refuted);
+  EXPECT_EQ(verdict(shipped("pendulum"), none, "symplectic"), Verdict::refuted);
+}
+
 TEST(Claims, OfAModifiedHamiltonianNeedASolvedStep) {
   EXPECT_THROW((void)modified_hamiltonian(shipped("pendulum"), {.solver = "sweeps:2"}, 2),
                UsageError);
