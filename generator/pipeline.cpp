@@ -8,8 +8,10 @@
 #include <set>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/choose_scheme.hpp"
 #include "generator/equations/step_equations.hpp"
 #include "generator/formats/all_formats.hpp"
+#include "generator/formats/cmake_package.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
@@ -19,9 +21,6 @@
 #include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
-#include "generator/schemes/all_schemes.hpp"
-#include "generator/schemes/locally_exact.hpp"
-#include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -100,86 +99,6 @@ void require_defaults_in_range(const Model& model, const ScalarType& scalar) {
     }
   }
   if (!mistakes.empty()) throw ModelError(std::move(mistakes), model.source);
-}
-
-void check_gauge(const Request& request) {
-  if (request.gauge.empty()) {
-    if (request.reference.empty()) return;
-    throw UsageError(
-        "--reference says where --gauge locally-exact is exact, but there is no --gauge");
-  }
-  const bool is_matrix = request.gauge.starts_with('[');
-  if (!is_matrix && request.gauge != "locally-exact") {
-    throw UsageError(
-        fmt::format("unknown gauge '{}'; there is locally-exact, and a matrix C is written "
-                    "'[[a, b], [c, -a]]'",
-                    request.gauge));
-  }
-  if (is_matrix && !request.reference.empty())
-    throw UsageError(
-        "--reference says where --gauge locally-exact is exact; a matrix has no point");
-  if (!(request.alpha + request.beta + request.gamma).empty()) {
-    throw UsageError("give either --gauge or --alpha, --beta, --gamma");
-  }
-}
-
-// THE LIST's scheme of that name.
-const Scheme& named_scheme(const std::string& name) {
-  if (const Scheme* scheme = find_scheme(name)) return *scheme;
-  std::vector<std::string> names;
-  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
-  const std::string near = nearest(name, names);
-  throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", name,
-                               near.empty() ? "" : ", did you mean '" + near + "'?"));
-}
-
-// The member of the request; in its description the user's own words: 0.03, not 3/100.
-Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
-  if (request.gauge.starts_with('[')) {
-    Scheme scheme =
-        member_of_matrix(mechanics.degrees_of_freedom, read_gauge_matrix(model, request.gauge));
-    scheme.description = "C = " + request.gauge;
-    return scheme;
-  }
-  if (!request.gauge.empty()) {
-    return locally_exact_member(mechanics, read_reference(model, request.reference));
-  }
-  const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
-  const std::string beta = request.beta.empty() ? "0" : request.beta;
-  const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
-  Scheme scheme =
-      family_member(mechanics.degrees_of_freedom, read_gauge_block(model, "alpha", alpha),
-                    read_gauge_block(model, "beta", beta), read_gauge_block(model, "gamma", gamma));
-  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
-  return scheme;
-}
-
-Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {
-  if (request.scheme.empty()) return requested_member(model, mechanics, request);
-  const Scheme& named = named_scheme(request.scheme);
-  const bool has_parameters =
-      !(request.alpha + request.beta + request.gamma + request.gauge).empty();
-  if (std::holds_alternative<Composition>(named.method)) {
-    return compose(named, requested_member(model, mechanics, request));
-  }
-  if (has_parameters) throw UsageError("give either --scheme or --alpha, --beta, --gamma, --gauge");
-  return for_system(named, mechanics);
-}
-
-Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
-  check_gauge(request);
-  Scheme scheme = scheme_of_own_order(model, mechanics, request);
-  if (request.order == 0) return scheme;
-  scheme = raise_order(std::move(scheme), request.order);
-  if (mechanics.keeps_sums() && scheme.member().generating_order > 0) {
-    throw UsageError(fmt::format(
-        "--order {}: {} has {} degrees of freedom, more than the {} that are written out, and the "
-        "generating function couples them all\nhelp: a composition of the same order keeps the "
-        "sums as "
-        "loops, see `hamgen list schemes`",
-        request.order, mechanics.name, mechanics.degrees_of_freedom, kMostWrittenOut));
-  }
-  return scheme;
 }
 
 std::string stem(const std::string& path) {
@@ -335,27 +254,6 @@ std::string plugin_text(const Stages& stages, const CppOptions& options, const R
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
-OutputFiles cmake_package(const SourceText& source, const std::string& header, bool eigen,
-                          bool quadmath) {
-  const std::string name = stem(source.path);
-  const std::string target = identifier(name);
-  std::string links;
-  if (eigen)
-    links += fmt::format(
-        "find_package(Eigen3 REQUIRED)\ntarget_link_libraries({} INTERFACE Eigen3::Eigen)\n",
-        target);
-  if (quadmath) links += fmt::format("target_link_libraries({} INTERFACE quadmath)\n", target);
-  return {{name + ".hpp", header},
-          {"CMakeLists.txt", fmt::format("cmake_minimum_required(VERSION 3.20)\n"
-                                         "project({0} CXX)\n\n"
-                                         "add_library({0} INTERFACE)\n"
-                                         "target_include_directories({0} INTERFACE "
-                                         "${{CMAKE_CURRENT_SOURCE_DIR}})\n"
-                                         "target_compile_features({0} INTERFACE cxx_std_17)\n"
-                                         "{1}",
-                                         target, links)}};
-}
-
 }  // namespace
 
 Model read_request(const SourceText& source, const Request& request) {
@@ -383,7 +281,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (format == "cpp-plugin")
     return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
   if (format == "cmake-package")
-    return cmake_package(source, header_text(stages, options, request), needs_eigen(stages.program),
+    return cmake_package(name, header_text(stages, options, request), needs_eigen(stages.program),
                          request.scalar == "quad");
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
 }
