@@ -8,6 +8,7 @@
 
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/mechanics.hpp"
+#include "generator/mechanics/split_sums.hpp"
 #include "generator/mechanics/to_ginac.hpp"
 
 namespace hamgen {
@@ -20,45 +21,6 @@ constexpr std::size_t kMostPeeled = 64;
 constexpr std::size_t kMostTogether = 8;
 
 using Indices = std::map<std::string, long>;
-
-template <class Visit>
-void for_children(const NodePtr& node, Visit visit) {
-  if (const auto* n = std::get_if<NameNode>(&node->value)) {
-    if (n->subscript) visit(n->subscript);
-  } else if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
-    visit(negate->operand);
-  } else if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
-    visit(binary->left);
-    visit(binary->right);
-  } else if (const auto* call = std::get_if<CallNode>(&node->value)) {
-    for (const NodePtr& argument : call->arguments) visit(argument);
-  } else if (const auto* sum = std::get_if<SumNode>(&node->value)) {
-    visit(sum->body);
-  }
-}
-
-// What is summed: a body without sums and factors (divided by, if so marked).
-struct Summand {
-  NodePtr body;
-  std::vector<std::pair<NodePtr, bool>> factors;
-  bool negative = false;
-};
-
-// Which variables an expression mentions.
-struct Touch {
-  bool coordinates = false;
-  bool momenta = false;
-  [[nodiscard]] bool both() const { return coordinates && momenta; }
-  bool operator==(const Touch&) const = default;
-};
-
-// A sum of H: what is summed over the same indices and depends on the same part of the state
-// becomes one loop.
-struct Term {
-  std::vector<KernelRange> ranges;
-  Touch touch;
-  std::vector<Summand> summands;
-};
 
 // Single instances that are written out together.
 struct Boundary {
@@ -80,15 +42,15 @@ class KernelBuilder {
         position += variable.range ? variable.range->size() : 1;
       }
     }
-    for (const Size& size : model.sizes) sizes_[size.name] = size.value;
   }
 
   std::optional<std::vector<Kernel>> build() {
     for (const Variable& momentum : model_.momenta) {
       if (momentum.is_time) return std::nullopt;
     }
-    if (!split(model_.hamiltonian, {}, {})) return std::nullopt;
-    for (const Term& term : terms_) {
+    const std::optional<std::vector<SumTerm>> terms = split_into_sums(model_);
+    if (!terms) return std::nullopt;
+    for (const SumTerm& term : *terms) {
       if (add(term)) continue;
       // Together their boundaries may be too many.
       for (const Summand& summand : term.summands) {
@@ -100,150 +62,6 @@ class KernelBuilder {
   }
 
  private:
-  // Splits H at plus and minus and at sums.  False if a sum stands where it cannot be split.
-  bool split(const NodePtr& node, std::vector<SumRange> ranges, Summand summand) {
-    if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
-      summand.negative = !summand.negative;
-      return split(negate->operand, ranges, summand);
-    }
-    if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
-      const bool difference = binary->operation == BinaryOperator::subtract;
-      if (difference || binary->operation == BinaryOperator::add) {
-        Summand right = summand;
-        if (difference) right.negative = !right.negative;
-        return split(binary->left, ranges, summand) && split(binary->right, ranges, right);
-      }
-      if (contains_sum(node)) {
-        const bool left_sum = contains_sum(binary->left);
-        if (left_sum && contains_sum(binary->right)) return false;
-        return split_factor(*binary, left_sum, ranges, summand);
-      }
-      // (T + V)*c is T*c + V*c: what is separable becomes separate loops.
-      const bool left_varies = touch(binary->left) != Touch{};
-      if (touch(node).both() && !(left_varies && touch(binary->right) != Touch{}) &&
-          (binary->operation == BinaryOperator::multiply ||
-           (binary->operation == BinaryOperator::divide && left_varies))) {
-        return split_factor(*binary, left_varies, ranges, summand);
-      }
-    }
-    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
-      if (const Definition* definition = find_definition(name->name)) {
-        return split(definition->value, ranges, summand);
-      }
-    }
-    if (const auto* sum = std::get_if<SumNode>(&node->value)) {
-      for (const SumRange& range : sum->ranges) {
-        // A definition may use an index of the sum that it is named in.
-        if (std::ranges::find(ranges, range.index, &SumRange::index) != ranges.end()) return false;
-      }
-      ranges.insert(ranges.end(), sum->ranges.begin(), sum->ranges.end());
-      return split(sum->body, ranges, summand);
-    }
-    if (contains_sum(node)) return false;
-    summand.body = node;
-    return place(ranges, summand);
-  }
-
-  // A product or quotient, of which one side is split and the other a factor.
-  bool split_factor(const BinaryNode& binary, bool left, const std::vector<SumRange>& ranges,
-                    Summand summand) {
-    const bool divides = binary.operation == BinaryOperator::divide;
-    if (!divides && binary.operation != BinaryOperator::multiply) return false;
-    if (divides && !left) return false;
-    summand.factors.emplace_back(left ? binary.right : binary.left, divides);
-    return split(left ? binary.left : binary.right, ranges, summand);
-  }
-
-  // Puts the summand to those with the same ranges and variables.
-  bool place(const std::vector<SumRange>& sum_ranges, const Summand& summand) {
-    std::vector<KernelRange> ranges;
-    std::vector<std::string> indices;
-    for (const SumRange& range : sum_ranges) {
-      const auto lower = affine(range.lower, indices);
-      const auto upper = affine(range.upper, indices);
-      if (!lower || !upper) return false;
-      ranges.push_back({range.index, *lower, *upper});
-      indices.push_back(range.index);
-    }
-    Touch mentioned = touch(summand.body);
-    for (const auto& [factor, divides] : summand.factors) {
-      const Touch more = touch(factor);
-      mentioned = {mentioned.coordinates || more.coordinates, mentioned.momenta || more.momenta};
-    }
-    const auto same = std::ranges::find_if(
-        terms_, [&](const Term& term) { return term.ranges == ranges && term.touch == mentioned; });
-    if (same != terms_.end()) {
-      same->summands.push_back(summand);
-    } else {
-      terms_.push_back({ranges, mentioned, {summand}});
-    }
-    return true;
-  }
-
-  // Does a sum stand there, or in a definition that is named there?
-  [[nodiscard]] bool contains_sum(const NodePtr& node) const {
-    if (std::holds_alternative<SumNode>(node->value)) return true;
-    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
-      const Definition* definition = find_definition(name->name);
-      if (definition == nullptr) return false;
-      if (const auto known = has_sum_.find(name->name); known != has_sum_.end())
-        return known->second;
-      return has_sum_[name->name] = contains_sum(definition->value);
-    }
-    bool found = false;
-    for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
-    return found;
-  }
-
-  [[nodiscard]] const Definition* find_definition(const std::string& name) const {
-    const auto it = std::ranges::find(model_.definitions, name, &Definition::name);
-    return it == model_.definitions.end() ? nullptr : &*it;
-  }
-
-  [[nodiscard]] Touch touch(const NodePtr& node) const {
-    Touch result;
-    auto also = [&](const Touch& more) {
-      result = {result.coordinates || more.coordinates, result.momenta || more.momenta};
-    };
-    if (const auto* name = std::get_if<NameNode>(&node->value)) {
-      if (const auto it = variables_.find(name->name); it != variables_.end()) {
-        const bool momentum = it->second.second >= degrees_of_freedom(model_);
-        also({!momentum, momentum});
-      } else if (const Definition* definition = find_definition(name->name)) {
-        also(touch(definition->value));
-      }
-      return result;
-    }
-    for_children(node, [&](const NodePtr& child) { also(touch(child)); });
-    return result;
-  }
-
-  [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const {
-    std::map<std::string, Rational> values;
-    for (const auto& [name, value] : sizes_) values[name] = value;
-    for (const auto& [name, value] : indices) values[name] = value;
-    return evaluate_constant(node, model_.source, values).get_num().get_si();
-  }
-
-  // The node as an affine function of the indices; empty if it is not.
-  [[nodiscard]] std::optional<AffineIndex> affine(const NodePtr& node,
-                                                  const std::vector<std::string>& indices) const {
-    Indices at;
-    for (const std::string& index : indices) at[index] = 0;
-    AffineIndex result{.constant = integer(node, at)};
-    long check = result.constant;
-    for (const std::string& index : indices) {
-      at[index] = 1;
-      const long factor = integer(node, at) - result.constant;
-      at[index] = 0;
-      if (factor != 0) result.factors[index] = factor;
-      check += 7 * factor;
-    }
-    for (const std::string& index : indices) at[index] = 7;
-    if (integer(node, at) != check) return std::nullopt;
-    return result;
-  }
-
   static long value_at(const AffineIndex& a, const Indices& indices) {
     long value = a.constant;
     for (const auto& [index, factor] : a.factors) value += factor * indices.at(index);
@@ -272,7 +90,7 @@ class KernelBuilder {
         }
         return true;
       }
-      const auto subscript = affine(name->subscript, indices);
+      const auto subscript = affine(model_, name->subscript, indices);
       if (!subscript) return false;
       const auto it = variables_.find(name->name);
       const Variable* variable = it == variables_.end() ? nullptr : it->second.first;
@@ -299,7 +117,7 @@ class KernelBuilder {
     });
   }
 
-  bool add(const Term& term) {
+  bool add(const SumTerm& term) {
     std::vector<std::string> indices;
     for (const KernelRange& range : term.ranges) indices.push_back(range.index);
     std::vector<Reference> references;
@@ -333,7 +151,7 @@ class KernelBuilder {
   }
 
   // The longest run of regular instances becomes a loop, the others are written out.
-  bool add_single(const Term& term, const KernelRange& range,
+  bool add_single(const SumTerm& term, const KernelRange& range,
                   const std::vector<Reference>& references) {
     const long lower = value_at(range.lower, {});
     const long upper = value_at(range.upper, {});
@@ -361,7 +179,7 @@ class KernelBuilder {
     return true;
   }
 
-  static GiNaC::ex body(const Term& term, TreeConverter& converter, const Indices& indices) {
+  static GiNaC::ex body(const SumTerm& term, TreeConverter& converter, const Indices& indices) {
     GiNaC::ex sum = 0;
     for (const Summand& summand : term.summands) {
       GiNaC::ex value = converter.convert_at(summand.body, indices);
@@ -375,7 +193,7 @@ class KernelBuilder {
   }
 
   // One instance with concrete elements.
-  void instance(const Term& term, const Indices& indices) {
+  void instance(const SumTerm& term, const Indices& indices) {
     SymbolTable table;
     TreeConverter converter(model_, table);
     const std::set<std::string> used = symbols(from_ginac(body(term, converter, indices), table));
@@ -405,7 +223,7 @@ class KernelBuilder {
   }
 
   // The loop over regular instances.
-  void regular(const Term& term, const std::vector<KernelRange>& ranges,
+  void regular(const SumTerm& term, const std::vector<KernelRange>& ranges,
                const std::vector<Reference>& references) {
     SymbolTable table;
     TreeConverter converter(model_, table);
@@ -479,9 +297,6 @@ class KernelBuilder {
 
   const Model& model_;
   std::map<std::string, std::pair<const Variable*, long>> variables_;
-  std::map<std::string, long> sizes_;
-  mutable std::map<std::string, bool> has_sum_;  // of definitions
-  std::vector<Term> terms_;
   std::vector<Kernel> kernels_;
   std::list<Boundary> boundaries_;
 };

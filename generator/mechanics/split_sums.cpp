@@ -1,0 +1,180 @@
+#include "generator/mechanics/split_sums.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "generator/language/scene.hpp"
+
+namespace hamgen {
+
+namespace {
+
+using Indices = std::map<std::string, long>;
+
+long integer(const Model& model, const NodePtr& node, const Indices& indices) {
+  std::map<std::string, Rational> values;
+  for (const Size& size : model.sizes) values[size.name] = size.value;
+  for (const auto& [name, value] : indices) values[name] = value;
+  return evaluate_constant(node, model.source, values).get_num().get_si();
+}
+
+class SumSplitter {
+ public:
+  explicit SumSplitter(const Model& model) : model_(model) {}
+
+  std::optional<std::vector<SumTerm>> terms() {
+    if (!split(model_.hamiltonian, {}, {})) return std::nullopt;
+    return std::move(terms_);
+  }
+
+ private:
+  // Splits H at plus and minus and at sums.  False if a sum stands where it cannot be split.
+  bool split(const NodePtr& node, std::vector<SumRange> ranges, Summand summand) {
+    if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
+      summand.negative = !summand.negative;
+      return split(negate->operand, ranges, summand);
+    }
+    if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
+      const bool difference = binary->operation == BinaryOperator::subtract;
+      if (difference || binary->operation == BinaryOperator::add) {
+        Summand right = summand;
+        if (difference) right.negative = !right.negative;
+        return split(binary->left, ranges, summand) && split(binary->right, ranges, right);
+      }
+      if (contains_sum(node)) {
+        const bool left_sum = contains_sum(binary->left);
+        if (left_sum && contains_sum(binary->right)) return false;
+        return split_factor(*binary, left_sum, ranges, summand);
+      }
+      // (T + V)*c is T*c + V*c: what is separable becomes separate loops.
+      const bool left_varies = touch(binary->left) != Touch{};
+      if (touch(node).both() && !(left_varies && touch(binary->right) != Touch{}) &&
+          (binary->operation == BinaryOperator::multiply ||
+           (binary->operation == BinaryOperator::divide && left_varies))) {
+        return split_factor(*binary, left_varies, ranges, summand);
+      }
+    }
+    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
+      if (const Definition* definition = find_definition(name->name)) {
+        return split(definition->value, ranges, summand);
+      }
+    }
+    if (const auto* sum = std::get_if<SumNode>(&node->value)) {
+      for (const SumRange& range : sum->ranges) {
+        // A definition may use an index of the sum that it is named in.
+        if (std::ranges::find(ranges, range.index, &SumRange::index) != ranges.end()) return false;
+      }
+      ranges.insert(ranges.end(), sum->ranges.begin(), sum->ranges.end());
+      return split(sum->body, ranges, summand);
+    }
+    if (contains_sum(node)) return false;
+    summand.body = node;
+    return place(ranges, summand);
+  }
+
+  // A product or quotient, of which one side is split and the other a factor.
+  bool split_factor(const BinaryNode& binary, bool left, const std::vector<SumRange>& ranges,
+                    Summand summand) {
+    const bool divides = binary.operation == BinaryOperator::divide;
+    if (!divides && binary.operation != BinaryOperator::multiply) return false;
+    if (divides && !left) return false;
+    summand.factors.emplace_back(left ? binary.right : binary.left, divides);
+    return split(left ? binary.left : binary.right, ranges, summand);
+  }
+
+  // Puts the summand to those with the same ranges and variables.
+  bool place(const std::vector<SumRange>& sum_ranges, const Summand& summand) {
+    std::vector<KernelRange> ranges;
+    std::vector<std::string> indices;
+    for (const SumRange& range : sum_ranges) {
+      const auto lower = affine(model_, range.lower, indices);
+      const auto upper = affine(model_, range.upper, indices);
+      if (!lower || !upper) return false;
+      ranges.push_back({range.index, *lower, *upper});
+      indices.push_back(range.index);
+    }
+    Touch mentioned = touch(summand.body);
+    for (const auto& [factor, divides] : summand.factors) {
+      const Touch more = touch(factor);
+      mentioned = {mentioned.coordinates || more.coordinates, mentioned.momenta || more.momenta};
+    }
+    const auto same = std::ranges::find_if(terms_, [&](const SumTerm& term) {
+      return term.ranges == ranges && term.touch == mentioned;
+    });
+    if (same != terms_.end()) {
+      same->summands.push_back(summand);
+    } else {
+      terms_.push_back({ranges, mentioned, {summand}});
+    }
+    return true;
+  }
+
+  // Does a sum stand there, or in a definition that is named there?
+  [[nodiscard]] bool contains_sum(const NodePtr& node) const {
+    if (std::holds_alternative<SumNode>(node->value)) return true;
+    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
+      const Definition* definition = find_definition(name->name);
+      if (definition == nullptr) return false;
+      if (const auto known = has_sum_.find(name->name); known != has_sum_.end())
+        return known->second;
+      return has_sum_[name->name] = contains_sum(definition->value);
+    }
+    bool found = false;
+    for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
+    return found;
+  }
+
+  [[nodiscard]] const Definition* find_definition(const std::string& name) const {
+    const auto it = std::ranges::find(model_.definitions, name, &Definition::name);
+    return it == model_.definitions.end() ? nullptr : &*it;
+  }
+
+  [[nodiscard]] Touch touch(const NodePtr& node) const {
+    Touch result;
+    auto also = [&](const Touch& more) {
+      result = {result.coordinates || more.coordinates, result.momenta || more.momenta};
+    };
+    if (const auto* name = std::get_if<NameNode>(&node->value)) {
+      const auto is_named = [&](const Variable& variable) { return variable.name == name->name; };
+      const bool coordinate = std::ranges::any_of(model_.coordinates, is_named);
+      if (coordinate || std::ranges::any_of(model_.momenta, is_named)) {
+        also({coordinate, !coordinate});
+      } else if (const Definition* definition = find_definition(name->name)) {
+        also(touch(definition->value));
+      }
+      return result;
+    }
+    for_children(node, [&](const NodePtr& child) { also(touch(child)); });
+    return result;
+  }
+
+  const Model& model_;
+  std::vector<SumTerm> terms_;
+  mutable std::map<std::string, bool> has_sum_;  // of definitions
+};
+
+}  // namespace
+
+std::optional<AffineIndex> affine(const Model& model, const NodePtr& node,
+                                  const std::vector<std::string>& indices) {
+  Indices at;
+  for (const std::string& index : indices) at[index] = 0;
+  AffineIndex result{.constant = integer(model, node, at)};
+  long check = result.constant;
+  for (const std::string& index : indices) {
+    at[index] = 1;
+    const long factor = integer(model, node, at) - result.constant;
+    at[index] = 0;
+    if (factor != 0) result.factors[index] = factor;
+    check += 7 * factor;
+  }
+  for (const std::string& index : indices) at[index] = 7;
+  if (integer(model, node, at) != check) return std::nullopt;
+  return result;
+}
+
+std::optional<std::vector<SumTerm>> split_into_sums(const Model& model) {
+  return SumSplitter(model).terms();
+}
+
+}  // namespace hamgen

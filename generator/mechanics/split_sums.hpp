@@ -1,0 +1,62 @@
+// H as a sum of indexed sums.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/language/model.hpp"
+#include "generator/mechanics/mechanics.hpp"
+
+namespace hamgen {
+
+// Calls visit(child) for each operand of the node.
+template <class Visit>
+void for_children(const NodePtr& node, Visit visit) {
+  if (const auto* n = std::get_if<NameNode>(&node->value)) {
+    if (n->subscript) visit(n->subscript);
+  } else if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
+    visit(negate->operand);
+  } else if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
+    visit(binary->left);
+    visit(binary->right);
+  } else if (const auto* call = std::get_if<CallNode>(&node->value)) {
+    for (const NodePtr& argument : call->arguments) visit(argument);
+  } else if (const auto* sum = std::get_if<SumNode>(&node->value)) {
+    visit(sum->body);
+  }
+}
+
+// What is summed: a body without sums and factors (divided by, if so marked).
+struct Summand {
+  NodePtr body;
+  std::vector<std::pair<NodePtr, bool>> factors;
+  bool negative = false;
+};
+
+// Which variables an expression mentions.
+struct Touch {
+  bool coordinates = false;
+  bool momenta = false;
+  [[nodiscard]] bool both() const { return coordinates && momenta; }
+  bool operator==(const Touch&) const = default;
+};
+
+// A sum of H: what is summed over the same indices and depends on the same part of the state
+// becomes one loop.
+struct SumTerm {
+  std::vector<KernelRange> ranges;
+  Touch touch;
+  std::vector<Summand> summands;
+};
+
+// H, split at plus and minus and at its sums; definitions that hold sums are followed.  Empty if a
+// sum stands where it cannot be split off, as in sin(sum(...)).
+[[nodiscard]] std::optional<std::vector<SumTerm>> split_into_sums(const Model& model);
+
+// The integer expression as an affine function of the indices; empty if it is none.
+[[nodiscard]] std::optional<AffineIndex> affine(const Model& model, const NodePtr& node,
+                                                const std::vector<std::string>& indices);
+
+}  // namespace hamgen
