@@ -40,7 +40,7 @@ struct StepReport {
 inline Real magnitude(Real x) { return std::fabs(x); }
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters&, const State& z) {
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
@@ -111,10 +111,8 @@ struct Start {
 };
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, Start& start,
-                                      State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, Real h, const State& z, const State& carry,
+                                      Start& start, State& dz) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;

@@ -40,7 +40,7 @@ struct StepReport {
 };
 
 // H(q, p, t) + p_t, which is constant where H(q, p, t) is not.
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters& par, const State& z) {
   const Real q = z.q;
   const Real t = z.t;
   const Real p = z.p;
@@ -70,9 +70,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real t = z.t;

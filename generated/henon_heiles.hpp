@@ -37,7 +37,7 @@ struct StepReport {
 };
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters&, const State& z) {
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
@@ -56,9 +56,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, Real h, const State& z, const State& carry,
+                                      State& dz) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;

@@ -40,7 +40,7 @@ struct StepReport {
 inline Real magnitude(Real x) { return std::fabs(x); }
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters&, const State& z) {
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
@@ -50,8 +50,7 @@ inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] cons
 }
 
 // The model's invariants: L, A1, A2.
-inline void invariants([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z,
-                       Real (&values)[3]) {
+inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
@@ -137,10 +136,8 @@ struct Start {
 };
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, Start& start,
-                                      State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, Start& start, State& dz) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;

@@ -39,7 +39,7 @@ struct StepReport {
 inline Real magnitude(Real x) { return std::fabs(x); }
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters& par, const State& z) {
   const Real q = z.q;
   const Real p = z.p;
   return 0.5 * (p * p) - par.eps * std::cos(q);
@@ -118,10 +118,8 @@ struct Start {
 };
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, Start& start,
-                                      State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, Start& start, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;

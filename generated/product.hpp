@@ -35,7 +35,7 @@ struct StepReport {
 };
 
 // H(q, p).
-inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
+inline Real energy(const Parameters&, const State& z) {
   const Real q = z.q;
   const Real p = z.p;
   return 0.5 * (1.0 + q * q) * (1.0 + p * p);
@@ -61,9 +61,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, const Coefficients& k,
-                                      [[maybe_unused]] Real h, [[maybe_unused]] const State& z,
-                                      [[maybe_unused]] const State& carry, State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;

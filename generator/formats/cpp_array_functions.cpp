@@ -137,7 +137,7 @@ class ArrayWriter {
       if (range.index == symbol) return fmt::format("Real({})", loop_index(symbol));
     }
     if (symbol == "pi") {
-      context_.uses_pi = true;
+      context_.used.pi = true;
       return "pi";
     }
     return names.local(symbol);

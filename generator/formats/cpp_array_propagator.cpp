@@ -60,7 +60,7 @@ class ArrayPropagator {
         context_.scalar,
         [&](const std::string& symbol) -> std::string {
           if (symbol == "h") return "h";
-          if (symbol == "pi") context_.uses_pi = true;
+          if (symbol == "pi") context_.used.pi = true;
           const auto it = context_.parameter_text.find(symbol);
           return it != context_.parameter_text.end() ? it->second : symbol;
         },

@@ -6,29 +6,12 @@ namespace hamgen {
 
 namespace {
 
-std::vector<CppGroup> group(const std::vector<Quantity>& quantities) {
-  std::vector<CppGroup> groups;
-  std::set<std::string> taken;
-  std::string last;
-  for (const Quantity& quantity : quantities) {
-    const ElementName element = split_element(quantity.name);
-    if (groups.empty() || !element.indexed || last != element.base) {
-      std::string name = member_identifier(element.base);
-      while (!taken.insert(name).second) name += "_";
-      groups.push_back({name, element.indexed, {}});
-      last = element.indexed ? element.base : "";
-    }
-    groups.back().elements.push_back(&quantity);
-  }
-  return groups;
-}
-
-// "q" or "q[2]" as a member of a struct: field name per quantity, in order.
-std::vector<std::string> fields(const std::vector<CppGroup>& groups) {
+std::vector<std::string> texts(const Layout& layout) {
   std::vector<std::string> result;
-  for (const CppGroup& g : groups) {
-    for (std::size_t i = 0; i < g.elements.size(); ++i) {
-      result.push_back(g.is_array ? fmt::format("{}[{}]", g.name, i) : g.name);
+  for (const Place& place : layout.places) {
+    result.push_back(place.field);
+    for (const AffineIndex& index : place.indices) {
+      result.back() += fmt::format("[{}]", index.constant);
     }
   }
   return result;
@@ -41,24 +24,19 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
       options(the_options),
       scalar(find_scalar(the_options.scalar)),
       equations(program.plan.equations),
-      mechanics(equations.mechanics) {
-  // A large system's state is two arrays, whatever the model calls their parts.
-  for (int i = 0; i < 2 * n(); ++i) {
-    variables.push_back(mechanics.variables[static_cast<std::size_t>(i)]);
-    if (!arrays()) continue;
-    variables.back() = {fmt::format("{}[{}]", i < n() ? "q" : "p", i % n()), "", "", 0};
+      mechanics(equations.mechanics),
+      environment(environment_of(equations, arrays())),
+      routines(routines_of(program)),
+      parameter_fields(texts(environment.parameter_layout)),
+      state_fields(texts(environment.state_layout)) {
+  for (std::size_t i = 0; i < environment.parameters.size(); ++i) {
+    parameter_text[environment.parameters[i].name] = "par." + parameter_fields[i];
   }
-  parameters = mechanics.parameters;
-  if (uses_energy_parameter(equations)) {
-    parameters.push_back({"E0", "", "energy of the initial state: set it before use", 0});
-  }
-  parameter_groups = group(parameters);
-  state_groups = group(variables);
-  state_fields = fields(state_groups);
-  parameter_fields = fields(parameter_groups);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    parameter_text[parameters[i].name] = "par." + parameter_fields[i];
-  }
+}
+
+void CppContext::write_routine(CodeWriter& out, std::string_view name) {
+  const Routine* routine = find_routine(routines, name);
+  if (routine != nullptr) print(out, *routine, {scalar, options.builtins}, used);
 }
 
 CppExpression CppContext::expression(Names& names) {
@@ -66,7 +44,7 @@ CppExpression CppContext::expression(Names& names) {
       scalar,
       [this, &names](const std::string& symbol) -> std::string {
         if (symbol == "pi") {
-          uses_pi = true;
+          used.pi = true;
           return "pi";
         }
         if (symbol == "h") return "h";
@@ -78,17 +56,15 @@ CppExpression CppContext::expression(Names& names) {
 }
 
 void CppContext::note(const CppExpression& cpp) {
-  functions.insert(cpp.functions().begin(), cpp.functions().end());
+  used.functions.insert(cpp.functions().begin(), cpp.functions().end());
 }
 
-void CppContext::load_state(CodeWriter& out, Names& names, const std::set<std::string>& used,
-                            StateForm form) const {
+void CppContext::load_state(CodeWriter& out, Names& names,
+                            const std::set<std::string>& symbols) const {
   for (int i = 0; i < 2 * n(); ++i) {
     const std::string& name = variable_name(i);
-    if (!used.contains(name)) continue;
-    const std::string value =
-        form == StateForm::fields ? "z." + state_field(i) : fmt::format("z[{}]", i);
-    out.line(fmt::format("const Real {} = {};", names.local(name), value));
+    if (!symbols.contains(name)) continue;
+    out.line(fmt::format("const Real {} = z.{};", names.local(name), state_field(i)));
   }
 }
 
@@ -101,12 +77,6 @@ void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
     out.line(
         fmt::format("{}{} = {};", declared.contains(s.name) ? "" : "const Real ", name, value));
   }
-}
-
-std::set<std::string> used_symbols(const std::vector<Statement>& statements) {
-  std::set<std::string> used;
-  for (const Statement& s : statements) collect_symbols(s.value, used);
-  return used;
 }
 
 }  // namespace hamgen

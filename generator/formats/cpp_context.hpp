@@ -10,21 +10,17 @@
 #include "generator/formats/code_writer.hpp"
 #include "generator/formats/cpp_expression.hpp"
 #include "generator/formats/cpp_header.hpp"
+#include "generator/formats/print_code.hpp"
+#include "generator/program/environment.hpp"
 #include "generator/program/names.hpp"
+#include "generator/program/routines.hpp"
 
 namespace hamgen {
-
-// Elements of one declared name: a scalar member or an array member of a struct.
-struct CppGroup {
-  std::string name;  // of the member
-  bool is_array = false;
-  std::vector<const Quantity*> elements;
-};
 
 class CppContext {
  public:
   CppContext(const Program& program, const CppOptions& options);
-  CppContext(const CppContext&) = delete;  // the groups point into its lists
+  CppContext(const CppContext&) = delete;
   CppContext& operator=(const CppContext&) = delete;
 
   const Program& program;
@@ -32,15 +28,12 @@ class CppContext {
   const ScalarType& scalar;
   const StepEquations& equations;
   const Mechanics& mechanics;
-  std::vector<Quantity> variables;
-  std::vector<Quantity> parameters;  // E0 last, if the scheme uses it
-  std::vector<CppGroup> parameter_groups;
-  std::vector<CppGroup> state_groups;
+  Environment environment;
+  std::vector<Routine> routines;
   std::vector<std::string> parameter_fields;
   std::vector<std::string> state_fields;              // "q" or "q[2]": of z_1..z_2n in State
   std::map<std::string, std::string> parameter_text;  // "eps" is par.eps
-  std::set<std::string> functions;                    // of <cmath>, used so far
-  bool uses_pi = false;
+  Used used;                                          // so far
 
   [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }
   [[nodiscard]] bool arrays() const { return program.plan.arrays.has_value(); }
@@ -57,17 +50,16 @@ class CppContext {
   // What the expressions called decides the includes.
   void note(const CppExpression& cpp);
 
-  // Locals for the state variables that the statements use, from z.q or from an array z[0].
-  enum class StateForm { fields, array };
-  void load_state(CodeWriter& out, Names& names, const std::set<std::string>& used,
-                  StateForm form = StateForm::fields) const;
+  // Writes the routine of this name, if there is one.
+  void write_routine(CodeWriter& out, std::string_view name);
+  // Locals for the state variables that the statements use, from z.q.
+  void load_state(CodeWriter& out, Names& names, const std::set<std::string>& used) const;
 };
 
 // Writes them one by one; those in `declared` are assigned to, the rest are new constants.
 void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
                       const std::vector<Statement>& statements,
                       const std::set<std::string>& declared = {});
-[[nodiscard]] std::set<std::string> used_symbols(const std::vector<Statement>& statements);
 
 // The types Parameters, State, StepReport; |x| if `with_magnitude`.
 void write_types(CodeWriter& out, CppContext& context, bool with_magnitude);

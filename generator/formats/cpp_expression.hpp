@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "generator/algebra/expression.hpp"
 #include "generator/formats/scalar.hpp"
+#include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
 
@@ -25,9 +25,7 @@ class CppExpression {
   [[nodiscard]] const std::set<std::string>& functions() const { return functions_; }
 
  private:
-  [[nodiscard]] std::string print(const Expression& e, int context) const;
-  [[nodiscard]] std::string product(const Expression& e) const;
-  [[nodiscard]] std::string power(const Expression& e) const;
+  [[nodiscard]] std::string print(const Arithmetic& a, int context) const;
   [[nodiscard]] std::string call(const std::string& function, const std::string& arguments) const;
 
   const ScalarType& scalar_;

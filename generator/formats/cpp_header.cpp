@@ -23,7 +23,7 @@ void write_includes(CodeWriter& out, const CppContext& context) {
   if (context.quad()) {
     // Declared here rather than by <quadmath.h>, which clang does not find.
     std::set<std::string> declared;
-    for (const std::string& function : context.functions) {
+    for (const std::string& function : context.used.functions) {
       const Function* row = find_function(function);
       const bool two = function == "pow" || (row != nullptr && row->arity == 2);
       const std::string name = row != nullptr ? std::string(row->quad) : function + "q";
@@ -36,7 +36,7 @@ void write_includes(CodeWriter& out, const CppContext& context) {
                            two ? ", __float128" : ""));
     }
     if (!declared.empty()) out.line("}");
-  } else if (!context.functions.empty() && !context.options.builtins) {
+  } else if (!context.used.functions.empty() && !context.options.builtins) {
     out.line("#include <cmath>");
   }
   if (context.arrays()) {
@@ -62,7 +62,7 @@ void open_namespace(CodeWriter& out, const CppContext& context) {
   out.line();
   out.line(context.quad() ? "__extension__ typedef __float128 Real;"
                           : fmt::format("using Real = {};", context.scalar.cpp));
-  if (context.uses_pi) {
+  if (context.used.pi) {
     // 50 digits, rounded by the compiler where the type is standard.
     const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
     out.line(fmt::format("inline constexpr Real pi = {};", literal(pi, context.scalar)));
@@ -78,10 +78,9 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
   const MemberParts parts = member_parts(context.program, context.scalar);
   write_types(out, context, parts.newton || parts.fixed_point || parts.elimination);
   write_functions(out, context);
-  CoefficientText coefficients;
-  if (parts.coefficients) coefficients = write_prepare(out, context, parts);
+  if (parts.coefficients) write_prepare(out, context, parts);
   write_support(out, context, parts);
-  write_solve(out, context, parts, coefficients);
+  context.write_routine(out, "solve");
   if (role == StepRole::propagator) write_member_step(out, context, parts);
   write_member_propagator(out, context, parts, role);
   if (context.options.tangent) write_member_tangent(out, context, parts, role);
@@ -130,7 +129,7 @@ void write_scheme(CodeWriter& out, CppContext& context) {
 std::string namespace_text(CppContext& context) {
   CodeWriter inner;
   write_scheme(inner, context);
-  if (context.arrays()) write_invariants(inner, context);
+  if (context.arrays()) context.write_routine(inner, "invariants");
   CodeWriter out;
   open_namespace(out, context);  // what it defines depends on what was used
   out.lines(inner.text());

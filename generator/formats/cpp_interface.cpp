@@ -198,7 +198,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
                   "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
                   "gradient_of, {}}};",
-                  context.n(), context.parameters.size(), invariants + modified,
+                  context.n(), context.environment.parameters.size(), invariants + modified,
                   context.scalar.digits, description, context.program.plan.solver,
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();

@@ -39,9 +39,8 @@ MemberParts member_parts(const Program& program, const ScalarType& scalar) {
 
 std::string inverse_name(std::size_t stage) { return fmt::format("inverse_{}", stage); }
 
-CoefficientText write_prepare(CodeWriter& out, CppContext& context, const MemberParts& parts,
-                              const std::vector<ScaledNumbers>& scaled) {
-  CoefficientText coefficient_text;
+void write_prepare(CodeWriter& out, CppContext& context, const MemberParts& parts,
+                   const std::vector<ScaledNumbers>& scaled) {
   Names names;
   const CppExpression cpp = context.expression(names);
   std::vector<std::pair<std::string, std::string>> members;
@@ -57,7 +56,6 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
     members.emplace_back(fmt::format("Real {} = {};", field, literal(0, context.scalar)), text);
     code.line(fmt::format("k.{} = {};", field, cpp(s.value)));
     names.set(s.name, "k." + field);
-    coefficient_text[s.name] = "k." + field;
   }
   for (std::size_t s = 0; s < context.program.stages.size(); ++s) {
     const auto& solve = context.program.stages[s].solve;
@@ -90,7 +88,6 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
   out.close();
   out.line();
   context.note(cpp);
-  return coefficient_text;
 }
 
 void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& name,

@@ -19,9 +19,6 @@ struct MemberParts {
 };
 [[nodiscard]] MemberParts member_parts(const Program& program, const ScalarType& scalar);
 
-// Where the symbols of the coefficients are found: "#3" is k.c1.
-using CoefficientText = std::map<std::string, std::string>;
-
 // An array of numbers times h among the coefficients.
 struct ScaledNumbers {
   std::string name;
@@ -29,14 +26,10 @@ struct ScaledNumbers {
 };
 
 // struct Coefficients and prepare(par, h).
-[[nodiscard]] CoefficientText write_prepare(CodeWriter& out, CppContext& context,
-                                            const MemberParts& parts,
-                                            const std::vector<ScaledNumbers>& scaled = {});
+void write_prepare(CodeWriter& out, CppContext& context, const MemberParts& parts,
+                   const std::vector<ScaledNumbers>& scaled = {});
 // add, elimination, rules for stopping, struct Start.
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts);
-// solve(par, k, h, z, start, dz).
-void write_solve(CodeWriter& out, CppContext& context, const MemberParts& parts,
-                 const CoefficientText& coefficients);
 // matrix[i][j] = ...; for the entries that are not zero.
 void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& name,
                   const Solve& solve);

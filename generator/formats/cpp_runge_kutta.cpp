@@ -15,26 +15,15 @@ namespace {
 
 // f = (H_p, -H_q) from grad H = (H_q, H_p).
 void write_vector_field(CodeWriter& out, CppContext& context) {
+  if (!context.arrays()) return context.write_routine(out, "vector_field");
   out.line("// J grad H at a state (q, p).");
-  const std::string head = std::string("inline void vector_field(") +
-                           (context.arrays() ? "" : "[[maybe_unused]] ") +
-                           "const Parameters& par, ";
-  if (context.arrays()) {
-    out.lines(head + R"(const Real (&x)[dimension],
+  out.lines(R"(inline void vector_field(const Parameters& par, const Real (&x)[dimension],
                          Real (&f)[dimension]) {
   gradient(par, x, x + n, f + n, f);
   for (int i = 0; i < n; ++i) f[n + i] = -f[n + i];
 }
 
 )");
-    return;
-  }
-  const Evaluation& field = context.program.vector_field;
-  write_evaluation(
-      out, context,
-      head + "[[maybe_unused]] const Real (&z)[dimension], Real (&values)[dimension])", field,
-      [&](CodeWriter& w, const CppExpression& cpp) { write_results(w, cpp, field); },
-      CppContext::StateForm::array);
 }
 
 // y = x + h sum a_j f_j, and dz = h sum b_j f_j: only what is not zero.

@@ -50,13 +50,12 @@ class SplittingWriter {
     const std::vector<ScaledNumbers> scaled{{"kick", kicks_}, {"drift", drifts_}};
     if (context_.arrays()) {
       write_array_functions(out_, context_);
-      (void)write_prepare(out_, context_, parts, scaled);
+      write_prepare(out_, context_, parts, scaled);
     } else {
       write_functions(out_, context_);
-      const CoefficientText text = write_prepare(out_, context_, parts, scaled);
-      write_gradient("dV/dq at z.", "potential_gradient", context_.program.potential_gradient,
-                     text);
-      write_gradient("dT/dp at z.", "kinetic_gradient", context_.program.kinetic_gradient, text);
+      write_prepare(out_, context_, parts, scaled);
+      context_.write_routine(out_, "potential_gradient");
+      context_.write_routine(out_, "kinetic_gradient");
     }
     out_.lines(cpp_compensated_sum() + "\n");
     write_start();
@@ -81,24 +80,6 @@ class SplittingWriter {
       if (!evaluation.results[static_cast<std::size_t>(i)].is_zero()) result.push_back(i);
     }
     return result;
-  }
-
-  void write_gradient(const std::string& comment, const std::string& name,
-                      const Evaluation& evaluation, const CoefficientText& coefficients) {
-    out_.line("// " + comment);
-    const std::string signature = fmt::format(
-        "inline void {}([[maybe_unused]] const Parameters& par, [[maybe_unused]] const "
-        "Coefficients& k, [[maybe_unused]] const State& z, [[maybe_unused]] Real (&values)[{}])",
-        name, context_.n());
-    write_evaluation(
-        out_, context_, signature, evaluation,
-        [&](CodeWriter& w, const CppExpression& cpp) {
-          for (std::size_t i = 0; i < evaluation.results.size(); ++i) {
-            if (evaluation.results[i].is_zero()) continue;
-            w.line(fmt::format("values[{}] = {};", i, cpp(evaluation.results[i])));
-          }
-        },
-        CppContext::StateForm::fields, coefficients);
   }
 
   void write_start() {

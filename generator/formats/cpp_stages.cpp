@@ -312,22 +312,7 @@ void write_stage_hessian(CodeWriter& out, CppContext& context) {
     if (context.options.tangent) write_array_stage_hessian(out);
     return;
   }
-  const Program& program = context.program;
-  out.line("// The second derivatives of H at z.");
-  write_evaluation(
-      out, context,
-      "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] "
-      "const Real (&z)[dimension], [[maybe_unused]] Real (&values)[dimension][dimension])",
-      program.hessian,
-      [&](CodeWriter& w, const CppExpression& cpp) {
-        for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
-          const auto [i, j] = program.hessian_places[k];
-          const std::string value = cpp(program.hessian.results[k]);
-          w.line(fmt::format("values[{}][{}] = {};", i, j, value));
-          if (i != j) w.line(fmt::format("values[{0}][{1}] = values[{1}][{0}];", j, i));
-        }
-      },
-      CppContext::StateForm::array);
+  context.write_routine(out, "hessian");
 }
 
 void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tableau) {

@@ -211,31 +211,13 @@ std::string tangent_name(StepRole role) {
   return role == StepRole::propagator ? "tangent" : "substep_tangent";
 }
 
-void write_hessian_function(CodeWriter& out, CppContext& context) {
-  const Program& program = context.program;
-  out.line("// Second derivatives of H.");
-  write_evaluation(
-      out, context,
-      fmt::format(
-          "inline void hessian([[maybe_unused]] const Parameters& par, [[maybe_unused]] const "
-          "State& z, [[maybe_unused]] Real (&values)[{0}][{0}])",
-          2 * context.n()),
-      program.hessian, [&](CodeWriter& w, const CppExpression& cpp) {
-        for (std::size_t k = 0; k < program.hessian_places.size(); ++k) {
-          const auto [i, j] = program.hessian_places[k];
-          w.line(fmt::format("values[{}][{}] = {};", i, j, cpp(program.hessian.results[k])));
-          if (i != j) w.line(fmt::format("values[{1}][{0}] = values[{0}][{1}];", i, j));
-        }
-      });
-}
-
 void write_member_tangent(CodeWriter& out, CppContext& context, const MemberParts& parts,
                           StepRole role) {
   if (!context.program.plan.sweeps) {
     LinearisationWriter(out, context, parts).write(tangent_name(role));
     return;
   }
-  write_hessian_function(out, context);
+  context.write_routine(out, "hessian");
   write_stage_matrix(out, context);
   out.lines(fmt::format(kSwept, fmt::arg("name", tangent_name(role)),
                         fmt::arg("size", 2 * context.n()), fmt::arg("half", context.n()),

@@ -23,7 +23,4 @@ void write_explicit_tangent(CodeWriter& out, const CppContext& context);
 [[nodiscard]] std::string stages_tangent();
 void write_stages_tangent(CodeWriter& out);
 
-// hessian(par, z, values): values[i][j] of the second derivatives that are not zero.
-void write_hessian_function(CodeWriter& out, CppContext& context);
-
 }  // namespace hamgen

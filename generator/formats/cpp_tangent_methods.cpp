@@ -33,7 +33,7 @@ std::string row_of(const std::vector<Expression>& values, const ScalarType& scal
 }  // namespace
 
 void write_splitting_tangent(CodeWriter& out, CppContext& context) {
-  write_hessian_function(out, context);
+  context.write_routine(out, "hessian");
   const int n = context.n();
   const auto& substeps = context.program.sequence.substeps;
   const bool kick_first = substeps.front().kind == SubstepKind::kick;

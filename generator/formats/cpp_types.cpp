@@ -10,35 +10,31 @@ namespace hamgen {
 
 namespace {
 
-std::string remark(const Quantity& quantity) {
-  std::string text = quantity.comment;
+std::string remark(const Field& field) {
+  std::string text = field.remark;
   std::ranges::replace(text, '\\', '/');
-  if (!quantity.unit.empty()) text += (text.empty() ? "[" : " [") + quantity.unit + "]";
   return text;
 }
 
-void write_struct(CodeWriter& out, const std::string& name, const std::vector<CppGroup>& groups,
-                  bool defaults, const ScalarType& scalar) {
-  if (groups.empty()) {
-    out.line("struct " + name + " {};");
+void write_struct(CodeWriter& out, const Record& record, const ScalarType& scalar) {
+  if (record.fields.empty()) {
+    out.line("struct " + record.name + " {};");
     return;
   }
-  out.open("struct " + name);
+  out.open("struct " + record.name);
   std::vector<std::pair<std::string, std::string>> members;
-  for (const CppGroup& g : groups) {
-    const Quantity& first = *g.elements.front();
-    if (g.is_array) {
-      std::string values;
-      for (const Quantity* element : g.elements) {
-        if (!defaults) break;
-        values += (values.empty() ? "" : ", ") + literal(element->value, scalar);
-      }
-      members.emplace_back(fmt::format("Real {}[{}] = {{{}}};", g.name, g.elements.size(), values),
-                           remark(first));
+  for (const Field& field : record.fields) {
+    std::string values;
+    for (const Rational& value : field.values) {
+      values += (values.empty() ? "" : ", ") + literal(value, scalar);
+    }
+    if (field.length > 0) {
+      members.emplace_back(fmt::format("Real {}[{}] = {{{}}};", field.name, field.length, values),
+                           remark(field));
     } else {
-      members.emplace_back(fmt::format("Real {} = {};", g.name,
-                                       literal(defaults ? first.value : Rational(0), scalar)),
-                           remark(first));
+      members.emplace_back(
+          fmt::format("Real {} = {};", field.name, values.empty() ? literal(0, scalar) : values),
+          remark(field));
     }
   }
   out.aligned(members);
@@ -48,9 +44,9 @@ void write_struct(CodeWriter& out, const std::string& name, const std::vector<Cp
 }  // namespace
 
 void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
-  write_struct(out, "Parameters", context.parameter_groups, true, context.scalar);
+  write_struct(out, context.environment.parameter_layout.record, context.scalar);
   out.line();
-  write_struct(out, "State", context.state_groups, false, context.scalar);
+  write_struct(out, context.environment.state_layout.record, context.scalar);
   out.line();
   out.line(
       "// On failure the increment says how far the iteration was from its end; it is not finite");
@@ -63,7 +59,7 @@ void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
   out.line();
   if (!with_magnitude) return;
   out.lines(cpp_magnitude(context.scalar, context.options.builtins) + "\n");
-  context.functions.insert("fabs");
+  context.used.functions.insert("fabs");
 }
 
 }  // namespace hamgen

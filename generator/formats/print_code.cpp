@@ -1,0 +1,324 @@
+#include "generator/formats/print_code.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/formats/cpp_expression.hpp"
+#include "generator/program/names.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& items, const char* separator) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : separator) + item;
+  return text;
+}
+
+std::string magnitude(const std::string& x) {
+  return "magnitude(" + (x.starts_with('-') ? x.substr(1) : x) + ")";
+}
+
+class RoutinePrinter {
+ public:
+  RoutinePrinter(CodeWriter& out, const Routine& routine, const Dialect& dialect, Used& used)
+      : out_(out),
+        routine_(routine),
+        dialect_(dialect),
+        used_(used),
+        cpp_(
+            dialect.scalar, [this](const std::string& symbol) { return name(symbol); },
+            dialect.builtins) {
+    // What iterations declare.
+    for (const char* local : {"size", "scale", "iteration", "verdict", "progress", "length",
+                              "increment", "sweep", "part", "i", "j", "rule"}) {
+      names_.reserve(local);
+    }
+    for (const Argument& argument : routine.arguments) names_.reserve(argument.name);
+    reserve_arrays(routine.body);
+  }
+
+  void print() {
+    for (const std::string& line : routine_.remark) out_.line("// " + line);
+    out_.open(signature());
+    if (!routine_.result.object.empty()) {
+      out_.line(routine_.result.type + " " + routine_.result.object + ";");
+    }
+    print(routine_.body);
+    out_.close();
+    out_.line();
+    used_.functions.insert(cpp_.functions().begin(), cpp_.functions().end());
+  }
+
+  void operator()(const Let& let) {
+    const std::string value = cpp_(let.value);
+    out_.line(fmt::format("{}Real {} = {};",
+                          let.varies || kept_.contains(let.symbol) ? "" : "const ",
+                          names_.local(let.symbol), value));
+  }
+  void operator()(const Array& array) {
+    std::string sizes;
+    for (const int size : array.sizes) sizes += fmt::format("[{}]", size);
+    std::vector<std::string> values;
+    for (const Expression& e : array.values) values.push_back(cpp_(e));
+    out_.line(fmt::format("Real {}{} = {{{}}};", array.name, sizes, joined(values, ", ")));
+  }
+  void operator()(const Assign& assign) {
+    const std::string value = cpp_(assign.value);
+    out_.line(fmt::format("{} = {};", name(assign.symbol), value));
+  }
+  // target += value, or target -= what follows a minus, if that is one product.
+  void operator()(const Accumulate& sum) {
+    const std::string value = cpp_(sum.value);
+    const bool negative =
+        value.starts_with('-') && value.find_first_of("+-(", 1) == std::string::npos;
+    out_.line(fmt::format("{} {}= {};", name(sum.symbol), negative ? '-' : '+',
+                          value.substr(negative ? 1 : 0)));
+  }
+  void operator()(const For& loop) {
+    const std::string index = loop.range.index;
+    out_.open(fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", index, text(loop.range.lower),
+                          text(loop.range.upper)));
+    print(loop.body);
+    out_.close();
+  }
+  void operator()(const If& branch) {
+    out_.open(fmt::format("if ({}{})", branch.set ? "" : "!", text(branch.flag)));
+    print(branch.then);
+    out_.close();
+  }
+  void operator()(const Call& call) {
+    std::vector<std::string> arguments;
+    for (const Place& place : call.arguments) arguments.push_back(text(place));
+    out_.line(fmt::format("{}({});", call.routine, joined(arguments, ", ")));
+  }
+  void operator()(const SolveLinear& solve) {
+    const std::string call = fmt::format("!eliminate({}, {})", solve.matrix, solve.vector);
+    if (!iterates_) return out_.line("if (" + call + ") return report;");
+    out_.open("if (" + call + ")");
+    out_.line("report.iterations += iteration;");
+    out_.line(fmt::format("for (const Real part : {}) report.increment += magnitude(part);",
+                          solve.vector));
+    out_.line("return report;");
+    out_.close();
+  }
+  void operator()(const Iterate& iterate) {
+    for (const std::string& symbol : iterate.kept) {
+      out_.line(fmt::format("Real {} = {};", names_.local(symbol), literal(0, dialect_.scalar)));
+    }
+    for (const Unknown& u : iterate.unknowns) {
+      const std::string start = cpp_(u.start);
+      out_.line(fmt::format("Real {} = start.known ? start.value[{}] : {};", names_.local(u.symbol),
+                            u.memory, start));
+    }
+    kept_.insert(iterate.kept.begin(), iterate.kept.end());
+    iterates_ = true;
+    iterate.rule == Rule::newton ? newton(iterate) : fixed_point(iterate);
+    iterates_ = false;
+    for (const Unknown& u : iterate.unknowns) {
+      std::string value = names_.local(u.symbol);
+      if (iterate.rule == Rule::newton) value += " + " + cpp_(u.correction);
+      out_.line(fmt::format("start.value[{}] = {};", u.memory, value));
+    }
+  }
+  void operator()(const Sweep& sweep) {
+    for (const Unknown& u : sweep.unknowns) {
+      const std::string start = cpp_(u.start);
+      out_.line(fmt::format("Real {} = {};", names_.local(u.symbol), start));
+    }
+    out_.open(fmt::format("for (int sweep = 0; sweep < {}; ++sweep)", sweep.count));
+    print(sweep.body);
+    std::vector<std::string> next;
+    for (const Unknown& u : sweep.unknowns) {
+      const std::string value = cpp_(u.correction);
+      next.push_back(names_.unique(names_.local(u.symbol) + "_next"));
+      out_.line(fmt::format("const Real {} = {};", next.back(), value));
+    }
+    for (std::size_t j = 0; j < next.size(); ++j) {
+      out_.line(fmt::format("{} = {};", names_.local(sweep.unknowns[j].symbol), next[j]));
+    }
+    out_.close();
+    for (std::size_t j = 0; j < sweep.results.size(); ++j) {
+      out_.line(fmt::format("const Real {} = {};", names_.local(sweep.results[j]),
+                            names_.local(sweep.unknowns[j].symbol)));
+    }
+    out_.line(fmt::format("report.iterations = {};", sweep.count));
+  }
+  void operator()(const Return& end) {
+    if (end.value) return out_.line("return " + cpp_(*end.value) + ";");
+    if (end.success && end.finite.empty()) out_.line("report.converged = true;");
+    if (!end.finite.empty()) {
+      std::vector<std::string> squares;
+      for (const std::string& symbol : end.finite) {
+        squares.push_back(fmt::format("{0} * {0}", name(symbol)));
+      }
+      out_.line("// False for infinities and NaN alike.");
+      out_.line("const Real length = " + joined(squares, " + ") + ";");
+      out_.line(fmt::format("report.converged = length <= {};", dialect_.scalar.largest));
+      out_.line("if (!report.converged) report.increment = length;");
+    }
+    out_.line("return report;");
+  }
+
+ private:
+  void print(const Body& body) {
+    for (const Instruction& node : body) {
+      // What an iteration declares stands above its comment.
+      const auto* iterate = std::get_if<Iterate>(&node.value);
+      if (iterate == nullptr) {
+        for (const std::string& line : node.remark) out_.line("// " + line);
+      } else {
+        remark_ = &node.remark;
+      }
+      const auto* let = std::get_if<Let>(&node.value);
+      if (let != nullptr && kept_.contains(let->symbol)) {
+        (*this)(Assign{let->symbol, let->value});
+      } else {
+        std::visit(*this, node.value);
+      }
+    }
+  }
+
+  void newton(const Iterate& iterate) {
+    const std::string rule = "start." + iterate.name;
+    for (const std::string& line : *remark_) out_.line("// " + line);
+    out_.line(rule + ".begin();");
+    out_.open("for (int iteration = 1;; ++iteration)");
+    print(iterate.body);
+    std::vector<std::string> corrections;
+    std::vector<std::string> sizes;
+    for (const Unknown& u : iterate.unknowns) {
+      corrections.push_back(cpp_(u.correction));
+      sizes.push_back(magnitude(corrections.back()));
+    }
+    out_.line("const Real size = " + joined(sizes, " + ") + ";");
+    out_.line("const Real scale = " + scale(iterate) + ";");
+    out_.line(fmt::format("const Verdict verdict = {}(size, scale, iteration);", rule));
+    out_.open("if (verdict == Verdict::failed)");
+    out_.line("report.iterations += iteration;");
+    out_.line("report.increment = size;");
+    out_.line("return report;");
+    out_.close();
+    out_.open("if (verdict == Verdict::done)");
+    out_.line("report.iterations += iteration;");
+    out_.line("break;");
+    out_.close();
+    for (std::size_t j = 0; j < corrections.size(); ++j) {
+      out_.line(fmt::format("{} += {};", names_.local(iterate.unknowns[j].symbol), corrections[j]));
+    }
+    out_.close();
+  }
+
+  void fixed_point(const Iterate& iterate) {
+    const std::size_t m = iterate.unknowns.size();
+    out_.line(fmt::format("FixedPointRule<{}> {};", m, iterate.name));
+    out_.open("for (int iteration = 1;; ++iteration)");
+    print(iterate.body);
+    std::vector<std::string> values;
+    for (const Unknown& u : iterate.unknowns) {
+      values.push_back(cpp_(u.correction - Expression::symbol(u.symbol)));
+    }
+    out_.line(fmt::format("const Real increment[{}] = {{{}}};", m, joined(values, ", ")));
+    out_.line("const Real scale = " + scale(iterate) + ";");
+    for (std::size_t j = 0; j < m; ++j) {
+      out_.line(fmt::format("{} += increment[{}];", names_.local(iterate.unknowns[j].symbol), j));
+    }
+    out_.line("const Progress progress = " + iterate.name + "(increment, scale, iteration);");
+    out_.line("if (progress == Progress::go_on) continue;");
+    out_.line("report.iterations += iteration;");
+    out_.line("if (progress == Progress::done) break;");
+    out_.line("for (const Real part : increment) report.increment += magnitude(part);");
+    out_.line("return report;");
+    out_.close();
+  }
+
+  [[nodiscard]] std::string scale(const Iterate& iterate) {
+    std::vector<std::string> parts;
+    for (const Unknown& u : iterate.unknowns) {
+      parts.push_back(magnitude(names_.local(u.symbol)));
+      parts.push_back(magnitude(cpp_(u.start)));
+    }
+    return joined(parts, " + ");
+  }
+
+  std::string name(const std::string& symbol) {
+    if (symbol == "pi") {
+      used_.pi = true;
+      return "pi";
+    }
+    const auto place = routine_.places.find(symbol);
+    if (place != routine_.places.end()) return text(place->second);
+    const bool number = std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
+      return argument.name == symbol && argument.record.empty() && argument.sizes.empty();
+    });
+    return number ? symbol : names_.local(symbol);
+  }
+
+  [[nodiscard]] static std::string text(const AffineIndex& a) {
+    std::string text;
+    for (const auto& [index, factor] : a.factors) {
+      text += text.empty() ? "" : " + ";
+      text += factor == 1 ? index : fmt::format("{} * {}", factor, index);
+    }
+    if (text.empty()) return std::to_string(a.constant);
+    if (a.constant > 0) text += fmt::format(" + {}", a.constant);
+    if (a.constant < 0) text += fmt::format(" - {}", -a.constant);
+    return text;
+  }
+  [[nodiscard]] static std::string text(const Place& place) {
+    std::string result = place.object + (place.field.empty() ? "" : "." + place.field);
+    for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
+    return result;
+  }
+
+  [[nodiscard]] std::string declaration(const Argument& argument) const {
+    const std::string name = uses_object(routine_, argument.name) ? argument.name : "";
+    const std::string constant = argument.changes ? "" : "const ";
+    const std::string type = argument.record.empty() ? "Real" : argument.record;
+    if (argument.sizes.empty() && argument.record.empty()) {
+      return name.empty() ? "Real" : "Real " + name;
+    }
+    if (argument.sizes.empty()) return constant + type + "&" + (name.empty() ? "" : " " + name);
+    std::string text = constant + type + " (&" + name + ")";
+    for (const int size : argument.sizes) text += fmt::format("[{}]", size);
+    return text;
+  }
+
+  [[nodiscard]] std::string signature() const {
+    std::vector<std::string> list;
+    for (const Argument& argument : routine_.arguments) list.push_back(declaration(argument));
+    const std::string type = routine_.result.type.empty() ? "void" : routine_.result.type;
+    return fmt::format("{}inline {} {}({})", type == "StepReport" ? "[[nodiscard]] " : "", type,
+                       routine_.name, joined(list, ", "));
+  }
+
+  void reserve_arrays(const Body& body) {
+    for (const Instruction& node : body) {
+      if (const auto* array = std::get_if<Array>(&node.value)) names_.reserve(array->name);
+      if (const auto* loop = std::get_if<For>(&node.value)) reserve_arrays(loop->body);
+      if (const auto* branch = std::get_if<If>(&node.value)) reserve_arrays(branch->then);
+      if (const auto* iterate = std::get_if<Iterate>(&node.value)) reserve_arrays(iterate->body);
+      if (const auto* sweep = std::get_if<Sweep>(&node.value)) reserve_arrays(sweep->body);
+    }
+  }
+
+  CodeWriter& out_;
+  const Routine& routine_;
+  const Dialect& dialect_;
+  Used& used_;
+  Names names_;
+  CppExpression cpp_;
+  std::set<std::string> kept_;  // locals that an iteration changes
+  bool iterates_ = false;
+  const std::vector<std::string>* remark_ = nullptr;
+};
+
+}  // namespace
+
+void print(CodeWriter& out, const Routine& routine, const Dialect& dialect, Used& used) {
+  RoutinePrinter(out, routine, dialect, used).print();
+}
+
+}  // namespace hamgen

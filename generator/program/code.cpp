@@ -1,0 +1,89 @@
+#include "generator/program/code.hpp"
+
+#include <algorithm>
+
+namespace hamgen {
+
+namespace {
+
+// The symbols a node reads and writes, and the objects it names.
+struct Mentions {
+  std::set<std::string> read, written, objects;
+};
+
+void mention(const Expression& e, Mentions& found) { collect_symbols(e, found.read); }
+void mention(const Body& body, Mentions& found);
+
+void mention(const std::vector<Unknown>& unknowns, Mentions& found) {
+  for (const Unknown& unknown : unknowns) {
+    found.written.insert(unknown.symbol);
+    mention(unknown.start, found);
+    mention(unknown.correction, found);
+  }
+}
+
+struct Reader {
+  Mentions& found;
+
+  void operator()(const Let& let) const { mention(let.value, found); }
+  void operator()(const Array& array) const {
+    for (const Expression& e : array.values) mention(e, found);
+  }
+  void operator()(const Assign& assign) const {
+    found.written.insert(assign.symbol);
+    mention(assign.value, found);
+  }
+  void operator()(const Accumulate& sum) const {
+    found.written.insert(sum.symbol);
+    mention(sum.value, found);
+  }
+  void operator()(const For& loop) const { mention(loop.body, found); }
+  void operator()(const If& branch) const {
+    found.objects.insert(branch.flag.object);
+    mention(branch.then, found);
+  }
+  void operator()(const Call& call) const {
+    for (const Place& place : call.arguments) found.objects.insert(place.object);
+  }
+  void operator()(const SolveLinear& solve) const {
+    found.objects.insert({solve.matrix, solve.vector});
+  }
+  void operator()(const Iterate& iterate) const {
+    found.objects.insert("start");
+    mention(iterate.unknowns, found);
+    mention(iterate.body, found);
+  }
+  void operator()(const Sweep& sweep) const {
+    mention(sweep.unknowns, found);
+    mention(sweep.body, found);
+  }
+  void operator()(const Return& end) const {
+    if (end.value) mention(*end.value, found);
+    found.read.insert(end.finite.begin(), end.finite.end());
+  }
+};
+
+void mention(const Body& body, Mentions& found) {
+  for (const Instruction& node : body) std::visit(Reader{found}, node.value);
+}
+
+}  // namespace
+
+void collect_symbols(const Body& body, std::set<std::string>& names) {
+  Mentions found;
+  mention(body, found);
+  names.merge(found.read);
+}
+
+bool uses_object(const Routine& routine, const std::string& object) {
+  Mentions found;
+  mention(routine.body, found);
+  if (found.objects.contains(object) || found.read.contains(object)) return true;
+  return std::ranges::any_of(routine.places, [&](const auto& entry) {
+    const auto& [symbol, place] = entry;
+    return place.object == object &&
+           (found.read.contains(symbol) || found.written.contains(symbol));
+  });
+}
+
+}  // namespace hamgen

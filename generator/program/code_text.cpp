@@ -1,0 +1,122 @@
+// Routines as text: what `hamgen show --stage program` prints.
+#include <fmt/format.h>
+
+#include "generator/program/code.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::string list_of(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+  return text;
+}
+
+std::string list_of(const std::vector<Expression>& values) {
+  std::string text;
+  for (const Expression& e : values) text += (text.empty() ? "" : ", ") + to_text(e);
+  return text;
+}
+
+class Printer {
+ public:
+  explicit Printer(std::string& text) : text_(text) {}
+
+  void print(const Body& body) {
+    for (const Instruction& node : body) std::visit(*this, node.value);
+  }
+
+  void operator()(const Let& let) {
+    line(fmt::format("{}{} = {}", let.varies ? "variable " : "", let.symbol, to_text(let.value)));
+  }
+  void operator()(const Array& array) {
+    std::string sizes;
+    for (const int size : array.sizes) sizes += fmt::format("[{}]", size);
+    line(fmt::format("array {}{} = {}", array.name, sizes,
+                     array.values.empty() ? "0" : list_of(array.values)));
+  }
+  void operator()(const Assign& assign) {
+    line(fmt::format("{} <- {}", assign.symbol, to_text(assign.value)));
+  }
+  void operator()(const Accumulate& sum) {
+    line(fmt::format("{} += {}", sum.symbol, to_text(sum.value)));
+  }
+  void operator()(const For& loop) {
+    line(fmt::format("for {} = {}..{}:", loop.range.index, to_text(loop.range.lower),
+                     to_text(loop.range.upper)));
+    inside(loop.body);
+  }
+  void operator()(const If& branch) {
+    line(fmt::format("if {}{}:", branch.set ? "" : "not ", to_text(branch.flag)));
+    inside(branch.then);
+  }
+  void operator()(const Call& call) {
+    std::vector<std::string> arguments;
+    for (const Place& place : call.arguments) arguments.push_back(to_text(place));
+    line(fmt::format("{}({})", call.routine, list_of(arguments)));
+  }
+  void operator()(const SolveLinear& solve) {
+    line(fmt::format("solve {} x = {}", solve.matrix, solve.vector));
+  }
+  void operator()(const Iterate& iterate) {
+    line(iterate.rule == Rule::newton ? "iterate with Newton's rule:"
+                                      : "iterate to the fixed point:");
+    inside(iterate.body);
+    unknowns(iterate.unknowns, iterate.rule == Rule::newton ? "correct" : "next");
+  }
+  void operator()(const Sweep& sweep) {
+    line(fmt::format("{} sweeps:", sweep.count));
+    inside(sweep.body);
+    unknowns(sweep.unknowns, "next");
+  }
+  void operator()(const Return& end) {
+    std::string text = "return";
+    if (end.value) text += " " + to_text(*end.value);
+    if (!end.value) text += end.success ? " success" : " failure";
+    if (!end.finite.empty()) text += " if finite: " + list_of(end.finite);
+    line(text);
+  }
+
+ private:
+  void line(const std::string& text) {
+    text_.append(static_cast<std::size_t>(2 * depth_), ' ');
+    text_ += text + '\n';
+  }
+  void inside(const Body& body) {
+    ++depth_;
+    print(body);
+    --depth_;
+  }
+  void unknowns(const std::vector<Unknown>& unknowns, const char* what) {
+    ++depth_;
+    for (const Unknown& u : unknowns) {
+      line(fmt::format("{} {} by {}, from {}", what, u.symbol, to_text(u.correction),
+                       to_text(u.start)));
+    }
+    --depth_;
+  }
+
+  std::string& text_;
+  int depth_ = 1;
+};
+
+}  // namespace
+
+std::string to_text(const Place& place) {
+  std::string text = place.object + (place.field.empty() ? "" : "." + place.field);
+  for (const AffineIndex& index : place.indices) text += "[" + to_text(index) + "]";
+  return text;
+}
+
+std::string to_text(const Routine& routine) {
+  std::vector<std::string> arguments;
+  for (const Argument& argument : routine.arguments) {
+    arguments.push_back((argument.changes ? "&" : "") + argument.name);
+  }
+  std::string text = fmt::format("{}({}):\n", routine.name, list_of(arguments));
+  Printer(text).print(routine.body);
+  return text;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,185 @@
+#include "generator/program/compiled_expression.hpp"
+
+#include <quadmath.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+namespace {
+
+template <class Real>
+struct Row {
+  const char* name;
+  NumericFunction<Real> function;
+};
+
+// One row a function of the language, sqrt and pow.
+template <class Real>
+constexpr Row<Real> kRows[] = {
+    {"abs", [](Real x, Real) { return Real(std::fabs(x)); }},
+    {"acos", [](Real x, Real) { return Real(std::acos(x)); }},
+    {"acosh", [](Real x, Real) { return Real(std::acosh(x)); }},
+    {"asin", [](Real x, Real) { return Real(std::asin(x)); }},
+    {"asinh", [](Real x, Real) { return Real(std::asinh(x)); }},
+    {"atan", [](Real x, Real) { return Real(std::atan(x)); }},
+    {"atan2", [](Real y, Real x) { return Real(std::atan2(y, x)); }},
+    {"atanh", [](Real x, Real) { return Real(std::atanh(x)); }},
+    {"cos", [](Real x, Real) { return Real(std::cos(x)); }},
+    {"cosh", [](Real x, Real) { return Real(std::cosh(x)); }},
+    {"exp", [](Real x, Real) { return Real(std::exp(x)); }},
+    {"log", [](Real x, Real) { return Real(std::log(x)); }},
+    {"pow", [](Real x, Real y) { return Real(std::pow(x, y)); }},
+    {"sin", [](Real x, Real) { return Real(std::sin(x)); }},
+    {"sinh", [](Real x, Real) { return Real(std::sinh(x)); }},
+    {"sqrt", [](Real x, Real) { return Real(std::sqrt(x)); }},
+    {"tan", [](Real x, Real) { return Real(std::tan(x)); }},
+    {"tanh", [](Real x, Real) { return Real(std::tanh(x)); }},
+};
+
+using Quad = __float128;
+template <>
+constexpr Row<Quad> kRows<Quad>[] = {
+    {"abs", [](Quad x, Quad) { return fabsq(x); }},
+    {"acos", [](Quad x, Quad) { return acosq(x); }},
+    {"acosh", [](Quad x, Quad) { return acoshq(x); }},
+    {"asin", [](Quad x, Quad) { return asinq(x); }},
+    {"asinh", [](Quad x, Quad) { return asinhq(x); }},
+    {"atan", [](Quad x, Quad) { return atanq(x); }},
+    {"atan2", [](Quad y, Quad x) { return atan2q(y, x); }},
+    {"atanh", [](Quad x, Quad) { return atanhq(x); }},
+    {"cos", [](Quad x, Quad) { return cosq(x); }},
+    {"cosh", [](Quad x, Quad) { return coshq(x); }},
+    {"exp", [](Quad x, Quad) { return expq(x); }},
+    {"log", [](Quad x, Quad) { return logq(x); }},
+    {"pow", [](Quad x, Quad y) { return powq(x, y); }},
+    {"sin", [](Quad x, Quad) { return sinq(x); }},
+    {"sinh", [](Quad x, Quad) { return sinhq(x); }},
+    {"sqrt", [](Quad x, Quad) { return sqrtq(x); }},
+    {"tan", [](Quad x, Quad) { return tanq(x); }},
+    {"tanh", [](Quad x, Quad) { return tanhq(x); }},
+};
+
+template <class Real>
+constexpr int kDigits = std::numeric_limits<Real>::digits;
+template <>
+constexpr int kDigits<Quad> = FLT128_MANT_DIG;
+
+}  // namespace
+
+template <class Real>
+NumericFunction<Real> numeric_function(const std::string& name) {
+  for (const Row<Real>& row : kRows<Real>) {
+    if (name == row.name) return row.function;
+  }
+  internal_error("no number for the function " + name);
+}
+
+template <class Real>
+Real nearest_number(const Rational& value) {
+  if (value == 0) return 0;
+  // size = mantissa 2^exponent with one bit more than the type has, and what is cut off in `rest`.
+  const Rational size = abs(value);
+  const auto bits = [](const Integer& x) {
+    return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2));
+  };
+  long exponent = bits(size.get_num()) - bits(size.get_den()) - kDigits<Real> - 1;
+  Integer over = size.get_num();
+  Integer under = size.get_den();
+  (exponent < 0 ? over : under) <<= static_cast<unsigned long>(std::labs(exponent));
+  Integer mantissa;
+  Integer rest;
+  mpz_fdiv_qr(mantissa.get_mpz_t(), rest.get_mpz_t(), over.get_mpz_t(), under.get_mpz_t());
+  const long extra = bits(mantissa) - kDigits<Real>;
+  const Integer unit = Integer(1) << static_cast<unsigned long>(extra);
+  const Integer tail = mantissa % unit;
+  mantissa >>= static_cast<unsigned long>(extra);
+  exponent += extra;
+  const int side = cmp(2 * tail, unit);
+  if (side > 0 || (side == 0 && (rest != 0 || mpz_odd_p(mantissa.get_mpz_t()) != 0))) ++mantissa;
+  Real result = 0;
+  for (long shift = 96; shift >= 0; shift -= 32) {
+    const Integer limb = (mantissa >> static_cast<unsigned long>(shift)) & Integer(0xffffffffUL);
+    result = result * Real(4294967296.0) + Real(limb.get_d());
+  }
+  const Real factor = exponent < 0 ? Real(0.5) : Real(2);
+  for (long i = std::labs(exponent); i > 0; --i) result *= factor;
+  return value < 0 ? -result : result;
+}
+
+template <class Real>
+CompiledExpression<Real>::CompiledExpression(const Expression& e, const Resolve& resolve) {
+  add(arrange(e), resolve);
+  stack_.resize(steps_.size());
+}
+
+template <class Real>
+void CompiledExpression<Real>::add(const Arithmetic& a, const Resolve& resolve) {
+  for (const Arithmetic& operand : a.operands) add(operand, resolve);
+  Step step{.operation = a.operation};
+  if (a.operation == Operation::number) step.number = nearest_number<Real>(a.number);
+  if (a.operation == Operation::symbol) step.address = resolve(a.name);
+  if (a.operation == Operation::call) {
+    step.function = numeric_function<Real>(a.name);
+    step.two_arguments = a.operands.size() == 2;
+  }
+  steps_.push_back(std::move(step));
+}
+
+template <class Real>
+Real CompiledExpression<Real>::operator()(const Frame<Real>& frame) const {
+  Real* top = stack_.data() - 1;
+  for (const Step& step : steps_) {
+    switch (step.operation) {
+      case Operation::number:
+        *++top = step.number;
+        break;
+      case Operation::symbol:
+        *++top = frame.at(step.address);
+        break;
+      case Operation::negate:
+        *top = -*top;
+        break;
+      case Operation::add:
+        --top;
+        *top = top[0] + top[1];
+        break;
+      case Operation::subtract:
+        --top;
+        *top = top[0] - top[1];
+        break;
+      case Operation::multiply:
+        --top;
+        *top = top[0] * top[1];
+        break;
+      case Operation::divide:
+        --top;
+        *top = top[0] / top[1];
+        break;
+      case Operation::call:
+        if (step.two_arguments) --top;
+        *top = step.function(top[0], step.two_arguments ? top[1] : Real(0));
+        break;
+    }
+  }
+  return *top;
+}
+
+template NumericFunction<float> numeric_function(const std::string&);
+template NumericFunction<double> numeric_function(const std::string&);
+template NumericFunction<long double> numeric_function(const std::string&);
+template NumericFunction<Quad> numeric_function(const std::string&);
+template float nearest_number(const Rational&);
+template double nearest_number(const Rational&);
+template long double nearest_number(const Rational&);
+template Quad nearest_number(const Rational&);
+template class CompiledExpression<float>;
+template class CompiledExpression<double>;
+template class CompiledExpression<long double>;
+template class CompiledExpression<Quad>;
+
+}  // namespace hamgen

@@ -1,0 +1,71 @@
+#include "generator/program/function_routines.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// name(par, z) with the statements of the evaluation in its body.
+Routine begin(const Environment& environment, std::string name, const Evaluation& evaluation,
+              StateForm form) {
+  Routine routine{.name = std::move(name)};
+  const int size = 2 * environment.degrees_of_freedom;
+  routine.arguments.push_back(parameters_argument());
+  routine.arguments.push_back(form == StateForm::record ? state_argument("z")
+                                                        : Argument{.name = "z", .sizes = {size}});
+  environment.bind_parameters(routine);
+  std::set<std::string> used = used_symbols(evaluation.statements);
+  for (const Expression& e : evaluation.results) collect_symbols(e, used);
+  if (form == StateForm::record) {
+    environment.load_state(routine, routine.body, used);
+  } else {
+    for (int i = 0; i < size; ++i) {
+      const std::string& variable = environment.variables[static_cast<std::size_t>(i)].name;
+      if (!used.contains(variable)) continue;
+      routine.body.push_back({Let{variable, bind_element(routine, "z", {i})}});
+    }
+  }
+  append(routine.body, evaluation.statements);
+  return routine;
+}
+
+void set(Routine& routine, const std::vector<int>& indices, const Expression& value) {
+  const Expression target = bind_element(routine, "values", indices);
+  routine.body.push_back({Assign{target.name(), value}});
+}
+
+}  // namespace
+
+Routine number_routine(const Environment& environment, std::string name,
+                       const Evaluation& evaluation) {
+  Routine routine = begin(environment, std::move(name), evaluation, StateForm::record);
+  routine.result = {.type = "Real"};
+  routine.body.push_back({Return{.value = evaluation.results.front()}});
+  return routine;
+}
+
+Routine values_routine(const Environment& environment, std::string name,
+                       const Evaluation& evaluation, StateForm form, bool sparse) {
+  Routine routine = begin(environment, std::move(name), evaluation, form);
+  const auto size = static_cast<int>(evaluation.results.size());
+  routine.arguments.push_back({.name = "values", .sizes = {size}, .changes = true});
+  for (int i = 0; i < size; ++i) {
+    const Expression& result = evaluation.results[static_cast<std::size_t>(i)];
+    if (!sparse || !result.is_zero()) set(routine, {i}, result);
+  }
+  return routine;
+}
+
+Routine hessian_routine(const Environment& environment, const Evaluation& entries,
+                        const std::vector<std::pair<int, int>>& places, StateForm form) {
+  Routine routine = begin(environment, "hessian", entries, form);
+  const int size = 2 * environment.degrees_of_freedom;
+  routine.arguments.push_back({.name = "values", .sizes = {size, size}, .changes = true});
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto [i, j] = places[k];
+    set(routine, {i, j}, entries.results[k]);
+    if (i != j) set(routine, {j, i}, bind_element(routine, "values", {i, j}));
+  }
+  return routine;
+}
+
+}  // namespace hamgen

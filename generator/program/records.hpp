@@ -1,0 +1,28 @@
+// The records of an emitted step and where in them its quantities stand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/program/code.hpp"
+
+namespace hamgen {
+
+// A record whose components are the quantities, in their order: elements of one declared array are
+// one field.
+struct Layout {
+  Record record;
+  std::vector<Place> places;  // of the components, of no object yet
+  [[nodiscard]] Place in(const std::string& object, std::size_t component) const;
+};
+
+// Whether the values of the quantities are what the fields begin with.
+enum class Defaults { none, values };
+[[nodiscard]] Layout layout(const std::string& name, const std::vector<Quantity>& quantities,
+                            Defaults defaults);
+
+// q and p as two arrays, whatever the model calls their parts.
+[[nodiscard]] Layout array_state(int degrees_of_freedom);
+
+}  // namespace hamgen

@@ -1,0 +1,237 @@
+#include "generator/program/solve_routine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hamgen {
+
+namespace {
+
+class SolveRoutine {
+ public:
+  SolveRoutine(const Environment& environment, const Program& program)
+      : environment_(environment), program_(program) {}
+
+  Routine build(const SolveParts& parts, const CoefficientPlaces& coefficients) {
+    routine_ = {.name = "solve",
+                .remark = {"dz = Z - z for one step from z + carry."},
+                .result = {.type = "StepReport", .object = "report"},
+                .places = coefficients};
+    add_arguments(parts);
+    environment_.bind_parameters(routine_);
+    for (int i = 0; i < size(); ++i) {
+      routine_.places.insert_or_assign("carry(" + variable(i) + ")",
+                                       environment_.place("carry", i));
+    }
+    std::set<std::string> used;
+    for (const Stage& stage : program_.stages) collect(stage, used);
+    for (const Expression& e : program_.increments) collect_symbols(e, used);
+    if (parts.inverse) {
+      Body fail{{Return{.success = false}}};
+      routine_.body.push_back({If{{"k", "regular"}, false, std::move(fail)}});
+    }
+    environment_.load_state(routine_, routine_.body, used);
+    for (std::size_t s = 0; s < program_.stages.size(); ++s) add_stage(s);
+    add_increments();
+    return std::move(routine_);
+  }
+
+ private:
+  [[nodiscard]] int size() const { return 2 * environment_.degrees_of_freedom; }
+  [[nodiscard]] const std::string& variable(int i) const {
+    return environment_.variables[static_cast<std::size_t>(i)].name;
+  }
+
+  void add_arguments(const SolveParts& parts) {
+    std::vector<Argument>& list = routine_.arguments;
+    list.push_back(parameters_argument());
+    if (parts.coefficients) list.push_back({.name = "k", .record = "Coefficients"});
+    list.push_back({.name = "h"});
+    list.push_back(state_argument("z"));
+    list.push_back(state_argument("carry"));
+    if (parts.start) list.push_back({.name = "start", .record = "Start", .changes = true});
+    list.push_back(state_argument("dz", true));
+  }
+
+  // The symbols a stage reads.
+  static void collect(const Stage& stage, std::set<std::string>& used) {
+    for (const Statement& s : stage.before) collect_symbols(s.value, used);
+    for (const Statement& s : stage.after) collect_symbols(s.value, used);
+    if (!stage.solve) return;
+    const Solve& solve = *stage.solve;
+    for (const Statement& s : solve.body) collect_symbols(s.value, used);
+    for (const LoopVariable& v : solve.variables) {
+      for (const Expression& e : {v.cold, v.next, v.correction}) collect_symbols(e, used);
+    }
+    for (const Expression& e : solve.residual) collect_symbols(e, used);
+    for (const auto& row : solve.matrix) {
+      for (const Expression& e : row) collect_symbols(e, used);
+    }
+  }
+
+  // What is computed in stage s and read after its iteration.
+  [[nodiscard]] std::vector<std::string> kept(std::size_t s) const {
+    std::set<std::string> later;
+    const Solve& solve = *program_.stages[s].solve;
+    for (const LoopVariable& v : solve.variables) collect_symbols(v.correction, later);
+    for (const Statement& st : program_.stages[s].after) collect_symbols(st.value, later);
+    for (std::size_t t = s + 1; t < program_.stages.size(); ++t) collect(program_.stages[t], later);
+    for (const Expression& e : program_.increments) collect_symbols(e, later);
+    std::vector<std::string> result;
+    for (const Statement& st : solve.body) {
+      if (later.contains(st.name)) result.push_back(st.name);
+    }
+    return result;
+  }
+
+  void add_stage(std::size_t s) {
+    const Stage& stage = program_.stages[s];
+    append(routine_.body, stage.before);
+    if (stage.solve) add_solve(s, *stage.solve);
+    const std::size_t first = routine_.body.size();
+    append(routine_.body, stage.after);
+    if (stage.solve && stage.solve->kind == BlockKind::newton && routine_.body.size() > first) {
+      routine_.body[first].remark = {
+          "The last increments correct the gradient to first order: no evaluation at the "
+          "solution."};
+    }
+  }
+
+  void add_solve(std::size_t s, const Solve& solve) {
+    if (solve.kind == BlockKind::linear) return add_linear(s, solve);
+    if (solve.sweeps) return add_sweeps(solve);
+    const bool newton = solve.kind == BlockKind::newton;
+    Iterate iterate{.rule = newton ? Rule::newton : Rule::fixed_point,
+                    .name = fmt::format("rule_{}", s),
+                    .unknowns = {},
+                    .body = {},
+                    .kept = kept(s)};
+    append(iterate.body, solve.body);
+    for (std::size_t j = 0; j < solve.variables.size(); ++j) {
+      const LoopVariable& v = solve.variables[j];
+      iterate.unknowns.push_back({.symbol = v.name,
+                                  .start = v.cold,
+                                  .correction = newton ? v.correction : v.next,
+                                  .memory = memory_++});
+      if (!solve.corrections.empty()) {
+        iterate.kept.push_back(solve.corrections[j]);
+        iterate.unknowns.back().correction =
+            Expression::symbol(solve.corrections[j], kRankOfTemporary);
+      }
+    }
+    if (newton && !solve.corrections.empty()) {
+      add_system(iterate.body, "matrix", "vector", solve);
+      assign_solution(iterate.body, "vector", solve, true);
+    }
+    routine_.body.push_back({std::move(iterate)});
+    if (newton) {
+      routine_.body.back().remark = {
+          "Newton's iteration for the stage values: residual R, its derivatives, increments "
+          "delta."};
+    }
+  }
+
+  void add_sweeps(const Solve& solve) {
+    Sweep sweep{.count = *solve.sweeps, .unknowns = {}, .body = {}, .results = {}};
+    append(sweep.body, solve.body);
+    for (const LoopVariable& v : solve.variables) {
+      sweep.unknowns.push_back({.symbol = v.name, .start = v.cold, .correction = v.next});
+      sweep.results.push_back(v.name + "*");
+    }
+    routine_.body.push_back({std::move(sweep), {"Predictor: grad H at z."}});
+  }
+
+  // matrix x = vector, solved.
+  void add_system(Body& body, const std::string& matrix, const std::string& vector,
+                  const Solve& solve) {
+    const auto m = static_cast<int>(solve.matrix.size());
+    body.push_back({Array{matrix, {m, m}}});
+    for (int i = 0; i < m; ++i) {
+      for (int j = 0; j < m; ++j) {
+        const Expression& entry =
+            solve.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+        if (entry.is_zero()) continue;
+        body.push_back({Assign{bind_element(routine_, matrix, {i, j}).name(), entry}});
+      }
+    }
+    body.push_back({Array{vector, {m}, right_side(solve)}});
+    body.push_back({SolveLinear{matrix, vector}});
+  }
+
+  static std::vector<Expression> right_side(const Solve& solve) {
+    std::vector<Expression> values;
+    for (const Expression& r : solve.residual) values.push_back(-r);
+    return values;
+  }
+
+  void assign_solution(Body& body, const std::string& vector, const Solve& solve, bool known) {
+    for (std::size_t j = 0; j < solve.corrections.size(); ++j) {
+      const Expression value = bind_element(routine_, vector, {static_cast<int>(j)});
+      if (known) {
+        body.push_back({Assign{solve.corrections[j], value}});
+      } else {
+        body.push_back({Let{solve.corrections[j], value}});
+      }
+    }
+  }
+
+  // A linear system too large to be written out.
+  void add_linear(std::size_t s, const Solve& solve) {
+    const std::string vector = fmt::format("vector_{}", s);
+    Body& body = routine_.body;
+    if (!solve.constant_matrix) {
+      add_system(body, fmt::format("matrix_{}", s), vector, solve);
+      return assign_solution(body, vector, solve, false);
+    }
+    const long last = std::ssize(solve.matrix) - 1;
+    const auto element = [&](const std::string& object, const std::string& field,
+                             const std::vector<std::string>& indices) {
+      Place place{.object = object, .field = field};
+      for (const std::string& index : indices) {
+        place.indices.push_back({.constant = 0, .factors = {{index, 1}}});
+      }
+      std::string symbol = to_text(place);
+      std::ranges::replace(symbol, '[', '(');
+      routine_.places.insert_or_assign(symbol, place);
+      return Expression::symbol(symbol, kRankOfTemporary);
+    };
+    const std::string product = fmt::format("product_{}", s);
+    body.push_back({Array{vector, {static_cast<int>(last) + 1}, right_side(solve)}});
+    body.push_back({Array{product, {static_cast<int>(last) + 1}}});
+    const KernelRange rows{"i", {0, {}}, {last, {}}};
+    const KernelRange columns{"j", {0, {}}, {last, {}}};
+    const Expression term =
+        element("k", fmt::format("inverse_{}", s), {"i", "j"}) * element(vector, "", {"j"});
+    Body sum{{Accumulate{element(product, "", {"i"}).name(), term}}};
+    Body loop{{For{columns, std::move(sum)}}};
+    body.push_back({For{rows, std::move(loop)}});
+    assign_solution(body, product, solve, false);
+  }
+
+  void add_increments() {
+    Return end;
+    for (int i = 0; i < size(); ++i) {
+      const Expression& increment = program_.increments[static_cast<std::size_t>(i)];
+      if (increment.is_zero()) continue;
+      const Expression target = environment_.bind_state(routine_, "dz", i);
+      routine_.body.push_back({Assign{target.name(), increment}});
+      end.finite.push_back(target.name());
+    }
+    routine_.body.push_back({std::move(end)});
+  }
+
+  const Environment& environment_;
+  const Program& program_;
+  Routine routine_;
+  int memory_ = 0;  // elements of start.value in use
+};
+
+}  // namespace
+
+Routine solve_routine(const Environment& environment, const Program& program,
+                      const SolveParts& parts, const CoefficientPlaces& coefficients) {
+  return SolveRoutine(environment, program).build(parts, coefficients);
+}
+
+}  // namespace hamgen

@@ -1,0 +1,23 @@
+// solve(par, k, h, z, carry, start, dz): dz = Z - z for one step of a member from z + carry.
+#pragma once
+
+#include <map>
+
+#include "generator/program/environment.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+// Where the symbols of the coefficients stand in the record k.
+using CoefficientPlaces = std::map<std::string, Place>;
+
+struct SolveParts {
+  bool coefficients = false;  // is there a record k?
+  bool inverse = false;       // and in it inverted matrices, unless they were singular?
+  bool start = false;         // are there start values?
+};
+
+[[nodiscard]] Routine solve_routine(const Environment& environment, const Program& program,
+                                    const SolveParts& parts, const CoefficientPlaces& coefficients);
+
+}  // namespace hamgen
