@@ -54,7 +54,7 @@ struct Coefficients {
   Real c2 = 0.0;  // -eps*omega/2
 };
 
-inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
+inline Coefficients prepare(const Parameters& par, Real h) {
   Coefficients k;
   k.c1 = 0.5 * h;
   k.c2 = -0.5 * par.eps * par.omega;

@@ -49,7 +49,7 @@ struct Coefficients {
   Real c4 = 0.0;  // h/2
 };
 
-inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
+inline Coefficients prepare(const Parameters& par, Real h) {
   Coefficients k;
   k.c1 = par.w * par.w;
   k.c2 = 0.5 * h * k.c1;

@@ -46,7 +46,7 @@ struct Coefficients {
   Real c1 = 0.0;  // -2*h
 };
 
-inline Coefficients prepare([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h) {
+inline Coefficients prepare(const Parameters&, Real h) {
   Coefficients k;
   k.c1 = -2.0 * h;
   return k;

@@ -332,6 +332,10 @@ Proof verify_step(const SourceText& source, const Request& request) {
   return prove(run_stages(source, request));
 }
 
+StepCode make_step_code(const SourceText& source, const Request& request) {
+  return step_code(run_stages(source, request).program);
+}
+
 PluginSource generate_plugin(const SourceText& source, const Request& request) {
   Stages stages = run_stages(source, request);
   const CppOptions options = cpp_options(source, stages.program, request);

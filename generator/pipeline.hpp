@@ -12,6 +12,7 @@
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
+#include "generator/program/step_code.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
 
@@ -74,6 +75,9 @@ void check_step(const SourceText& source, const Request& request);
 [[nodiscard]] std::vector<LinearPoint> linear_points(const SourceText& source,
                                                      const Request& request,
                                                      const SceneValues& scene);
+
+// The step as records and routines: what the formats print and the interpreter runs.
+[[nodiscard]] StepCode make_step_code(const SourceText& source, const Request& request);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {

@@ -103,6 +103,10 @@ class CodeWriter {
       begin = end + 1;
     }
   }
+  // Does the text fit one line at the present depth?
+  [[nodiscard]] bool fits(const std::string& text) const {
+    return 2 * static_cast<std::size_t>(depth_) + text.size() <= kColumns;
+  }
   void indent() { ++depth_; }
   void dedent() { --depth_; }
   [[nodiscard]] const std::string& text() const { return text_; }

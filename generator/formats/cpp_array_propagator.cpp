@@ -118,7 +118,7 @@ class ArrayPropagator {
   [[nodiscard]] std::string forgotten() const {
     if (!iterates(plan_)) return "";
     const bool newton = plan_.method == ArrayMethod::newton;
-    return std::string(newton ? "rule_ = NewtonRule();\n" : "") + "history_ = History();\n";
+    return std::string(newton ? "rule_ = {};\n" : "") + "history_ = {};\n";
   }
 
   void write_update() {
@@ -136,8 +136,8 @@ class ArrayPropagator {
       return report;
     }}
     for (int i = 0; i < n; ++i) {{
-      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]);
-      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]);
+      two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i]);
+      two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i]);
     }}
     return report;
   }}
@@ -174,10 +174,12 @@ class ArrayPropagator {
     if (plan_.matrix) members.emplace_back("Matrix matrix_;", "");
     if (plan_.constant_matrix) members.emplace_back("bool factorised_ = false;", "");
     if (iterates(plan_)) {
-      members.emplace_back(
-          plan_.reduced ? "Real residual_[n] = {};" : "Real residual_[2 * n] = {};", "");
-      if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule rule_;", "");
-      members.emplace_back("History history_;", "");
+      const char* unknowns = plan_.reduced ? "n" : "2 * n";
+      members.emplace_back(fmt::format("Real residual_[{}] = {{}};", unknowns), "");
+      if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule<2> rule_;", "");
+      if (plan_.method == ArrayMethod::fixed_point)
+        members.emplace_back(fmt::format("Real length_[{}] = {{}};", unknowns), "");
+      members.emplace_back(fmt::format("History<{}> history_;", unknowns), "");
     }
     out_.aligned(members);
   }
@@ -192,6 +194,44 @@ class ArrayPropagator {
 };
 
 }  // namespace
+
+void write_advance(CodeWriter& out) {
+  out.line("// Up to `steps` steps; stops at the first failure.  The report sums the iterations.");
+  out.open("StepReport advance(long long steps)");
+  out.line("StepReport total;");
+  out.line("total.converged = true;");
+  out.open("for (long long i = 0; i < steps; ++i)");
+  out.line("const StepReport report = step();");
+  out.line("total.iterations += report.iterations;");
+  out.line("total.increment = report.increment;");
+  out.open("if (!report.converged)");
+  out.line("total.converged = false;");
+  out.line("break;");
+  out.close();
+  out.close();
+  out.line("return total;");
+  out.close();
+  out.line();
+  out.line("[[nodiscard]] const State& state() const { return z_; }");
+}
+
+std::string class_name(StepRole role) {
+  return role == StepRole::propagator ? "Propagator" : "Substep";
+}
+
+void write_substep_access(CodeWriter& out, const std::string& reset) {
+  out.line("[[nodiscard]] const State& carry() const { return carry_; }");
+  out.line("// Goes on from a state of another substep.");
+  out.open("void begin_at(const State& z, const State& carry)");
+  out.line("z_ = z;");
+  out.line("carry_ = carry;");
+  out.close();
+  if (reset.empty()) return;
+  out.line("// Drops the start values.");
+  out.open("void forget()");
+  out.lines(reset);
+  out.close();
+}
 
 void write_array_propagator(CodeWriter& out, CppContext& context, StepRole role) {
   ArrayPropagator(out, context, role).write();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "generator/formats/cpp_context.hpp"
-#include "generator/formats/cpp_member.hpp"
 
 namespace hamgen {
 
@@ -10,6 +9,15 @@ namespace hamgen {
 // of any other, and where it is wanted, gradient(par, q, p, dq, dp); a matrix and
 // hessian(par, q, [p,] put) where the plan solves with them.
 void write_array_functions(CodeWriter& out, CppContext& context);
+// Who takes the steps: the class Propagator, or in a composition the class Substep, which can go on
+// from a state and a carry of another.
+enum class StepRole { propagator, substep };
+[[nodiscard]] std::string class_name(StepRole role);
+// begin_at(z, carry), carry() and, if there is anything to `reset`, forget().
+void write_substep_access(CodeWriter& out, const std::string& reset);
+// The functions advance() and state() of a class with step() and z_.
+void write_advance(CodeWriter& out);
+
 // The class that takes many steps of a member.
 void write_array_propagator(CodeWriter& out, CppContext& context, StepRole role);
 

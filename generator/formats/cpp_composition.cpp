@@ -2,7 +2,7 @@
 // one substep are what is equally spaced in time.
 #include <fmt/format.h>
 
-#include "generator/formats/cpp_member.hpp"
+#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_schemes.hpp"
 
 namespace hamgen {
@@ -19,11 +19,10 @@ void write_single_step(CodeWriter& out) {
 )");
 }
 
-void write_composition(CodeWriter& out, const CppContext& context) {
+void write_array_composition(CodeWriter& out, const CppContext& context) {
   const std::vector<Substep>& substeps = context.program.sequence.substeps;
   const std::size_t count = substeps.size();
-  const bool solves = context.arrays() ? iterates(*context.program.plan.arrays)
-                                       : member_parts(context.program, context.scalar).has_start();
+  const bool solves = iterates(*context.program.plan.arrays);
   out.line("// Many steps, each a composition of substeps.");
   out.open("class Propagator");
   out.dedent();

@@ -26,7 +26,7 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
       equations(program.plan.equations),
       mechanics(equations.mechanics),
       environment(environment_of(equations, arrays())),
-      routines(routines_of(program)),
+      code(step_code(program)),
       parameter_fields(texts(environment.parameter_layout)),
       state_fields(texts(environment.state_layout)) {
   for (std::size_t i = 0; i < environment.parameters.size(); ++i) {
@@ -35,7 +35,7 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
 }
 
 void CppContext::write_routine(CodeWriter& out, std::string_view name) {
-  const Routine* routine = find_routine(routines, name);
+  const Routine* routine = code.routine(name);
   if (routine != nullptr) print(out, *routine, {scalar, options.builtins}, used);
 }
 

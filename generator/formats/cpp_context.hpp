@@ -13,7 +13,7 @@
 #include "generator/formats/print_code.hpp"
 #include "generator/program/environment.hpp"
 #include "generator/program/names.hpp"
-#include "generator/program/routines.hpp"
+#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -29,7 +29,7 @@ class CppContext {
   const StepEquations& equations;
   const Mechanics& mechanics;
   Environment environment;
-  std::vector<Routine> routines;
+  StepCode code;
   std::vector<std::string> parameter_fields;
   std::vector<std::string> state_fields;              // "q" or "q[2]": of z_1..z_2n in State
   std::map<std::string, std::string> parameter_text;  // "eps" is par.eps
@@ -61,7 +61,7 @@ void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
                       const std::vector<Statement>& statements,
                       const std::set<std::string>& declared = {});
 
-// The types Parameters, State, StepReport; |x| if `with_magnitude`.
-void write_types(CodeWriter& out, CppContext& context, bool with_magnitude);
+// The types Parameters, State, StepReport; what cpp_numerics() needs if `with_vocabulary`.
+void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary);
 
 }  // namespace hamgen

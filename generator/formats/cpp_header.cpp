@@ -9,11 +9,11 @@
 #include "generator/formats/cpp_context.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
-#include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_preamble.hpp"
 #include "generator/formats/cpp_schemes.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -51,7 +51,7 @@ void write_includes(CodeWriter& out, const CppContext& context) {
       out.line();
       out.line("#include <Eigen/LU>");
     }
-  } else if (member_parts(context.program, context.scalar).eigen) {
+  } else if (needs_eigen(context)) {
     out.line();
     out.line("#include <Eigen/LU>");
   }
@@ -73,29 +73,28 @@ void open_namespace(CodeWriter& out, const CppContext& context) {
   out.line();
 }
 
-// The member of the plan, or the one that is composed.
-void write_member(CodeWriter& out, CppContext& context, StepRole role) {
-  const MemberParts parts = member_parts(context.program, context.scalar);
-  write_types(out, context, parts.newton || parts.fixed_point || parts.elimination);
-  write_functions(out, context);
-  if (parts.coefficients) write_prepare(out, context, parts);
-  write_support(out, context, parts);
-  context.write_routine(out, "solve");
-  if (role == StepRole::propagator) write_member_step(out, context, parts);
-  write_member_propagator(out, context, parts, role);
-  if (context.options.tangent) write_member_tangent(out, context, parts, role);
+// A step that `solve` makes, of a system that is written out or of a splitting.
+void write_solved(CodeWriter& out, CppContext& context) {
+  write_types(out, context, needs_vocabulary(context));
+  if (context.arrays()) {
+    write_array_functions(out, context);
+  } else {
+    write_functions(out, context);
+  }
+  write_solver(out, context);
+  write_steps(out, context);
 }
 
-// The same for a system whose sums stay loops.
+// A member of a system whose sums stay loops.
 void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
   const ArrayPlan& plan = *context.program.plan.arrays;
   write_types(out, context, iterates(plan));
-  out.lines(cpp_compensated_sum() + "\n");
+  out.lines(cpp_numerics("two_sum"));
   if (iterates(plan)) {
-    out.lines((plan.method == ArrayMethod::newton ? cpp_newton_rule(context.scalar)
-                                                  : cpp_fixed_point_rule(context.scalar)) +
-              "\n");
-    out.lines(cpp_history(plan.reduced ? context.n() : 2 * context.n()) + "\n");
+    out.lines(cpp_numerics("verdict"));
+    out.lines(
+        cpp_numerics(plan.method == ArrayMethod::newton ? "newton_rule" : "fixed_point_rule"));
+    out.lines(cpp_numerics("history"));
   }
   write_array_functions(out, context);
   write_array_propagator(out, context, role);
@@ -103,25 +102,27 @@ void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
 
 void write_scheme(CodeWriter& out, CppContext& context) {
   const Method& method = context.equations.scheme.method;
-  if (std::holds_alternative<Splitting>(method)) {
-    write_splitting(out, context);
-    if (context.options.tangent && context.arrays()) {
+  const bool tangent = context.options.tangent;
+  if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
+    write_runge_kutta(out, context, *tableau);
+  } else if (std::holds_alternative<Splitting>(method)) {
+    write_solved(out, context);
+    if (tangent && context.arrays()) {
       write_array_splitting_tangent(out, context);
-    } else if (context.options.tangent) {
+    } else if (tangent) {
       write_splitting_tangent(out, context);
     }
-  } else if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
-    write_runge_kutta(out, context, *tableau);
   } else {
     const bool composed = std::holds_alternative<Composition>(method);
     const StepRole role = composed ? StepRole::substep : StepRole::propagator;
     if (context.arrays()) {
       write_array_member(out, context, role);
+      if (composed) write_array_composition(out, context);
     } else {
-      write_member(out, context, role);
+      write_solved(out, context);
+      if (tangent) write_member_tangent(out, context, role);
     }
-    if (composed) write_composition(out, context);
-    if (composed && context.options.tangent) write_composition_tangent(out, context);
+    if (composed && tangent) write_composition_tangent(out, context);
   }
 }
 

@@ -7,8 +7,7 @@ namespace hamgen {
 
 // Each writes what stands between the types and the end of the namespace: functions, Propagator,
 // step.  The composition comes after its member's class Substep.
-void write_composition(CodeWriter& out, const CppContext& context);
-void write_splitting(CodeWriter& out, CppContext& context);
+void write_array_composition(CodeWriter& out, const CppContext& context);
 void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& tableau);
 
 // One step by a propagator made for it: step(par, h, z).

@@ -7,7 +7,7 @@ namespace hamgen {
 
 namespace {
 
-using Matrix = std::vector<std::vector<Rational>>;
+using Rows = std::vector<std::vector<Rational>>;
 using Row = std::vector<Rational>;
 
 Row values_of(const std::vector<Expression>& row) {
@@ -39,9 +39,9 @@ Rational integral_from_one(const Row& polynomial, const Rational& x) {
 
 // Row i: with the polynomial that has the slopes f_j at the nodes c_j of the last step, the
 // increment from its end to the node 1 + c_i, per L_j = h b_j f_j.
-Matrix extrapolation(const Row& b, const Row& c) {
+Rows extrapolation(const Row& b, const Row& c) {
   const std::size_t s = b.size();
-  Matrix result(s, Row(s));
+  Rows result(s, Row(s));
   for (std::size_t j = 0; j < s; ++j) {
     Row lagrange{Rational(1)};
     for (std::size_t k = 0; k < s; ++k) {
@@ -79,7 +79,7 @@ void write_tableau(CodeWriter& out, const ScalarType& scalar, const StageTable& 
   const Row b = values_of(table.weight);
   const Row c = values_of(nodes);
   const std::size_t s = b.size();
-  Matrix coupling;
+  Rows coupling;
   for (const auto& row : table.coupling) coupling.push_back(values_of(row));
   std::vector<std::vector<std::string>> m(s, std::vector<std::string>(s));
   for (std::size_t i = 0; i < s; ++i) {

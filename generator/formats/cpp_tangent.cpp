@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/formats/cpp_functions.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -88,109 +88,6 @@ inline bool {name}(const Parameters& par, Real h, const State& z, const State&,
 
 )";
 
-class LinearisationWriter {
- public:
-  LinearisationWriter(CodeWriter& out, CppContext& context, const MemberParts& parts)
-      : out_(out), context_(context), parts_(parts), value_(*context.program.linearisation) {}
-
-  void write(const std::string& name) {
-    const int size = 2 * context_.n();
-    write_elimination();
-    Names names;
-    for (const char* local : {"column", "size", "u", "m", "i", "j"}) names.reserve(local);
-    for (int i = 0; i < size; ++i) {
-      const std::string& variable = context_.variable_name(i);
-      names.set("dz(" + variable + ")", "dz." + context_.state_field(i));
-      names.set("u(" + variable + ")", fmt::format("u[{}]", i));
-    }
-    const CppExpression cpp = context_.expression(names);
-    out_.line(
-        "// M = dZ/dz of the step that moves z by dz, solved as the step is: a displacement u");
-    out_.line(
-        "// moves the stage by dzbar = u + h (I/2 + C) J H'' dzbar, and Z by u + h J H'' dzbar.");
-    out_.line("// False if that has no solution.");
-    out_.open(fmt::format(
-        "inline bool {0}([[maybe_unused]] const Parameters& par, [[maybe_unused]] Real h, "
-        "[[maybe_unused]] const State& z, [[maybe_unused]] const State& dz, Real (&m)[{1}][{1}])",
-        name, size));
-    context_.load_state(out_, names, used_symbols(value_.once));
-    write_statements(out_, cpp, names, value_.once);
-    for (std::size_t s = 0; s < value_.stages.size(); ++s) write_inverse(cpp, s);
-    out_.line("Real size = 0;");
-    out_.open(fmt::format("for (int column = 0; column < {}; ++column)", size));
-    out_.line(fmt::format("Real u[{}] = {{}};", size));
-    out_.line("u[column] = 1;");
-    for (std::size_t s = 0; s < value_.stages.size(); ++s) {
-      write_statements(out_, cpp, names, value_.stages[s].before);
-      write_solution(cpp, names, s);
-    }
-    for (int i = 0; i < size; ++i) {
-      out_.line(fmt::format("m[{}][column] = {};", i, cpp(value_.results[at(i)])));
-    }
-    out_.line(
-        fmt::format("for (int i = 0; i < {}; ++i) size += m[i][column] * m[i][column];", size));
-    out_.close();
-    out_.line("// False for infinities and NaN alike.");
-    out_.line(fmt::format("return size <= {};", context_.scalar.largest));
-    out_.close();
-    out_.line();
-    context_.note(cpp);
-  }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-  // The elimination of the step's own Newton iteration, if that has one.
-  void write_elimination() {
-    bool needed = false;
-    for (const Linearisation::Stage& stage : value_.stages) needed = needed || stage.solve;
-    if (!needed) return;
-    if (!parts_.elimination && !parts_.eigen) {
-      out_.lines(cpp_elimination(context_.scalar) + "\n");
-    }
-    if (!parts_.inverse) out_.lines(cpp_inverse() + "\n");
-  }
-
-  void write_inverse(const CppExpression& cpp, std::size_t s) {
-    if (!value_.stages[s].solve) return;
-    const LinearisedSolve& solve = *value_.stages[s].solve;
-    const std::size_t size = solve.matrix.size();
-    out_.line(fmt::format("Real matrix_{0}[{1}][{1}] = {{}};", s, size));
-    for (std::size_t i = 0; i < size; ++i) {
-      for (std::size_t j = 0; j < size; ++j) {
-        if (solve.matrix[i][j].is_zero()) continue;
-        out_.line(fmt::format("matrix_{}[{}][{}] = {};", s, i, j, cpp(solve.matrix[i][j])));
-      }
-    }
-    out_.line(fmt::format("Real inverse_{0}[{1}][{1}];", s, size));
-    out_.line(fmt::format("if (!invert(matrix_{0}, inverse_{0})) return false;", s));
-  }
-
-  void write_solution(const CppExpression& cpp, Names& names, std::size_t s) {
-    if (!value_.stages[s].solve) return;
-    const LinearisedSolve& solve = *value_.stages[s].solve;
-    const std::size_t size = solve.matrix.size();
-    std::string values;
-    for (const Expression& e : solve.right_side) values += (values.empty() ? "" : ", ") + cpp(e);
-    out_.line(fmt::format("const Real vector_{}[{}] = {{{}}};", s, size, values));
-    out_.line(fmt::format("Real product_{}[{}] = {{}};", s, size));
-    out_.open(fmt::format("for (int i = 0; i < {}; ++i)", size));
-    out_.line(fmt::format(
-        "for (int j = 0; j < {1}; ++j) product_{0}[i] += inverse_{0}[i][j] * vector_{0}[j];", s,
-        size));
-    out_.close();
-    for (std::size_t j = 0; j < size; ++j) {
-      out_.line(
-          fmt::format("const Real {} = product_{}[{}];", names.local(solve.solution[j]), s, j));
-    }
-  }
-
-  CodeWriter& out_;
-  CppContext& context_;
-  const MemberParts& parts_;
-  const Linearisation& value_;
-};
-
 }  // namespace
 
 std::optional<std::string> without_tangent(const Program& program) {
@@ -211,12 +108,8 @@ std::string tangent_name(StepRole role) {
   return role == StepRole::propagator ? "tangent" : "substep_tangent";
 }
 
-void write_member_tangent(CodeWriter& out, CppContext& context, const MemberParts& parts,
-                          StepRole role) {
-  if (!context.program.plan.sweeps) {
-    LinearisationWriter(out, context, parts).write(tangent_name(role));
-    return;
-  }
+void write_member_tangent(CodeWriter& out, CppContext& context, StepRole role) {
+  if (!context.program.plan.sweeps) return context.write_routine(out, tangent_name(role));
   context.write_routine(out, "hessian");
   write_stage_matrix(out, context);
   out.lines(fmt::format(kSwept, fmt::arg("name", tangent_name(role)),

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_context.hpp"
-#include "generator/formats/cpp_member.hpp"
 
 namespace hamgen {
 
@@ -13,8 +13,7 @@ namespace hamgen {
 [[nodiscard]] std::optional<std::string> without_tangent(const Program& program);
 
 [[nodiscard]] std::string tangent_name(StepRole role);
-void write_member_tangent(CodeWriter& out, CppContext& context, const MemberParts& parts,
-                          StepRole role);
+void write_member_tangent(CodeWriter& out, CppContext& context, StepRole role);
 void write_splitting_tangent(CodeWriter& out, CppContext& context);
 // The product of those of the substeps.
 void write_composition_tangent(CodeWriter& out, const CppContext& context);

@@ -30,6 +30,28 @@ std::string row_of(const std::vector<Expression>& values, const ScalarType& scal
   return "{" + text + "}";
 }
 
+constexpr const char* kSubstepOfArrays = R"(    Substep substep(par, h * length, now);
+    substep.begin_at(now, carry);
+    if (!substep.step().converged) return false;
+    const State& end = substep.state();
+    State dz;
+)";
+
+// dz by solve, from now + carry.
+std::string substep_of(const CppContext& context) {
+  std::string text;
+  std::string arguments;
+  for (const Argument& argument : context.code.routine("solve")->arguments) {
+    if (argument.name == "k") text += "    const Coefficients k = prepare(par, h * length);\n";
+    if (argument.name == "start") text += "    Start start;\n";
+    const std::string name = argument.name == "h"   ? "h * length"
+                             : argument.name == "z" ? "now"
+                                                    : argument.name;
+    arguments += (arguments.empty() ? "" : ", ") + name;
+  }
+  return text + "    State dz;\n    if (!solve(" + arguments + ").converged) return false;\n";
+}
+
 }  // namespace
 
 void write_splitting_tangent(CodeWriter& out, CppContext& context) {
@@ -95,12 +117,7 @@ void write_composition_tangent(CodeWriter& out, const CppContext& context) {
     for (int j = 0; j < size; ++j) m[i][j] = i == j ? 1 : 0;
   }}
   for (const Real length : lengths) {{
-    Substep substep(par, h * length, now);
-    substep.begin_at(now, carry);
-    if (!substep.step().converged) return false;
-    const State& end = substep.state();
-    State dz;
-{increments}    Real factor[size][size];
+{solve}    Real factor[size][size];
     if (!{factor}(par, h * length, now, dz, factor)) return false;
     Real product[size][size] = {{}};
     for (int i = 0; i < size; ++i) {{
@@ -111,9 +128,7 @@ void write_composition_tangent(CodeWriter& out, const CppContext& context) {
     for (int i = 0; i < size; ++i) {{
       for (int j = 0; j < size; ++j) m[i][j] = product[i][j];
     }}
-    now = end;
-    carry = substep.carry();
-  }}
+{update}  }}
   return true;
 }}
 
@@ -122,9 +137,11 @@ void write_composition_tangent(CodeWriter& out, const CppContext& context) {
       fmt::runtime(text), fmt::arg("size", size),
       fmt::arg("lengths", row_of(lengths, context.scalar)),
       fmt::arg("factor", tangent_name(StepRole::substep)),
-      fmt::arg("increments", context.arrays() ? ""
-                                              : each_field(context, 0, size,
-                                                           "    dz.{x} = end.{x} - now.{x};\n"))));
+      fmt::arg("solve", context.arrays() ? kSubstepOfArrays : substep_of(context)),
+      fmt::arg("update",
+               context.arrays()
+                   ? "    now = end;\n    carry = substep.carry();\n"
+                   : each_field(context, 0, size, "    two_sum(now.{x}, carry.{x}, dz.{x});\n"))));
 }
 
 void write_explicit_tangent(CodeWriter& out, const CppContext& context) {
@@ -211,8 +228,9 @@ std::string stages_tangent() {
       for (int column = 0; column < Elimination::size; ++column) {
         const int i = row / dimension;
         const int j = column / dimension;
-        matrix.at(row, column) = (row == column ? 1 : 0) -
-                                 coupling[i][j] * slope[j][row % dimension][column % dimension];
+        matrix.put(row, column,
+                   (row == column ? 1 : 0) -
+                       coupling[i][j] * slope[j][row % dimension][column % dimension]);
       }
     }
     if (!matrix.factorise()) return false;

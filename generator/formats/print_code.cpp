@@ -47,6 +47,8 @@ class RoutinePrinter {
       out_.line(routine_.result.type + " " + routine_.result.object + ";");
     }
     print(routine_.body);
+    const bool filled = !routine_.result.object.empty() && routine_.result.type != "StepReport";
+    if (filled) out_.line("return " + routine_.result.object + ";");
     out_.close();
     out_.line();
     used_.functions.insert(cpp_.functions().begin(), cpp_.functions().end());
@@ -77,32 +79,48 @@ class RoutinePrinter {
     out_.line(fmt::format("{} {}= {};", name(sum.symbol), negative ? '-' : '+',
                           value.substr(negative ? 1 : 0)));
   }
-  void operator()(const For& loop) {
-    const std::string index = loop.range.index;
-    out_.open(fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", index, text(loop.range.lower),
-                          text(loop.range.upper)));
-    print(loop.body);
-    out_.close();
-  }
+  void operator()(const For& loop) { print_inside(head(loop.range), loop.body); }
   void operator()(const If& branch) {
-    out_.open(fmt::format("if ({}{})", branch.set ? "" : "!", text(branch.flag)));
-    print(branch.then);
-    out_.close();
+    print_inside(fmt::format("if ({}{})", branch.set ? "" : "!", text(branch.flag)), branch.then);
   }
   void operator()(const Call& call) {
     std::vector<std::string> arguments;
     for (const Place& place : call.arguments) arguments.push_back(text(place));
     out_.line(fmt::format("{}({});", call.routine, joined(arguments, ", ")));
   }
-  void operator()(const SolveLinear& solve) {
-    const std::string call = fmt::format("!eliminate({}, {})", solve.matrix, solve.vector);
-    if (!iterates_) return out_.line("if (" + call + ") return report;");
-    out_.open("if (" + call + ")");
+  void operator()(const Matrix& matrix) {
+    // Eigen does not know quad numbers.
+    const bool eigen = matrix.large && dialect_.scalar.digits != 113;
+    out_.line(fmt::format("{}<{}> {};", eigen ? "EigenDenseMatrix" : "DenseMatrix", matrix.size,
+                          matrix.name));
+  }
+  void operator()(const Copy& copy) {
+    out_.line(
+        fmt::format("{}{} = {};", copy.declares ? copy.record + " " : "", copy.to, copy.from));
+  }
+  void operator()(const Put& put) {
+    const std::string value = cpp_(put.value);
+    out_.line(
+        fmt::format("{}.put({}, {}, {});", put.matrix, text(put.row), text(put.column), value));
+  }
+  void operator()(const SetFlag& set) {
+    out_.line(fmt::format("{} = {};", text(set.flag), set.value));
+  }
+  void operator()(const Factorise& factorise) {
+    const std::string condition = fmt::format("if (!{}.factorise())", factorise.matrix);
+    if (routine_.result.type != "StepReport") return out_.line(condition + " return false;");
+    if (!iterates_) return out_.line(condition + " return report;");
+    out_.open(condition);
     out_.line("report.iterations += iteration;");
-    out_.line(fmt::format("for (const Real part : {}) report.increment += magnitude(part);",
-                          solve.vector));
     out_.line("return report;");
     out_.close();
+  }
+  void operator()(const SolveFactorised& solve) {
+    out_.line(fmt::format("{}.solve({});", solve.matrix, solve.vector));
+  }
+  void operator()(const Invert& invert) {
+    out_.line(fmt::format("{0} = invert({1}, {2}) && {0};", text(invert.regular), invert.matrix,
+                          text(invert.inverse)));
   }
   void operator()(const Iterate& iterate) {
     for (const std::string& symbol : iterate.kept) {
@@ -148,16 +166,15 @@ class RoutinePrinter {
   }
   void operator()(const Return& end) {
     if (end.value) return out_.line("return " + cpp_(*end.value) + ";");
-    if (end.success && end.finite.empty()) out_.line("report.converged = true;");
-    if (!end.finite.empty()) {
-      std::vector<std::string> squares;
-      for (const std::string& symbol : end.finite) {
-        squares.push_back(fmt::format("{0} * {0}", name(symbol)));
-      }
-      out_.line("// False for infinities and NaN alike.");
-      out_.line("const Real length = " + joined(squares, " + ") + ";");
-      out_.line(fmt::format("report.converged = length <= {};", dialect_.scalar.largest));
-      out_.line("if (!report.converged) report.increment = length;");
+    if (!end.finite.empty()) length_of(end);
+    const std::string success = end.finite.empty()
+                                    ? fmt::format("{}", end.success)
+                                    : fmt::format("length <= {}", dialect_.scalar.largest);
+    if (routine_.result.type != "StepReport") return out_.line("return " + success + ";");
+    if (end.success) {
+      out_.line("report.converged = " + success + ";");
+      if (!end.finite.empty()) out_.line("if (!report.converged) report.increment = length;");
+      if (end.flag) out_.line(text(*end.flag) + " = report.converged;");
     }
     out_.line("return report;");
   }
@@ -179,6 +196,28 @@ class RoutinePrinter {
         std::visit(*this, node.value);
       }
     }
+  }
+
+  // A single statement on the line of its head, if that has room for it.
+  void print_inside(const std::string& head, const Body& body) {
+    const bool simple = body.size() == 1 && body[0].remark.empty() &&
+                        (std::holds_alternative<Assign>(body[0].value) ||
+                         std::holds_alternative<Accumulate>(body[0].value) ||
+                         std::holds_alternative<Call>(body[0].value) ||
+                         std::holds_alternative<Factorise>(body[0].value));
+    if (simple) {
+      CodeWriter line;
+      std::swap(line, out_);
+      print(body);
+      std::swap(line, out_);
+      const std::string& text = line.text();
+      if (std::ranges::count(text, '\n') == 1 && out_.fits(head + " " + text)) {
+        return out_.lines(head + " " + text);
+      }
+    }
+    out_.open(head);
+    print(body);
+    out_.close();
   }
 
   void newton(const Iterate& iterate) {
@@ -213,33 +252,65 @@ class RoutinePrinter {
 
   void fixed_point(const Iterate& iterate) {
     const std::size_t m = iterate.unknowns.size();
-    out_.line(fmt::format("FixedPointRule<{}> {};", m, iterate.name));
+    out_.line(fmt::format("FixedPointRule<{}, 2> {};", m, iterate.name));
     out_.open("for (int iteration = 1;; ++iteration)");
     print(iterate.body);
     std::vector<std::string> values;
+    std::vector<std::string> lengths;
+    std::vector<std::string> parts;
     for (const Unknown& u : iterate.unknowns) {
       values.push_back(cpp_(u.correction - Expression::symbol(u.symbol)));
+      lengths.push_back(length(u));
+      parts.push_back(fmt::format("length[{}]", parts.size()));
     }
     out_.line(fmt::format("const Real increment[{}] = {{{}}};", m, joined(values, ", ")));
-    out_.line("const Real scale = " + scale(iterate) + ";");
+    out_.line(fmt::format("const Real length[{}] = {{{}}};", m, joined(lengths, ", ")));
+    out_.line("const Real scale = " + joined(parts, " + ") + ";");
     for (std::size_t j = 0; j < m; ++j) {
       out_.line(fmt::format("{} += increment[{}];", names_.local(iterate.unknowns[j].symbol), j));
     }
-    out_.line("const Progress progress = " + iterate.name + "(increment, scale, iteration);");
-    out_.line("if (progress == Progress::go_on) continue;");
+    out_.line("const Verdict verdict = " + iterate.name + "(increment, length, scale, iteration);");
+    out_.line("if (verdict == Verdict::go_on) continue;");
     out_.line("report.iterations += iteration;");
-    out_.line("if (progress == Progress::done) break;");
-    out_.line("for (const Real part : increment) report.increment += magnitude(part);");
+    out_.line("if (verdict == Verdict::done) break;");
+    out_.line("report.increment = " + iterate.name + ".size;");
     out_.line("return report;");
     out_.close();
   }
 
+  // The sum of the squares of what should be finite.
+  void length_of(const Return& end) {
+    std::vector<std::string> squares;
+    for (const std::string& symbol : end.finite) {
+      squares.push_back(fmt::format("{0} * {0}", name(symbol)));
+    }
+    const std::string sum = joined(squares, " + ");
+    if (!end.ranges.empty()) {
+      out_.line("Real length = 0;");
+      for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.open(head(end.ranges[i]));
+      out_.line(head(end.ranges.back()) + " length += " + sum + ";");
+      for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.close();
+    }
+    out_.line("// False for infinities and NaN alike.");
+    if (end.ranges.empty()) out_.line("const Real length = " + sum + ";");
+  }
+
+  [[nodiscard]] static std::string head(const KernelRange& range) {
+    // From 0 on as C++ has it.
+    const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
+    return counts ? fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
+                                range.upper.constant + 1)
+                  : fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index,
+                                text(range.lower), text(range.upper));
+  }
+
+  // What an unknown is rounded with.
+  [[nodiscard]] std::string length(const Unknown& u) {
+    return magnitude(names_.local(u.symbol)) + " + " + magnitude(cpp_(u.start));
+  }
   [[nodiscard]] std::string scale(const Iterate& iterate) {
     std::vector<std::string> parts;
-    for (const Unknown& u : iterate.unknowns) {
-      parts.push_back(magnitude(names_.local(u.symbol)));
-      parts.push_back(magnitude(cpp_(u.start)));
-    }
+    for (const Unknown& u : iterate.unknowns) parts.push_back(length(u));
     return joined(parts, " + ");
   }
 
@@ -297,10 +368,10 @@ class RoutinePrinter {
   void reserve_arrays(const Body& body) {
     for (const Instruction& node : body) {
       if (const auto* array = std::get_if<Array>(&node.value)) names_.reserve(array->name);
-      if (const auto* loop = std::get_if<For>(&node.value)) reserve_arrays(loop->body);
-      if (const auto* branch = std::get_if<If>(&node.value)) reserve_arrays(branch->then);
-      if (const auto* iterate = std::get_if<Iterate>(&node.value)) reserve_arrays(iterate->body);
-      if (const auto* sweep = std::get_if<Sweep>(&node.value)) reserve_arrays(sweep->body);
+      if (const auto* matrix = std::get_if<Matrix>(&node.value)) names_.reserve(matrix->name);
+      if (const auto* copy = std::get_if<Copy>(&node.value)) names_.reserve(copy->to);
+      if (const auto* loop = std::get_if<For>(&node.value)) names_.reserve(loop->range.index);
+      for (const Body* inner : inner_bodies(node)) reserve_arrays(*inner);
     }
   }
 

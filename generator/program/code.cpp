@@ -29,6 +29,16 @@ struct Reader {
   void operator()(const Array& array) const {
     for (const Expression& e : array.values) mention(e, found);
   }
+  void operator()(const Matrix&) const {}
+  void operator()(const Copy& copy) const { found.objects.insert({copy.from, copy.to}); }
+  void operator()(const Put& put) const {
+    found.objects.insert(put.matrix);
+    mention(put.value, found);
+  }
+  void operator()(const SetFlag& set) const { found.objects.insert(set.flag.object); }
+  void operator()(const Invert& invert) const {
+    found.objects.insert({invert.matrix, invert.inverse.object});
+  }
   void operator()(const Assign& assign) const {
     found.written.insert(assign.symbol);
     mention(assign.value, found);
@@ -45,7 +55,8 @@ struct Reader {
   void operator()(const Call& call) const {
     for (const Place& place : call.arguments) found.objects.insert(place.object);
   }
-  void operator()(const SolveLinear& solve) const {
+  void operator()(const Factorise& factorise) const { found.objects.insert(factorise.matrix); }
+  void operator()(const SolveFactorised& solve) const {
     found.objects.insert({solve.matrix, solve.vector});
   }
   void operator()(const Iterate& iterate) const {
@@ -60,6 +71,7 @@ struct Reader {
   void operator()(const Return& end) const {
     if (end.value) mention(*end.value, found);
     found.read.insert(end.finite.begin(), end.finite.end());
+    if (end.flag) found.objects.insert(end.flag->object);
   }
 };
 
@@ -68,6 +80,14 @@ void mention(const Body& body, Mentions& found) {
 }
 
 }  // namespace
+
+std::vector<const Body*> inner_bodies(const Instruction& instruction) {
+  if (const auto* loop = std::get_if<For>(&instruction.value)) return {&loop->body};
+  if (const auto* branch = std::get_if<If>(&instruction.value)) return {&branch->then};
+  if (const auto* iterate = std::get_if<Iterate>(&instruction.value)) return {&iterate->body};
+  if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
+  return {};
+}
 
 void collect_symbols(const Body& body, std::set<std::string>& names) {
   Mentions found;

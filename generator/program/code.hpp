@@ -1,6 +1,6 @@
-// The step as a value: routines made of a dozen kinds of nodes.  Formats print them, the
-// interpreter runs them.  Whatever has an algorithm in it is no node but a block of numerics/ that
-// one calls.
+// The step as a value: routines made of a dozen kinds of instructions.  Formats print them, the
+// interpreter runs them.  Whatever has an algorithm in it is no instruction but a block of
+// numerics/ that one of them calls.
 //
 // Values are expressions in symbols.  A symbol is a local of the routine, unless the routine says
 // at which place it stands: "z.q" in the field q of the argument z.
@@ -21,10 +21,10 @@ namespace hamgen {
 // A member of a record: a number, an array of numbers, a flag, or a block of numerics/.
 struct Field {
   std::string name;
-  int length = 0;  // of an array; 0: a single one
+  std::vector<int> sizes = {};  // of an array
   std::string remark = {};
   std::vector<Rational> values = {};  // to begin with; empty: zeros
-  std::string type = "Real";          // or "bool", "NewtonRule"
+  std::string type = "Real";          // or "bool", "NewtonRule<2>"
   bool operator==(const Field&) const = default;
 };
 
@@ -35,11 +35,11 @@ struct Record {
   bool operator==(const Record&) const = default;
 };
 
-// An element of an object: z.q[i - 1], matrix[0][1].
+// An object of a routine, a field of it, or an element: z.q[i - 1], matrix[0][1].
 struct Place {
   std::string object;
-  std::string field = {};                 // empty: the object is an array
-  std::vector<AffineIndex> indices = {};  // of an array
+  std::string field = {};
+  std::vector<AffineIndex> indices = {};
   bool operator==(const Place&) const = default;
 };
 
@@ -58,6 +58,18 @@ struct Array {
   std::vector<int> sizes;
   std::vector<Expression> values = {};
 };
+// A local matrix, zero; large ones are eliminated by Eigen.
+struct Matrix {
+  std::string name;
+  int size = 0;
+  bool large = false;
+};
+// to = from, both records of one type; `declares` a local of it.
+struct Copy {
+  std::string record;
+  std::string to, from;
+  bool declares = false;
+};
 struct Assign {
   std::string symbol;
   Expression value;
@@ -67,11 +79,21 @@ struct Accumulate {
   std::string symbol;
   Expression value;
 };
+// matrix(row, column) += value
+struct Put {
+  std::string matrix;
+  AffineIndex row, column;
+  Expression value;
+};
+struct SetFlag {
+  Place flag;
+  bool value = true;
+};
 struct For {
   KernelRange range;  // both ends are taken
   Body body;
 };
-// A flag of a record, or its contrary.
+// Runs its body where the flag is set, or where it is not.
 struct If {
   Place flag;
   bool set = true;
@@ -81,11 +103,18 @@ struct Call {
   std::string routine;
   std::vector<Place> arguments;  // objects, or whole fields of theirs
 };
-// The solution of matrix x = vector, left in the array `vector`.  Where there is none the routine
-// ends with an unsuccessful report.
-struct SolveLinear {
-  std::string matrix;  // an array
-  std::string vector;
+// Factorises a matrix.  Where it is singular the routine ends without success.
+struct Factorise {
+  std::string matrix;
+};
+// The solution of matrix x = vector with the factors, left in the array `vector`.
+struct SolveFactorised {
+  std::string matrix, vector;
+};
+// The inverse of a matrix that is wanted many times; the flag is cleared where there is none.
+struct Invert {
+  std::string matrix;
+  Place inverse, regular;
 };
 
 // What an iteration changes.  Newton adds the correction, a fixed point takes it for the new value.
@@ -112,15 +141,19 @@ struct Sweep {
   Body body;
   std::vector<std::string> results;
 };
-// A number, or the report: successful if the symbols have finite values.
+// A number, or success: given if the symbols have finite values, all over the ranges if there are
+// any.  The flag says afterwards whether it was.
 struct Return {
   std::optional<Expression> value = {};
   bool success = true;
   std::vector<std::string> finite = {};
+  std::vector<KernelRange> ranges = {};
+  std::optional<Place> flag = {};
 };
 
 struct Instruction {
-  std::variant<Let, Array, Assign, Accumulate, For, If, Call, SolveLinear, Iterate, Sweep, Return>
+  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Put, SetFlag, For, If, Call, Factorise,
+               SolveFactorised, Invert, Iterate, Sweep, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
 };
@@ -149,7 +182,9 @@ struct Routine {
   Body body = {};
 };
 
-// Every symbol that the nodes read.
+// The bodies inside an instruction.
+[[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
+// Every symbol that the instructions read.
 void collect_symbols(const Body& body, std::set<std::string>& names);
 // Does the routine read or change the object: at a place, or in what it calls?
 [[nodiscard]] bool uses_object(const Routine& routine, const std::string& object);

@@ -36,6 +36,21 @@ class Printer {
     line(fmt::format("array {}{} = {}", array.name, sizes,
                      array.values.empty() ? "0" : list_of(array.values)));
   }
+  void operator()(const Matrix& matrix) {
+    line(fmt::format("matrix {}[{}][{}] = 0", matrix.name, matrix.size, matrix.size));
+  }
+  void operator()(const Copy& copy) { line(fmt::format("{} <- {}", copy.to, copy.from)); }
+  void operator()(const Put& put) {
+    line(fmt::format("{}[{}][{}] += {}", put.matrix, to_text(put.row), to_text(put.column),
+                     to_text(put.value)));
+  }
+  void operator()(const SetFlag& set) {
+    line(fmt::format("{} <- {}", to_text(set.flag), set.value));
+  }
+  void operator()(const Invert& invert) {
+    line(fmt::format("{} <- inverse of {}, {} if there is one", to_text(invert.inverse),
+                     invert.matrix, to_text(invert.regular)));
+  }
   void operator()(const Assign& assign) {
     line(fmt::format("{} <- {}", assign.symbol, to_text(assign.value)));
   }
@@ -56,7 +71,10 @@ class Printer {
     for (const Place& place : call.arguments) arguments.push_back(to_text(place));
     line(fmt::format("{}({})", call.routine, list_of(arguments)));
   }
-  void operator()(const SolveLinear& solve) {
+  void operator()(const Factorise& factorise) {
+    line(fmt::format("factorise {}", factorise.matrix));
+  }
+  void operator()(const SolveFactorised& solve) {
     line(fmt::format("solve {} x = {}", solve.matrix, solve.vector));
   }
   void operator()(const Iterate& iterate) {

@@ -38,7 +38,10 @@ Layout layout(const std::string& name, const std::vector<Quantity>& quantities, 
     }
     Field& field = fields.back();
     Place place{.object = {}, .field = field.name};
-    if (element.indexed) place.indices.push_back({.constant = field.length++, .factors = {}});
+    if (element.indexed) {
+      if (field.sizes.empty()) field.sizes.push_back(0);
+      place.indices.push_back({.constant = field.sizes.front()++, .factors = {}});
+    }
     if (defaults == Defaults::values) field.values.push_back(quantity.value);
     result.places.push_back(std::move(place));
   }
@@ -48,7 +51,7 @@ Layout layout(const std::string& name, const std::vector<Quantity>& quantities, 
 Layout array_state(int degrees_of_freedom) {
   Layout result{.record = {.name = "State", .fields = {}}, .places = {}};
   for (const char* name : {"q", "p"}) {
-    result.record.fields.push_back({.name = name, .length = degrees_of_freedom});
+    result.record.fields.push_back({.name = name, .sizes = {degrees_of_freedom}});
     for (int i = 0; i < degrees_of_freedom; ++i) {
       result.places.push_back(
           {.object = {}, .field = name, .indices = {{.constant = i, .factors = {}}}});

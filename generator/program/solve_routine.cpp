@@ -145,18 +145,10 @@ class SolveRoutine {
   // matrix x = vector, solved.
   void add_system(Body& body, const std::string& matrix, const std::string& vector,
                   const Solve& solve) {
-    const auto m = static_cast<int>(solve.matrix.size());
-    body.push_back({Array{matrix, {m, m}}});
-    for (int i = 0; i < m; ++i) {
-      for (int j = 0; j < m; ++j) {
-        const Expression& entry =
-            solve.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-        if (entry.is_zero()) continue;
-        body.push_back({Assign{bind_element(routine_, matrix, {i, j}).name(), entry}});
-      }
-    }
-    body.push_back({Array{vector, {m}, right_side(solve)}});
-    body.push_back({SolveLinear{matrix, vector}});
+    put_matrix(body, matrix, solve);
+    body.push_back({Array{vector, {static_cast<int>(solve.matrix.size())}, right_side(solve)}});
+    body.push_back({Factorise{matrix}});
+    body.push_back({SolveFactorised{matrix, vector}});
   }
 
   static std::vector<Expression> right_side(const Solve& solve) {
@@ -201,8 +193,7 @@ class SolveRoutine {
     body.push_back({Array{product, {static_cast<int>(last) + 1}}});
     const KernelRange rows{"i", {0, {}}, {last, {}}};
     const KernelRange columns{"j", {0, {}}, {last, {}}};
-    const Expression term =
-        element("k", fmt::format("inverse_{}", s), {"i", "j"}) * element(vector, "", {"j"});
+    const Expression term = element("k", inverse_name(s), {"i", "j"}) * element(vector, "", {"j"});
     Body sum{{Accumulate{element(product, "", {"i"}).name(), term}}};
     Body loop{{For{columns, std::move(sum)}}};
     body.push_back({For{rows, std::move(loop)}});

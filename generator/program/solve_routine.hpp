@@ -1,15 +1,10 @@
 // solve(par, k, h, z, carry, start, dz): dz = Z - z for one step of a member from z + carry.
 #pragma once
 
-#include <map>
-
+#include "generator/program/coefficients.hpp"
 #include "generator/program/environment.hpp"
-#include "generator/program/program.hpp"
 
 namespace hamgen {
-
-// Where the symbols of the coefficients stand in the record k.
-using CoefficientPlaces = std::map<std::string, Place>;
 
 struct SolveParts {
   bool coefficients = false;  // is there a record k?

@@ -1,4 +1,4 @@
-#include "generator/program/compiled_expression.hpp"
+#include "generator/interpreter/compiled_expression.hpp"
 
 #include <quadmath.h>
 

@@ -1,0 +1,382 @@
+#include "generator/formats/cpp_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "generator/formats/numerics.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::string sizes_text(const Field& field) {
+  std::string text;
+  for (const int size : field.sizes) text += fmt::format("[{}]", size);
+  return text;
+}
+
+std::string initial_value(const Field& field, const ScalarType& scalar) {
+  std::string values;
+  for (const Rational& value : field.values) {
+    const std::string text = field.type != "bool" ? literal(value, scalar)
+                             : value == 0         ? "false"
+                                                  : "true";
+    values += (values.empty() ? "" : ", ") + text;
+  }
+  if (!field.sizes.empty()) return " = {" + values + "}";
+  if (!values.empty()) return " = " + values;
+  return field.type == "Real" ? " = " + literal(0, scalar) : "";
+}
+
+// The user's words behind //: a backslash at the end would join the next line.
+std::string remark(const Field& field) {
+  std::string text = field.remark;
+  std::ranges::replace(text, '\\', '/');
+  return text;
+}
+
+// Is there an instruction of this kind anywhere in the body?
+bool any(const Body& body, const std::function<bool(const Instruction&)>& is) {
+  return std::ranges::any_of(body, [&](const Instruction& instruction) {
+    return is(instruction) ||
+           std::ranges::any_of(inner_bodies(instruction),
+                               [&](const Body* inner) { return any(*inner, is); });
+  });
+}
+
+template <class Kind>
+bool has(const Routine* routine) {
+  return routine != nullptr && any(routine->body, [](const Instruction& i) {
+           return std::holds_alternative<Kind>(i.value);
+         });
+}
+
+bool iterates(const Routine* routine, Rule rule) {
+  return routine != nullptr && any(routine->body, [rule](const Instruction& i) {
+           const auto* iterate = std::get_if<Iterate>(&i.value);
+           return iterate != nullptr && iterate->rule == rule;
+         });
+}
+
+bool has_matrix(const Routine* routine, bool large) {
+  return routine != nullptr && any(routine->body, [large](const Instruction& i) {
+           const auto* matrix = std::get_if<Matrix>(&i.value);
+           return matrix != nullptr && matrix->large == large;
+         });
+}
+
+// What is written of the step itself.
+std::vector<const Routine*> written(const CppContext& context) {
+  std::vector<const Routine*> routines;
+  std::vector<const char*> names = {"prepare", "solve"};
+  if (context.options.tangent) names.insert(names.end(), {"tangent", "substep_tangent"});
+  for (const char* name : names) {
+    if (const Routine* routine = context.code.routine(name)) routines.push_back(routine);
+  }
+  return routines;
+}
+
+template <class Is>
+bool any_written(const CppContext& context, const Is& is) {
+  return std::ranges::any_of(written(context), is);
+}
+
+// What the arguments of solve are called where it is called.
+struct CallNames {
+  std::string par, k, h, z, carry, start, history;
+};
+
+class StepWriter {
+ public:
+  StepWriter(CodeWriter& out, const CppContext& context)
+      : out_(out),
+        context_(context),
+        code_(context.code),
+        coefficients_(code_.record("Coefficients") != nullptr),
+        start_(code_.record("Start") != nullptr),
+        composed_(code_.substeps.size() > 1) {}
+
+  void write() {
+    if (!composed_) write_step();
+    if (code_.unknowns > 0) out_.lines(cpp_numerics("history"));
+    write_propagator();
+    if (composed_) write_step_of_propagator();
+  }
+
+ private:
+  [[nodiscard]] std::string call(const CallNames& names) const {
+    std::string list;
+    for (const Argument& argument : code_.routine("solve")->arguments) {
+      const std::string text = argument.name == "par"     ? names.par
+                               : argument.name == "k"     ? names.k
+                               : argument.name == "h"     ? names.h
+                               : argument.name == "z"     ? names.z
+                               : argument.name == "carry" ? names.carry
+                               : argument.name == "start" ? names.start
+                                                          : argument.name;
+      list += (list.empty() ? "" : ", ") + text;
+    }
+    return "solve(" + list + ")";
+  }
+
+  // The line for every component that changes.
+  void write_each(const std::function<std::string(const std::string&)>& line) {
+    if (context_.arrays()) {
+      out_.open("for (int i = 0; i < n; ++i)");
+      out_.line(line("q[i]"));
+      out_.line(line("p[i]"));
+      out_.close();
+      return;
+    }
+    for (const Place& place : code_.changed) {
+      const std::string field = to_text(place).substr(1);
+      out_.line(line(field));
+    }
+  }
+
+  void write_step() {
+    out_.line("// Advances z by one step of size h.  On failure z is left unchanged.");
+    out_.open("[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z)");
+    if (coefficients_) out_.line("const Coefficients k = prepare(par, h);");
+    if (start_) out_.line("Start start;");
+    out_.line("State dz;");
+    out_.line("const StepReport report = " + call({"par", "k", "h", "z", "State()", "start", ""}) +
+              ";");
+    out_.line("if (!report.converged) return report;");
+    write_each([](const std::string& x) { return fmt::format("z.{0} += dz.{0};", x); });
+    out_.line("return report;");
+    out_.close();
+    out_.line();
+  }
+
+  void write_step_of_propagator() {
+    out_.lines(R"(// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  Propagator propagator(par, h, z);
+  const StepReport report = propagator.step();
+  if (report.converged) z = propagator.state();
+  return report;
+}
+
+)");
+  }
+
+  void write_propagator() {
+    const bool extrapolates = code_.unknowns > 0;
+    out_.line(extrapolates ? "// Many steps: start values are extrapolated, rounding errors of "
+                             "the updates carried along."
+                           : "// Many steps: rounding errors of the updates are carried along.");
+    out_.open("class Propagator");
+    access(" public:");
+    composed_ ? write_constructor_of_composition() : write_constructor();
+    out_.line();
+    if (composed_) {
+      write_composed_step();
+    } else {
+      out_.line("// One step; on failure the state stays as it was.");
+      out_.open("StepReport step()");
+      write_solve({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"});
+      out_.close();
+    }
+    out_.line();
+    write_advance(out_);
+    out_.line();
+    access(" private:");
+    if (composed_) {
+      out_.line("// Substep i from z + carry.");
+      out_.open("StepReport substep(int i, State& z, State& carry)");
+      write_solve({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"});
+      out_.close();
+      out_.line();
+    }
+    write_members();
+    out_.close(";");
+    out_.line();
+  }
+
+  void access(const char* line) {
+    out_.dedent();
+    out_.line(line);
+    out_.indent();
+  }
+
+  void write_constructor() {
+    std::string initialisers = "par_(par)";
+    if (takes_step()) initialisers += ", h_(h)";
+    initialisers += ", z_(z)";
+    if (coefficients_) initialisers += ", k_(prepare(par, h))";
+    const std::string head = "Propagator(const Parameters& par, Real h, const State& z)";
+    if (head.size() + initialisers.size() > 90) {
+      out_.line(head);
+      out_.line("    : " + initialisers + " {}");
+    } else {
+      out_.line(head + " : " + initialisers + " {}");
+    }
+  }
+
+  void write_constructor_of_composition() {
+    std::string lengths;
+    for (const Rational& length : code_.substeps) {
+      lengths += (lengths.empty() ? "" : ", ") + literal(length, context_.scalar);
+    }
+    out_.line(fmt::format("static constexpr int substeps = {};", code_.substeps.size()));
+    out_.line();
+    out_.open("Propagator(const Parameters& par, Real h, const State& z) : par_(par), z_(z)");
+    out_.line(fmt::format("constexpr Real lengths[substeps] = {{{}}};", lengths));
+    out_.open("for (int i = 0; i < substeps; ++i)");
+    out_.line("h_[i] = h * lengths[i];");
+    if (coefficients_) out_.line("k_[i] = prepare(par, h_[i]);");
+    out_.close();
+    out_.close();
+  }
+
+  // One solve, tried again without what is known from earlier steps, and the update.
+  void write_solve(const CallNames& names) {
+    const bool extrapolates = code_.unknowns > 0;
+    out_.line("State dz;");
+    if (!extrapolates) {
+      out_.line("const StepReport report = " + call(names) + ";");
+      out_.line("if (!report.converged) return report;");
+    } else {
+      const std::string& start = names.start;
+      const std::string& history = names.history;
+      out_.line(fmt::format("{}.known = {}.known > 0;", start, history));
+      out_.line(fmt::format("if ({0}.known) {1}.extrapolate({0}.value);", start, history));
+      out_.line("StepReport report = " + call(names) + ";");
+      out_.open(fmt::format("if (!report.converged && {}.known)", start));
+      out_.line("// Extrapolation may lead astray, the state itself seldom does.");
+      out_.line("const long long wasted = report.iterations;");
+      out_.line(start + " = Start();");
+      out_.line("report = " + call(names) + ";");
+      out_.line("report.iterations += wasted;");
+      out_.close();
+      out_.line("if (!report.converged) return report;");
+      out_.line(fmt::format("{}.record({}.value);", history, start));
+    }
+    write_each([&](const std::string& x) {
+      return fmt::format("two_sum({0}.{2}, {1}.{2}, dz.{2});", names.z, names.carry, x);
+    });
+    out_.line("return report;");
+  }
+
+  void write_composed_step() {
+    out_.line("// One step; on failure the state stays as it was before its first substep.");
+    out_.open("StepReport step()");
+    out_.line("State z = z_;");
+    out_.line("State carry = carry_;");
+    out_.line("StepReport total;");
+    out_.open("for (int i = 0; i < substeps; ++i)");
+    out_.line("const StepReport report = substep(i, z, carry);");
+    out_.line("total.iterations += report.iterations;");
+    out_.line("total.increment = report.increment;");
+    if (code_.unknowns > 0) {
+      out_.open("if (!report.converged)");
+      out_.line("// Those before have seen a step that will not be.");
+      out_.line("for (Start& start : start_) start = Start();");
+      out_.line("for (auto& history : history_) history = {};");
+      out_.line("return total;");
+      out_.close();
+    } else {
+      out_.line("if (!report.converged) return total;");
+    }
+    out_.close();
+    out_.line("z_ = z;");
+    out_.line("carry_ = carry;");
+    out_.line("total.converged = true;");
+    out_.line("return total;");
+    out_.close();
+  }
+
+  void write_members() {
+    const char* each = composed_ ? "[substeps]" : "";
+    out_.line("Parameters par_;");
+    if (composed_) {
+      out_.line("Real h_[substeps] = {};");
+    } else if (takes_step()) {
+      out_.line("Real h_;");
+    }
+    out_.line("State z_;");
+    out_.line("State carry_;");
+    if (coefficients_) out_.line(fmt::format("Coefficients k_{};", each));
+    if (start_) out_.line(fmt::format("Start start_{};", each));
+    if (code_.unknowns > 0) out_.line(fmt::format("History<{}> history_{};", code_.unknowns, each));
+  }
+
+  [[nodiscard]] bool takes_step() const {
+    return std::ranges::any_of(code_.routine("solve")->arguments,
+                               [](const Argument& a) { return a.name == "h"; });
+  }
+
+  CodeWriter& out_;
+  const CppContext& context_;
+  const StepCode& code_;
+  bool coefficients_, start_, composed_;
+};
+
+}  // namespace
+
+void write_record(CodeWriter& out, const Record& record, const ScalarType& scalar) {
+  for (const std::string& line : record.remark) out.line("// " + line);
+  if (record.fields.empty()) {
+    out.line("struct " + record.name + " {};");
+    return;
+  }
+  out.open("struct " + record.name);
+  std::vector<std::pair<std::string, std::string>> members;
+  for (const Field& field : record.fields) {
+    members.emplace_back(fmt::format("{} {}{}{};", field.type, field.name, sizes_text(field),
+                                     initial_value(field, scalar)),
+                         remark(field));
+  }
+  out.aligned(members);
+  out.close(";");
+}
+
+bool needs_vocabulary(const CppContext& context) {
+  return any_written(context, [](const Routine* routine) {
+    return has<Matrix>(routine) || has<Iterate>(routine);
+  });
+}
+
+bool needs_eigen(const CppContext& context) {
+  return !context.quad() &&
+         any_written(context, [](const Routine* routine) { return has_matrix(routine, true); });
+}
+
+void write_solver(CodeWriter& out, CppContext& context) {
+  const Routine* prepare = context.code.routine("prepare");
+  const Routine* solve = context.code.routine("solve");
+  const bool large =
+      any_written(context, [](const Routine* routine) { return has_matrix(routine, true); });
+  const bool small =
+      any_written(context, [](const Routine* routine) { return has_matrix(routine, false); });
+  // Eigen does not know quad numbers.
+  if (small || (large && context.quad())) out.lines(cpp_numerics("dense_matrix"));
+  if (needs_eigen(context)) out.lines(cpp_numerics("eigen_dense_matrix"));
+  if (has<Invert>(prepare)) out.lines(cpp_numerics("inverse"));
+  if (prepare != nullptr) {
+    write_record(out, *context.code.record("Coefficients"), context.scalar);
+    out.line();
+    context.write_routine(out, "prepare");
+  }
+  for (const char* part : {"potential_gradient", "kinetic_gradient"}) {
+    if (!context.arrays()) context.write_routine(out, part);
+  }
+  out.lines(cpp_numerics("two_sum"));
+  const bool newton = iterates(solve, Rule::newton);
+  const bool fixed_point = iterates(solve, Rule::fixed_point);
+  if (newton || fixed_point) out.lines(cpp_numerics("verdict"));
+  if (newton) out.lines(cpp_numerics("newton_rule"));
+  if (fixed_point) out.lines(cpp_numerics("fixed_point_rule"));
+  if (const Record* start = context.code.record("Start")) {
+    write_record(out, *start, context.scalar);
+    out.line();
+  }
+  context.write_routine(out, "solve");
+}
+
+void write_steps(CodeWriter& out, const CppContext& context) { StepWriter(out, context).write(); }
+
+}  // namespace hamgen

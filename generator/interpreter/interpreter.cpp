@@ -1,0 +1,147 @@
+#include "generator/interpreter/interpreter.hpp"
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+namespace {
+
+using Quad = numerics_of_quad::Real;
+
+}  // namespace
+
+template <class Real>
+Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real h,
+                               const std::vector<Real>& state)
+    : code_(std::make_unique<const StepCode>(std::move(code))) {
+  for (const Routine& routine : code_->routines) {
+    machines_[routine.name] = std::make_unique<Machine<Real>>(routine, *code_, machines_);
+  }
+  if (code_->routine("solve") == nullptr) internal_error("a step that cannot be interpreted");
+  parameters_.numbers = std::move(parameters);
+  z_ = make_object<Real>(*code_->record("State"));
+  carry_ = make_object<Real>(*code_->record("State"));
+  z_.numbers = state;
+  for (const Rational& length : code_->substeps) {
+    Substep& substep = substeps_.emplace_back();
+    substep.h = h * nearest_number<Real>(length);
+    if (const auto prepare = machines_.find("prepare"); prepare != machines_.end()) {
+      prepare->second->run({given(parameters_), {&substep.h, nullptr}});
+      substep.k.numbers = prepare->second->result().numbers;
+      substep.k.flags = prepare->second->result().flags;
+    }
+    forget(substep);
+  }
+}
+
+template <class Real>
+void Interpreter<Real>::forget(Substep& substep) {
+  if (const Record* start = code_->record("Start")) substep.start = make_object<Real>(*start);
+  if (code_->unknowns > 0) substep.history = make_history<Real>(code_->unknowns);
+}
+
+template <class Real>
+void Interpreter<Real>::reset(const std::vector<Real>& state, const std::vector<Real>& carry) {
+  z_.numbers = state;
+  carry_.numbers = carry;
+  for (Substep& substep : substeps_) forget(substep);
+}
+
+template <class Real>
+typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Object<Real>& z,
+                                                            Object<Real>& carry, Object<Real>& dz) {
+  std::vector<Given<Real>> arguments;
+  for (const Argument& argument : code_->routine("solve")->arguments) {
+    const std::string& name = argument.name;
+    if (name == "h") {
+      arguments.push_back({&substep.h, nullptr});
+    } else {
+      arguments.push_back(given(name == "par"     ? parameters_
+                                : name == "k"     ? substep.k
+                                : name == "z"     ? z
+                                : name == "carry" ? carry
+                                : name == "start" ? substep.start
+                                                  : dz));
+    }
+  }
+  const MachineReport<Real> report = machines_.at("solve")->run(arguments);
+  return {report.converged, report.iterations, report.increment};
+}
+
+// As Propagator does it.
+template <class Real>
+typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Object<Real>& z,
+                                                           Object<Real>& carry) {
+  Object<Real> dz = make_object<Real>(*code_->record("State"));
+  const bool extrapolates = code_->unknowns > 0;
+  bool known = false;
+  if (extrapolates) {
+    known = substep.history->known();
+    substep.start.flags["known"] = known;
+    std::vector<Real>& value = substep.start.numbers;
+    if (known) substep.history->extrapolate(value);
+  }
+  Report report = solve(substep, z, carry, dz);
+  if (!report.converged && known) {
+    const long long wasted = report.iterations;
+    substep.start = make_object<Real>(*code_->record("Start"));
+    report = solve(substep, z, carry, dz);
+    report.iterations += wasted;
+  }
+  if (!report.converged) return report;
+  if (extrapolates) substep.history->record(substep.start.numbers);
+  for (std::size_t i = 0; i < z.numbers.size(); ++i) {
+    NumericsOf<Real>::add(z.numbers[i], carry.numbers[i], dz.numbers[i]);
+  }
+  return report;
+}
+
+template <class Real>
+typename Interpreter<Real>::Report Interpreter<Real>::step() {
+  Object<Real> z;
+  Object<Real> carry;
+  z.numbers = z_.numbers;
+  carry.numbers = carry_.numbers;
+  Report total;
+  for (Substep& substep : substeps_) {
+    const Report report = take(substep, z, carry);
+    total.iterations += report.iterations;
+    total.increment = report.increment;
+    if (report.converged) continue;
+    // Those before have seen a step that will not be.
+    if (substeps_.size() > 1) std::ranges::for_each(substeps_, [this](Substep& s) { forget(s); });
+    return total;
+  }
+  z_.numbers = std::move(z.numbers);
+  carry_.numbers = std::move(carry.numbers);
+  total.converged = true;
+  return total;
+}
+
+template <class Real>
+Real Interpreter<Real>::energy(const std::vector<Real>& state) {
+  Object<Real> z;
+  z.numbers = state;
+  return machines_.at("energy")->run({given(parameters_), given(z)}).value;
+}
+
+template <class Real>
+std::vector<Real> Interpreter<Real>::values(const std::string& routine,
+                                            const std::vector<Real>& state) {
+  Object<Real> z;
+  z.numbers = state;
+  Object<Real> result;
+  result.numbers.resize(
+      static_cast<std::size_t>(code_->routine(routine)->arguments.back().sizes.front()));
+  machines_.at(routine)->run({given(parameters_), given(z), given(result)});
+  return result.numbers;
+}
+
+template class Interpreter<float>;
+template class Interpreter<double>;
+template class Interpreter<long double>;
+template class Interpreter<Quad>;
+
+}  // namespace hamgen

@@ -1,0 +1,59 @@
+// Runs a program without a compiler: the same routines, the same numerics, the same rounding, at
+// some tens to hundreds of the time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "generator/interpreter/machine.hpp"
+
+namespace hamgen {
+
+template <class Real>
+class Interpreter {
+ public:
+  // parameters in the order of the record Parameters; state: 2n numbers, q then p.
+  Interpreter(StepCode code, std::vector<Real> parameters, Real h, const std::vector<Real>& state);
+
+  struct Report {
+    bool converged = false;
+    long long iterations = 0;
+    Real increment = 0;  // on failure, as of StepReport
+  };
+  // One step; on failure the state stays as it was.
+  Report step();
+
+  [[nodiscard]] const std::vector<Real>& state() const { return z_.numbers; }
+  [[nodiscard]] const std::vector<Real>& carry() const { return carry_.numbers; }
+  // Goes on from this state, with nothing known from earlier steps.
+  void reset(const std::vector<Real>& state, const std::vector<Real>& carry);
+
+  // H at a state.
+  [[nodiscard]] Real energy(const std::vector<Real>& state);
+  // A routine that fills in values: "gradient", "invariants".
+  [[nodiscard]] std::vector<Real> values(const std::string& routine,
+                                         const std::vector<Real>& state);
+
+ private:
+  struct Substep {
+    Real h = 0;
+    Object<Real> k;
+    Object<Real> start;
+    std::unique_ptr<AnyHistory<Real>> history;
+  };
+  Report solve(Substep& substep, Object<Real>& z, Object<Real>& carry, Object<Real>& dz);
+  Report take(Substep& substep, Object<Real>& z, Object<Real>& carry);
+  void forget(Substep& substep);
+  [[nodiscard]] Given<Real> given(Object<Real>& object) const {
+    return {object.numbers.data(), &object};
+  }
+
+  std::unique_ptr<const StepCode> code_;  // the machines point into it
+  typename Machine<Real>::Others machines_;
+  Object<Real> parameters_, z_, carry_;
+  std::vector<Substep> substeps_;
+};
+
+}  // namespace hamgen

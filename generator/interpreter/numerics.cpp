@@ -1,0 +1,149 @@
+#include "generator/interpreter/numerics.hpp"
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+namespace {
+
+using Quad = numerics_of_quad::Real;
+
+template <class Verdict>
+Answer answer(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::go_on:
+      return Answer::go_on;
+    case Verdict::done:
+      return Answer::done;
+    case Verdict::failed:
+      break;
+  }
+  return Answer::failed;
+}
+
+template <class Real, int Size>
+struct Padded {
+  explicit Padded(std::span<const Real> values) { std::copy(values.begin(), values.end(), padded); }
+  Real padded[Size] = {};
+};
+
+template <class Real, int Size>
+class HistoryOf final : public AnyHistory<Real> {
+ public:
+  [[nodiscard]] bool known() const override { return history_.known > 0; }
+  void record(std::span<const Real> solution) override {
+    history_.record(Padded<Real, Size>(solution).padded);
+  }
+  void extrapolate(std::span<Real> solution) const override {
+    Padded<Real, Size> all(solution);
+    history_.extrapolate(all.padded);
+    std::copy_n(all.padded, solution.size(), solution.begin());
+  }
+
+ private:
+  typename NumericsOf<Real>::template Past<Size> history_;
+};
+
+template <class Real, int Power>
+class NewtonRuleOf final : public AnyNewtonRule<Real> {
+ public:
+  void begin() override { rule_.begin(); }
+  Answer operator()(Real size, Real scale, int iteration) override {
+    return answer(rule_(size, scale, iteration));
+  }
+
+ private:
+  typename NumericsOf<Real>::template Newton<Power> rule_;
+};
+
+template <class Real, int Size>
+class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
+ public:
+  Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
+                    int iteration) override {
+    return answer(rule_(Padded<Real, Size>(moved).padded, Padded<Real, Size>(length).padded, scale,
+                        iteration));
+  }
+  [[nodiscard]] Real size() const override { return rule_.size; }
+
+ private:
+  typename NumericsOf<Real>::template FixedPoint<Size> rule_;
+};
+
+template <class Real, int Size>
+class MatrixOf final : public AnyMatrix<Real> {
+ public:
+  explicit MatrixOf(int size) {
+    for (int i = size; i < Size; ++i) matrix_.put(i, i, 1);
+  }
+  void put(int row, int column, Real value) override { matrix_.put(row, column, value); }
+  [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
+  void solve(std::span<Real> vector) const override {
+    Padded<Real, Size> all(vector);
+    matrix_.solve(all.padded);
+    std::copy_n(all.padded, vector.size(), vector.begin());
+  }
+
+ private:
+  typename NumericsOf<Real>::template Dense<Size> matrix_;
+};
+
+// make(std::integral_constant<int, N>) for the least power of two N that is not below the size.
+template <int Most, int N = 1, class Make>
+auto at_least(int size, const Make& make) {
+  if constexpr (N < Most) {
+    if (size > N) return at_least<Most, 2 * N>(size, make);
+  }
+  if (size > N) internal_error("a block too large to be interpreted");
+  return make(std::integral_constant<int, N>());
+}
+
+}  // namespace
+
+template <class Real>
+std::unique_ptr<AnyHistory<Real>> make_history(int size) {
+  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyHistory<Real>> {
+    return std::make_unique<HistoryOf<Real, decltype(n)::value>>();
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power) {
+  if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1>>();
+  return std::make_unique<NewtonRuleOf<Real, 2>>();
+}
+
+template <class Real>
+std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size) {
+  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyFixedPointRule<Real>> {
+    return std::make_unique<FixedPointRuleOf<Real, decltype(n)::value>>();
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyMatrix<Real>> make_matrix(int size) {
+  return at_least<256>(size, [size](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+    return std::make_unique<MatrixOf<Real, decltype(n)::value>>(size);
+  });
+}
+
+template std::unique_ptr<AnyHistory<float>> make_history(int);
+template std::unique_ptr<AnyHistory<double>> make_history(int);
+template std::unique_ptr<AnyHistory<long double>> make_history(int);
+template std::unique_ptr<AnyHistory<Quad>> make_history(int);
+template std::unique_ptr<AnyNewtonRule<float>> make_newton_rule(int);
+template std::unique_ptr<AnyNewtonRule<double>> make_newton_rule(int);
+template std::unique_ptr<AnyNewtonRule<long double>> make_newton_rule(int);
+template std::unique_ptr<AnyNewtonRule<Quad>> make_newton_rule(int);
+template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyMatrix<float>> make_matrix(int);
+template std::unique_ptr<AnyMatrix<double>> make_matrix(int);
+template std::unique_ptr<AnyMatrix<long double>> make_matrix(int);
+template std::unique_ptr<AnyMatrix<Quad>> make_matrix(int);
+
+}  // namespace hamgen

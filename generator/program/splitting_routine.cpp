@@ -1,0 +1,206 @@
+#include "generator/program/splitting_routine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/program/function_routines.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// dV/dq or dT/dp with what it takes of k.
+Routine half_gradient(const Environment& environment, const Coefficients& coefficients,
+                      const std::string& name, const Evaluation& evaluation) {
+  Routine routine = values_routine(environment, name, evaluation, StateForm::record, true);
+  routine.arguments.insert(routine.arguments.begin() + 1, {.name = "k", .record = "Coefficients"});
+  for (const auto& [symbol, place] : coefficients.places) routine.places[symbol] = place;
+  return routine;
+}
+
+// One of the two kinds of substeps: p -= kick dV/dq, or q += drift dT/dp.
+struct Kind {
+  bool kick = true;
+  Place gradient = {};  // where it stands
+  [[nodiscard]] const char* routine() const {
+    return kick ? "potential_gradient" : "kinetic_gradient";
+  }
+  [[nodiscard]] const char* lengths() const { return kick ? "kick" : "drift"; }
+};
+
+class SplittingRoutine {
+ public:
+  SplittingRoutine(const Environment& environment, const Program& program)
+      : environment_(environment),
+        program_(program),
+        n_(environment.degrees_of_freedom),
+        arrays_(program.plan.arrays.has_value()),
+        closed_(is_closed(program.sequence)) {
+    const std::vector<Substep>& substeps = program.sequence.substeps;
+    for (std::size_t i = 1; i < substeps.size(); ++i) {
+      if (substeps[i].kind == substeps[i - 1].kind)
+        internal_error("substeps that do not alternate");
+    }
+    first_.kick = substeps.front().kind == SubstepKind::kick;
+    first_.gradient = closed_ ? Place{"start", "value"} : Place{"first"};
+    second_.kick = !first_.kick;
+    second_.gradient = {"second"};
+  }
+
+  Routine build() {
+    routine_ = {.name = "solve",
+                .remark = {"dz = Z - z for one step from z + carry."},
+                .result = {.type = "StepReport", .object = "report"},
+                .arguments = {parameters_argument(),
+                              {.name = "k", .record = "Coefficients"},
+                              state_argument("z"),
+                              state_argument("carry")}};
+    if (closed_) {
+      routine_.arguments.push_back({.name = "start", .record = "Start", .changes = true});
+    }
+    routine_.arguments.push_back(state_argument("dz", true));
+    Body& body = routine_.body;
+    body.push_back({Copy{"State", "now", "z", true}});
+    // What rounding took from z is part of the step from the beginning.
+    body.push_back({Copy{"State", "dz", "carry"}});
+    for (const Kind& kind : {first_, second_}) {
+      if (kind.gradient.field.empty()) body.push_back({Array{kind.gradient.object, {n_}}});
+    }
+    const Place known{"start", "known"};
+    if (closed_) {
+      Body unknown;
+      add_call(unknown, first_);
+      body.push_back({If{known, false, std::move(unknown)}});
+      body.push_back({SetFlag{known, false}});
+    }
+    add_pairs(body);
+    Return end;
+    if (closed_) end.flag = known;
+    add_finite(end);
+    body.push_back({std::move(end)});
+    return std::move(routine_);
+  }
+
+ private:
+  void add_pairs(Body& body) {
+    const auto substeps = static_cast<int>(program_.sequence.substeps.size());
+    const int pairs = substeps / 2;
+    if (pairs == 1) {
+      add_pair(body, {0, {}});
+    } else {
+      Body loop;
+      add_pair(loop, {0, {{"i", 1}}});
+      body.push_back({For{{"i", {0, {}}, {pairs - 1, {}}}, std::move(loop)}});
+    }
+    if (closed_) add_change(body, first_, {pairs, {}}, true);
+  }
+
+  void add_pair(Body& body, const AffineIndex& substep) {
+    if (!closed_) add_call(body, first_);
+    add_change(body, first_, substep, false);
+    add_call(body, second_);
+    add_change(body, second_, substep, false);
+    if (closed_) add_call(body, first_);
+  }
+
+  void add_call(Body& body, const Kind& kind) const {
+    if (arrays_) {
+      body.push_back(
+          {Call{kind.routine(), {{"par"}, {"now", kind.kick ? "q" : "p"}, kind.gradient}}});
+    } else {
+      body.push_back({Call{kind.routine(), {{"par"}, {"k"}, {"now"}, kind.gradient}}});
+    }
+  }
+
+  Expression bind(const std::string& symbol, const Place& place) {
+    routine_.places.insert_or_assign(symbol, place);
+    return Expression::symbol(symbol, kRankOfTemporary);
+  }
+  Expression element(Place array, const AffineIndex& index) {
+    array.indices.push_back(index);
+    std::string symbol = to_text(array);
+    std::ranges::replace(symbol, '[', '(');
+    std::ranges::replace(symbol, ']', ')');
+    return bind(symbol, array);
+  }
+  // Component `index` of the coordinates or momenta of a state.
+  Expression component(const std::string& state, bool momentum, const AffineIndex& index) {
+    if (arrays_) return element({state, momentum ? "p" : "q"}, index);
+    const Place place =
+        environment_.place(state, static_cast<int>(index.constant) + (momentum ? n_ : 0));
+    return bind(to_text(place), place);
+  }
+
+  // The components of a kind that change: of a written-out system those with a slope.
+  [[nodiscard]] std::vector<AffineIndex> components(bool kick) const {
+    if (arrays_) return {{0, {{"j", 1}}}};
+    const Evaluation& gradient = kick ? program_.potential_gradient : program_.kinetic_gradient;
+    std::vector<AffineIndex> result;
+    for (int i = 0; i < n_; ++i) {
+      if (!gradient.results[static_cast<std::size_t>(i)].is_zero()) result.push_back({i, {}});
+    }
+    return result;
+  }
+
+  // dz -= kick dV/dq or dz += drift dT/dp, and the state there, unless nobody looks at it.
+  void add_change(Body& body, const Kind& kind, const AffineIndex& substep, bool last) {
+    Body inner;
+    Body& target = arrays_ ? inner : body;
+    for (const AffineIndex& i : components(kind.kick)) {
+      const Expression length = element({"k", kind.lengths()}, substep);
+      const Expression slope = element(kind.gradient, i);
+      const Expression dz = component("dz", kind.kick, i);
+      target.push_back({Accumulate{dz.name(), (kind.kick ? -length : length) * slope}});
+      if (last) continue;
+      target.push_back(
+          {Assign{component("now", kind.kick, i).name(), component("z", kind.kick, i) + dz}});
+    }
+    if (arrays_) body.push_back({For{{"j", {0, {}}, {n_ - 1, {}}}, std::move(inner)}});
+  }
+
+  void add_finite(Return& end) {
+    for (const bool momentum : {false, true}) {
+      for (const AffineIndex& i : components(momentum)) {
+        end.finite.push_back(component("dz", momentum, i).name());
+      }
+    }
+    if (arrays_) end.ranges = {{"j", {0, {}}, {n_ - 1, {}}}};
+  }
+
+  const Environment& environment_;
+  const Program& program_;
+  int n_;
+  bool arrays_, closed_;
+  Kind first_, second_;  // that comes first, and the other
+  Routine routine_;
+};
+
+}  // namespace
+
+std::vector<ScaledNumbers> splitting_lengths(const Sequence& sequence) {
+  return {{"kick", lengths_of(sequence, SubstepKind::kick)},
+          {"drift", lengths_of(sequence, SubstepKind::drift)}};
+}
+
+bool is_closed(const Sequence& sequence) {
+  return sequence.substeps.front().kind == sequence.substeps.back().kind;
+}
+
+std::vector<Routine> splitting_routines(const Environment& environment, const Program& program,
+                                        const Coefficients& coefficients) {
+  std::vector<Routine> routines;
+  if (!program.plan.arrays) {
+    routines.push_back(
+        half_gradient(environment, coefficients, "potential_gradient", program.potential_gradient));
+    routines.back().remark = {"dV/dq at z."};
+    routines.push_back(
+        half_gradient(environment, coefficients, "kinetic_gradient", program.kinetic_gradient));
+    routines.back().remark = {"dT/dp at z."};
+  }
+  routines.push_back(SplittingRoutine(environment, program).build());
+  return routines;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,193 @@
+#include "generator/program/step_code.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/program/coefficients.hpp"
+#include "generator/program/function_routines.hpp"
+#include "generator/program/runge_kutta_routine.hpp"
+#include "generator/program/solve_routine.hpp"
+#include "generator/program/splitting_routine.hpp"
+#include "generator/program/tangent_routine.hpp"
+
+namespace hamgen {
+
+namespace {
+
+Routine with_remark(Routine routine, std::string remark) {
+  routine.remark = {std::move(remark)};
+  return routine;
+}
+
+Routine modified_energies(const Environment& environment, const Program& program) {
+  Routine routine = values_routine(environment, "modified_energies", program.modified_energies);
+  routine.arguments.insert(routine.arguments.begin() + 1, {.name = "h"});
+  const std::vector<int>& powers = program.modified_powers;
+  std::string list;
+  for (const int power : powers) list += fmt::format("{}h^{}", list.empty() ? "" : ", ", power);
+  routine.remark = {fmt::format("The modified Hamiltonian H + h^{} (...) + ..., which steps of "
+                                "size h conserve as a formal",
+                                powers.front()),
+                    fmt::format("series, cut off after {}.", list)};
+  return routine;
+}
+
+Routine invariants(const Environment& environment, const Program& program) {
+  std::string list;
+  for (const NamedExpression& i : program.plan.equations.mechanics.invariants) {
+    list += (list.empty() ? "" : ", ") + i.name;
+  }
+  return with_remark(values_routine(environment, "invariants", program.invariants),
+                     "The model's invariants: " + list + ".");
+}
+
+// What is remembered from step to step.
+Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
+  Record start{
+      .name = "Start",
+      .fields = {{.name = "value", .sizes = {unknowns}},
+                 {.name = "known",
+                  .remark = "else the state itself is the start",
+                  .values = {0},
+                  .type = "bool"}},
+      .remark = {
+          "Start values of the implicit equations and what is remembered of their solution."}};
+  for (std::size_t s = 0; s < solves.size(); ++s) {
+    if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
+    start.fields.push_back({.name = fmt::format("rule_{}", s),
+                            .type = solves[s]->simplified ? "NewtonRule<1>" : "NewtonRule<2>"});
+  }
+  return start;
+}
+
+// The functions of the state of a system that is written out.
+void add_functions(StepCode& code, const Environment& environment, const Program& program) {
+  const Mechanics& mechanics = program.plan.equations.mechanics;
+  const bool array = std::holds_alternative<RungeKutta>(program.plan.equations.scheme.method);
+  code.routines.push_back(with_remark(
+      number_routine(environment, "energy", program.energy),
+      mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
+                         : "H(q, p)."));
+  if (!program.modified_powers.empty()) {
+    code.routines.push_back(modified_energies(environment, program));
+  }
+  code.routines.push_back(with_remark(values_routine(environment, "gradient", program.gradient),
+                                      "grad H, the derivatives by q first."));
+  if (array) {
+    code.routines.push_back(with_remark(
+        values_routine(environment, "vector_field", program.vector_field, StateForm::array),
+        "J grad H at a state (q, p)."));
+  }
+  if (program.plan.equations.scheme.has_member() && !program.plan.sweeps) return;
+  code.routines.push_back(
+      with_remark(hessian_routine(environment, program.hessian, program.hessian_places,
+                                  array ? StateForm::array : StateForm::record),
+                  "The second derivatives of H at z."));
+}
+
+void add_member(StepCode& code, const Environment& environment, const Program& program) {
+  const Coefficients coefficients = coefficients_of(environment, program);
+  std::vector<const Solve*> solves;
+  SolveParts parts{.coefficients = !coefficients.empty()};
+  bool large = false;
+  for (const Stage& stage : program.stages) {
+    solves.push_back(stage.solve ? &*stage.solve : nullptr);
+    if (!stage.solve) continue;
+    parts.inverse = parts.inverse || is_inverted(*stage.solve);
+    large = large || stage.solve->linear_solver == LinearSolver::eigen_dense;
+    if (stage.solve->kind == BlockKind::linear || stage.solve->sweeps) continue;
+    code.unknowns += static_cast<int>(stage.solve->variables.size());
+  }
+  parts.start = code.unknowns > 0;
+  if (parts.coefficients) {
+    code.records.push_back(coefficients.record);
+    code.routines.push_back(coefficients.prepare);
+  }
+  if (parts.start) code.records.push_back(start_record(solves, code.unknowns));
+  code.routines.push_back(solve_routine(environment, program, parts, coefficients.places));
+  const bool composed = !program.sequence.substeps.empty();
+  if (program.linearisation) {
+    code.routines.push_back(tangent_routine(environment, composed ? "substep_tangent" : "tangent",
+                                            *program.linearisation, large));
+  }
+  if (!composed) return;
+  code.substeps.clear();
+  for (const Substep& substep : program.sequence.substeps) {
+    code.substeps.push_back(numeric_value(substep.length));
+  }
+}
+
+void add_splitting(StepCode& code, const Environment& environment, const Program& program) {
+  const Sequence& sequence = program.sequence;
+  const Coefficients coefficients =
+      coefficients_of(environment, program, splitting_lengths(sequence));
+  code.records.push_back(coefficients.record);
+  code.routines.push_back(coefficients.prepare);
+  if (is_closed(sequence)) {
+    const bool kick = sequence.substeps.front().kind == SubstepKind::kick;
+    code.records.push_back(
+        {.name = "Start",
+         .fields = {{.name = "value", .sizes = {environment.degrees_of_freedom}},
+                    {.name = "known", .values = {0}, .type = "bool"}},
+         .remark = {fmt::format("The {} a step ends with is the one the next begins with.",
+                                kick ? "dV/dq" : "dT/dp")}});
+  }
+  for (Routine& routine : splitting_routines(environment, program, coefficients)) {
+    code.routines.push_back(std::move(routine));
+  }
+}
+
+// The fields of State that the places in `dz` of a routine are.
+void find_changed(StepCode& code, const Environment& environment) {
+  const Routine* solve = code.routine("solve");
+  for (int i = 0; solve != nullptr && i < 2 * environment.degrees_of_freedom; ++i) {
+    const Place place = environment.place("dz", i);
+    const bool changes = std::ranges::any_of(solve->places, [&](const auto& entry) {
+      return entry.second.object == "dz" && entry.second.field == place.field &&
+             (entry.second == place || !entry.second.indices.front().factors.empty());
+    });
+    if (changes) code.changed.push_back(environment.place("", i));
+  }
+}
+
+}  // namespace
+
+const Record* StepCode::record(std::string_view name) const {
+  const auto it = std::ranges::find(records, name, &Record::name);
+  return it == records.end() ? nullptr : &*it;
+}
+
+const Routine* StepCode::routine(std::string_view name) const {
+  const auto it = std::ranges::find(routines, name, &Routine::name);
+  return it == routines.end() ? nullptr : &*it;
+}
+
+StepCode step_code(const Program& program) {
+  const StepEquations& equations = program.plan.equations;
+  const Scheme& scheme = equations.scheme;
+  const bool arrays = program.plan.arrays.has_value();
+  const Environment environment = environment_of(equations, arrays);
+  StepCode code{.records = {environment.parameter_layout.record, environment.state_layout.record},
+                .routines = {},
+                .changed = {},
+                .parameters = {}};
+  for (const Quantity& parameter : environment.parameters) {
+    code.parameters.push_back(parameter.name);
+  }
+  if (!arrays) add_functions(code, environment, program);
+  if (!equations.mechanics.invariants.empty()) {
+    code.routines.push_back(invariants(environment, program));
+  }
+  if (std::holds_alternative<Splitting>(scheme.method)) {
+    add_splitting(code, environment, program);
+  } else if (scheme.has_member()) {
+    if (!arrays) add_member(code, environment, program);
+  } else if (!program.plan.stage_solver) {
+    code.routines.push_back(explicit_runge_kutta_routine(environment, program.sequence.stages));
+  }
+  find_changed(code, environment);
+  return code;
+}
+
+}  // namespace hamgen

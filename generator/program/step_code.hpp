@@ -1,0 +1,35 @@
+// What of a program is written, interpreted and proved: records, routines, and how a step uses
+// them.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "generator/program/code.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+// A step is
+//
+//   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
+//
+// with k_i = prepare(par, h_i), and start_i what substep i remembers of the step before.
+struct StepCode {
+  std::vector<Record> records;           // Parameters, State; Coefficients, Start where they are
+  std::vector<Routine> routines;         // in the order in which they use each other
+  std::vector<Rational> substeps = {1};  // h_i/h
+  int unknowns =
+      0;  // of the implicit equations, whose solutions are extrapolated from step to step
+  std::vector<Place> changed;  // fields of State that a step may change
+  std::vector<std::string>
+      parameters;  // in the order of their record; E0 last, if the step uses it
+
+  // Null if there is none of this name.
+  [[nodiscard]] const Record* record(std::string_view name) const;
+  [[nodiscard]] const Routine* routine(std::string_view name) const;
+};
+
+[[nodiscard]] StepCode step_code(const Program& program);
+
+}  // namespace hamgen

@@ -1,0 +1,103 @@
+// The interpreter against the compiled text: the same operations in the same order, so that every
+// bit of the state is the same; and what only the interpreter makes cheap enough, every scheme over
+// every scene.
+#include "generator/interpreter/interpreter.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/source_text.hpp"
+#include "generator/language/scene.hpp"
+#include "generator/pipeline.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "runtime/integrator.hpp"
+#include "runtime/load_plugin.hpp"
+
+namespace hamgen {
+namespace {
+
+namespace fs = std::filesystem;
+using Quad = __float128;
+
+SourceText shipped(const std::string& name) {
+  return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham");
+}
+
+struct Start {
+  std::vector<double> parameters, state;
+  double h = 0;
+};
+
+// A scene with the parameters that the step uses.
+Start start_of(const Model& model, const Scene& scene, const StepCode& code) {
+  const SceneValues values = scene_values(model, {.scene = scene.name});
+  Start start{.h = to_double(values.h.value_or(Rational(1, 100)))};
+  for (const Rational& value : values.q) start.state.push_back(to_double(value));
+  for (const Rational& value : values.p) start.state.push_back(to_double(value));
+  const std::vector<std::string> names = element_names(model.parameters);
+  for (const std::string& name : code.parameters) {
+    const auto it = std::ranges::find(names, name);
+    if (it == names.end()) throw std::runtime_error("no value for " + name);
+    start.parameters.push_back(
+        to_double(values.parameters.at(static_cast<std::size_t>(it - names.begin()))));
+  }
+  return start;
+}
+
+template <class Real>
+std::vector<Real> as(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+struct Case {
+  std::string model;
+  Request request;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.model << " " << c.request.scheme << c.request.solver;
+}
+
+class Compiled : public testing::TestWithParam<Case> {};
+
+TEST_P(Compiled, HasTheBitsThatAreInterpreted) {
+  const SourceText source = shipped(GetParam().model);
+  const StepCode code = make_step_code(source, GetParam().request);
+  const Model model = read_request(source, GetParam().request);
+  const Start start = start_of(model, model.scenes.front(), code);
+  Interpreter<double> interpreted(code, start.parameters, start.h, start.state);
+  const PluginSource plugin = generate_plugin(source, GetParam().request);
+  runtime::InitialValues initial{.h = {start.h, 0}};
+  for (const double value : start.parameters) initial.parameters.push_back({value, 0});
+  for (const double value : start.state) initial.state.push_back({value, 0});
+  runtime::Integrator compiled(
+      runtime::load_plugin({.text = plugin.text, .uses_eigen = plugin.needs_eigen},
+                           runtime::find_compiler(), {}, runtime::open_cache())
+          .library,
+      initial);
+  for (int step = 1; step <= 2000; ++step) {
+    const runtime::Report report = compiled.advance(1, false);
+    ASSERT_EQ(report.status, runtime::Status::done);
+    const Interpreter<double>::Report other = interpreted.step();
+    ASSERT_TRUE(other.converged);
+    ASSERT_EQ(other.iterations, report.iterations) << "in step " << step;
+    ASSERT_EQ(interpreted.state(), compiled.rounded_state()) << "after step " << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sample, Compiled,
+                         testing::Values(Case{"pendulum", {}}, Case{"double_pendulum", {}},
+                                         Case{"kepler", {.scheme = "yoshida-4"}},
+                                         Case{"henon_heiles", {.solver = "fixed-point"}},
+                                         Case{"kepler", {.scheme = "stormer-verlet"}},
+                                         Case{"toda", {.scheme = "mclachlan-4"}},
+                                         Case{"product", {.scheme = "rk4"}},
+                                         Case{"morse", {.order = 4}}));
+
+}  // namespace
+}  // namespace hamgen
