@@ -64,7 +64,7 @@ long step_count(const Rational& time, const Rational& h) {
 
 Setting read_setting(const BenchRequest& options) {
   Setting setting;
-  setting.source = read_model_source({.model = options.model});
+  setting.source = read_source(options.model);
   SizesAndRest set = split_sizes(read_model(setting.source), options.scene.set);
   setting.base.sizes = set.sizes;
   setting.model = read_model(setting.source, set.sizes);

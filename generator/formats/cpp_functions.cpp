@@ -63,7 +63,7 @@ void write_invariants(CodeWriter& out, CppContext& context) {
   if (invariants.empty()) return;
   std::string list;
   for (const NamedExpression& i : invariants) list += (list.empty() ? "" : ", ") + i.name;
-  out.line("// The model's invariants: " + list + ".");
+  out.remark("// The model's invariants: ", list + ".");
   write_evaluation(
       out, context,
       fmt::format("inline void invariants({}, Real (&values)[{}])", kArguments, invariants.size()),

@@ -1,8 +1,6 @@
 // The structs of an emitted file.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "generator/formats/cpp_context.hpp"
 #include "generator/formats/cpp_support.hpp"
 
@@ -12,7 +10,6 @@ namespace {
 
 std::string remark(const Quantity& quantity) {
   std::string text = quantity.comment;
-  std::ranges::replace(text, '\\', '/');
   if (!quantity.unit.empty()) text += (text.empty() ? "[" : " [") + quantity.unit + "]";
   return text;
 }
