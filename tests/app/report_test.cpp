@@ -83,17 +83,6 @@ TEST(Report, TakesStepsThatTheSceneDoesNotHaveAndSaysWhereItWasMeasured) {
     EXPECT_TRUE(contains(page, part)) << part;
 }
 
-TEST(Report, WhatTheUserWroteIsTextAndNotMarkup) {
-  const Scratch scratch;
-  std::string text = std::string(pendulum);
-  text.insert(0, "# <script>alert('a')</script> & more\n");
-  const std::string directory = scratch.path("out");
-  ASSERT_EQ(report(scratch.write("m.ham", text), directory).status, 0);
-  const std::string page = read(directory + "/report.html");
-  EXPECT_FALSE(contains(page, "<script"));
-  EXPECT_TRUE(contains(page, "&lt;script&gt;alert('a')&lt;/script&gt; &amp; more"));
-}
-
 // The attribute's value of a page inside a frame.
 std::string as_attribute(const std::string& page) {
   std::string text;
