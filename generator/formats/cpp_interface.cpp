@@ -204,7 +204,9 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line();
   out.line("}  // namespace");
   out.line();
-  out.line("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() { return &plugin; }");
+  out.open("extern \"C\" const hamgen_plugin* hamgen_plugin_entry()");
+  out.line("return hamgen_arithmetic_is_ieee() ? &plugin : nullptr;");
+  out.close();
 }
 
 }  // namespace hamgen
