@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/json_document.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -140,8 +142,9 @@ std::string csv_text(const Bench& bench) {
       "scheme,h,steps,outcome,s_per_time,time_spread,ns_per_step,iterations_per_step,"
       "gradients_per_step,"
       "max_energy_error,energy_spread,state_error",
-      HAMGEN_VERSION, bench.path, runtime::number_text(bench.time), reference_text(bench),
-      bench.provenance.machine, bench.provenance.compiler, bench.provenance.flags,
+      HAMGEN_VERSION, comment_text(bench.path), runtime::number_text(bench.time),
+      comment_text(reference_text(bench)), comment_text(bench.provenance.machine),
+      comment_text(bench.provenance.compiler), comment_text(bench.provenance.flags),
       bench.provenance.date);
   std::vector<std::string> names;
   for (const BenchMethod& method : bench.methods) {
@@ -156,9 +159,11 @@ std::string csv_text(const Bench& bench) {
       return timed ? runtime::number_text(value) : std::string();
     };
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}", runtime::csv_cell(bench.methods[row.method].spec),
-        runtime::number_text(to_double(row.h)), row.steps, runtime::csv_cell(row.outcome),
-        if_timed(time.seconds_per_time), if_timed(time.spread), if_timed(time.nanoseconds_per_step),
+        "{},{},{},{},{},{},{},{},{},{},{},{}",
+        runtime::csv_cell(visible_text(bench.methods[row.method].spec)),
+        runtime::number_text(to_double(row.h)), row.steps,
+        runtime::csv_cell(visible_text(row.outcome)), if_timed(time.seconds_per_time),
+        if_timed(time.spread), if_timed(time.nanoseconds_per_step),
         runtime::number_text(row.iterations_per_step), runtime::number_text(row.gradients_per_step),
         csv_number(row.energy_error), csv_number(row.energy_spread), csv_number(row.state_error));
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -200,7 +205,7 @@ std::string json_text(const Bench& bench) {
         {"row", bench.answer->row ? OrderedJson(*bench.answer->row) : OrderedJson(nullptr)},
         {"command", bench.answer->command}};
   }
-  return result.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  return json_document(result);
 }
 
 Plot picture_of(const Bench& bench) {

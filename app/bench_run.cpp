@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
+#include "app/load_integrator.hpp"
 #include "app/scheme_spec.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -64,7 +65,7 @@ long step_count(const Rational& time, const Rational& h) {
 
 Setting read_setting(const BenchRequest& options) {
   Setting setting;
-  setting.source = read_model_source({.model = options.model});
+  setting.source = read_source(options.model);
   SizesAndRest set = split_sizes(read_model(setting.source), options.scene.set);
   setting.base.sizes = set.sizes;
   setting.model = read_model(setting.source, set.sizes);
@@ -226,8 +227,7 @@ Bench run_bench(const BenchRequest& options) {
               .scene = setting.scene.name,
               .time = to_double(setting.time),
               .observed = observed};
-  bench.provenance = runtime::provenance_of(runtime::find_compiler(
-      options.compiler.empty() ? std::nullopt : std::optional(options.compiler)));
+  bench.provenance = runtime::provenance_of(chosen_compiler(options.compiler));
   bench.methods = methods_of(options, setting);
   for (std::size_t m = 0; m < bench.methods.size(); ++m) {
     for (const Rational& h : setting.steps) bench.rows.push_back(row_of(m, setting.time, h));

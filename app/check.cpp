@@ -7,6 +7,7 @@
 #include "app/initial_data.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "generator/formats/scalar.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
@@ -34,14 +35,14 @@ void check_scenes(const Model& model, const ScalarType& scalar) {
 }
 
 int check(const MethodOptions& options) {
-  const SourceText source = read_model_source(options);
+  const SourceText source = read_source(options.model);
   const Request request = request_with_sizes(options, source);
   const Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) print_error(render(model.warnings, source));
   check_scenes(model, find_scalar(request.scalar));
   check_step(source, request);
   print(fmt::format(
-      "{}: fine: {}, {}, {}, {}\n", options.model,
+      "{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
       counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),
       counted(static_cast<long>(element_names(model.parameters).size()), "parameter", "parameters"),
       counted(static_cast<long>(model.invariants.size()), "invariant", "invariants"),

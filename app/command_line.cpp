@@ -30,14 +30,6 @@ void require_no_member_besides_scheme(const MethodOptions& options) {
   }
 }
 
-// A value as one line of a C++ comment can hold it.
-std::string on_one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
-
 // A name given twice leaves open which value is meant.
 void require_once(std::string_view option, const std::vector<Assignment>& assignments) {
   std::map<std::string, std::string> values;
@@ -174,13 +166,6 @@ SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set
   return result;
 }
 
-SourceText read_model_source(const MethodOptions& options) {
-  if (on_one_line(options.model) != options.model)
-    throw UsageError(fmt::format("{}: a path with control characters cannot be quoted",
-                                 on_one_line(options.model)));
-  return read_source(options.model);
-}
-
 Request request_of(const MethodOptions& options) {
   require_no_member_besides_scheme(options);
   Request request;
@@ -243,7 +228,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
-  return on_one_line(runtime::command_text(words));
+  return runtime::command_text(words);
 }
 
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request) {

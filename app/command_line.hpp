@@ -89,9 +89,6 @@ struct SizesAndRest {
 };
 [[nodiscard]] SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set);
 
-// The model's text.  Throws UsageError if it cannot be read, or if its path has characters that the
-// emitted files, which quote it, cannot hold.
-[[nodiscard]] SourceText read_model_source(const MethodOptions& options);
 // The request without sizes.  Throws UsageError where the options contradict each other.
 [[nodiscard]] Request request_of(const MethodOptions& options);
 // The request of a command that knows no run-time values: --set is for sizes only.

@@ -1,8 +1,6 @@
 // hamgen generate: the emitted files, printed, written or compared with what is there.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 
@@ -11,7 +9,6 @@
 #include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/program/names.hpp"
 #include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
@@ -66,32 +63,10 @@ int print_only_file(const OutputFiles& files) {
   return done;
 }
 
-// "a::b" with names that C++ and the emitted code leave free.
-void require_namespace(const std::string& text) {
-  std::size_t begin = 0;
-  while (!text.empty()) {
-    const std::size_t end = text.find("::", begin);
-    const std::string name = text.substr(begin, end - begin);
-    const bool is_name =
-        !name.empty() && name.find("__") == std::string::npos && identifier(name) == name &&
-        std::ranges::all_of(name,
-                            [](unsigned char c) { return c == '_' || std::isalnum(c) != 0; }) &&
-        std::isdigit(static_cast<unsigned char>(name.front())) == 0;
-    if (!is_name)
-      throw UsageError(
-          fmt::format("--namespace {}: '{}' cannot name a namespace\nhelp: write --namespace "
-                      "my_models or --namespace my::models",
-                      text, name));
-    if (end == std::string::npos) return;
-    begin = end + 2;
-  }
-}
-
 int generate_files(const GenerateOptions& options) {
   if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
-  require_namespace(options.name_space);
-  const SourceText source = read_model_source(options.method);
+  const SourceText source = read_source(options.method.model);
   Request request = request_with_sizes(options.method, source);
   request.format = options.format;
   request.name_space = options.name_space;

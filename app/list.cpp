@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
+#include "app/json_document.hpp"
 #include "app/terminal.hpp"
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -106,7 +107,7 @@ int list(const std::string& what, bool json) {
       all[std::string(table.name)] = table.rows();
       text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", table.name, columns(table.rows()));
     }
-    print(json ? all.dump(2) + "\n" : text);
+    print(json ? json_document(all) : text);
     return done;
   }
   const auto table = std::ranges::find(tables, what, &Table::name);
@@ -115,7 +116,7 @@ int list(const std::string& what, bool json) {
         fmt::format("list {}: no such list\nhelp: the lists are functions, schemes, solvers and "
                     "formats",
                     what));
-  print(json ? table->rows().dump(2) + "\n" : columns(table->rows()));
+  print(json ? json_document(table->rows()) : columns(table->rows()));
   return done;
 }
 

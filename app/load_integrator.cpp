@@ -1,10 +1,24 @@
 #include "app/load_integrator.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <span>
 
 #include "app/interrupt.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "runtime/arithmetic.hpp"
 
 namespace hamgen::app {
+
+runtime::Compiler chosen_compiler(const std::string& choice) {
+  runtime::Compiler compiler =
+      runtime::find_compiler(choice.empty() ? std::nullopt : std::optional(choice));
+  const auto arguments = std::span(compiler.command).subspan(1);
+  if (const std::optional<std::string> reason = runtime::refused_flag(arguments))
+    throw UsageError(fmt::format("{}: {}", compiler.chosen_by, *reason));
+  return compiler;
+}
 
 runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const std::string& compiler) {
   runtime::PluginSource source;
@@ -13,10 +27,7 @@ runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const std::str
   source.uses_quadmath = plugin.needs_quadmath;
   runtime::CompileOptions options;
   options.stop = &interrupt_flag();
-  const std::optional<std::string> choice =
-      compiler.empty() ? std::nullopt : std::optional(compiler);
-  return runtime::load_plugin(source, runtime::find_compiler(choice), options,
-                              runtime::open_cache());
+  return runtime::load_plugin(source, chosen_compiler(compiler), options, runtime::open_cache());
 }
 
 }  // namespace hamgen::app

@@ -8,8 +8,12 @@
 
 namespace hamgen::app {
 
+// The compiler to use; `choice` is --compiler, empty for the default.  Throws UsageError if flags
+// that came with it would change what the arithmetic means, ToolError if it is not there.
+[[nodiscard]] runtime::Compiler chosen_compiler(const std::string& choice);
+
 // Compiles the plugin, or takes it from the cache, and loads it; an interrupt stops the compiler.
-// `compiler` is empty for the default.  Throws ToolError.
+// `compiler` is as for chosen_compiler.  Throws ToolError, and what chosen_compiler throws.
 [[nodiscard]] runtime::LoadedPlugin load_integrator(const PluginSource& plugin,
                                                     const std::string& compiler);
 

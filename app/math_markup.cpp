@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "generator/language/model.hpp"
 
 namespace hamgen::app {
@@ -168,29 +169,6 @@ std::string math_name(std::string_view name) {
 
 std::string math_markup(const NodePtr& node) {
   return std::visit([](const auto& each) { return markup_of(each); }, node->value);
-}
-
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 }  // namespace hamgen::app

@@ -14,7 +14,4 @@ namespace hamgen::app {
 // A name alone, in the same way.
 [[nodiscard]] std::string math_name(std::string_view name);
 
-// Text with the characters that mean something in HTML replaced.
-[[nodiscard]] std::string html_text(std::string_view text);
-
 }  // namespace hamgen::app

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/interrupt.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "runtime/process.hpp"
 #include "runtime/tool_error.hpp"
 
@@ -22,16 +23,6 @@ constexpr std::array<std::string_view, 8> kColours = {"#0072B2", "#D55E00", "#00
 constexpr std::array<std::string_view, 5> kDashes = {"1", "(8,3)", "(2.5,2.5)", "(10,3,2,3)",
                                                      "(16,4)"};
 constexpr std::array<int, 8> kMarkers = {7, 5, 9, 13, 6, 4, 8, 12};
-
-// Single quotes: gnuplot then looks for neither escapes nor shell commands in backquotes.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += c;
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "'";
-}
 
 bool drawable(const PlotPanel& panel, const PlotPoint& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) &&
@@ -163,9 +154,9 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
   std::size_t longest = 0;
   for (const EndLabel& label : labels) longest = std::max(longest, label.text.size());
 
-  std::string text =
-      fmt::format("\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                  quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label));
+  std::string text = fmt::format(
+      "\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+      gnuplot_text(panel.title), gnuplot_text(panel.x_label), gnuplot_text(panel.y_label));
   const auto axis = [](char name, bool logarithmic, const Range& range) {
     const double decades = std::log10(range.high / range.low);
     return fmt::format(
@@ -185,7 +176,8 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
     text += fmt::format(
         "set label {} at graph 1.03, graph {:.4f} noenhanced textcolor rgb '{}' point lc rgb '{}' "
         "pt {} ps 0.7 offset 0.8,0\n",
-        quoted(label.text), label.height, colour, colour, kMarkers[label.series % kMarkers.size()]);
+        gnuplot_text(label.text), label.height, colour, colour,
+        kMarkers[label.series % kMarkers.size()]);
   }
   std::string plots;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -210,7 +202,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
       "set grid lc rgb '#DDDDDD' lw 0.6 dt 1\nset samples 2\n",
       png ? "pngcairo" : "svg", factor * plot.width * static_cast<int>(count), factor * plot.height,
       png ? "Sans" : "Helvetica, Arial, sans-serif", png ? 11 : 14,
-      png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", quoted(output));
+      png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", gnuplot_path(output));
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
   text += fmt::format("set multiplot layout 1,{}\n", count);
   for (std::size_t i = 0; i < count; ++i)

@@ -96,7 +96,7 @@ Proof linear_part(const SourceText& source, const Request& request, const SceneV
 }
 
 int report(const ReportOptions& options) {
-  const SourceText source = read_model_source(options.method);
+  const SourceText source = read_source(options.method.model);
   SizesAndRest set = split_sizes(read_model(source), options.scene.set);
   Request request = request_of(options.method);
   request.sizes = set.sizes;

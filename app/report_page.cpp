@@ -7,6 +7,7 @@
 
 #include "app/math_markup.hpp"
 #include "app/report_style.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "generator/language/read_model.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -66,7 +67,9 @@ std::string introduction(const Model& model) {
   const std::string& source = model.source.text;
   for (std::size_t at = 0; at < source.size() && source[at] == '#';) {
     const std::size_t end = std::min(source.find('\n', at), source.size());
-    text += html_text(std::string_view(source).substr(at + 1, end - at - 1));
+    std::string_view line = std::string_view(source).substr(at + 1, end - at - 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    text += html_text(line);
     at = end + 1;
   }
   return text.empty() ? "" : "<p class='lead'>" + text + "</p>\n";

@@ -133,7 +133,7 @@ int run(const RunOptions& options) {
     throw UsageError(
         "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
         "FILE.csv");
-  const SourceText source = read_model_source(options.method);
+  const SourceText source = read_source(options.method.model);
   std::error_code missing;
   if (std::filesystem::equivalent(options.output, options.method.model, missing))
     throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",

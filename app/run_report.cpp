@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/initial_data.hpp"
+#include "app/json_document.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -223,7 +224,7 @@ std::string json_text(const RunReport& report) {
                     {"run_s", summary.total_seconds},
                     {"ns_per_step", summary.nanoseconds_per_step()},
                     {"from_cache", report.from_cache}};
-  return result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_document(result);
 }
 
 }  // namespace hamgen::app

@@ -19,7 +19,7 @@ int show(const MethodOptions& options, const std::string& stage) {
   if (std::ranges::find(stages, stage) == stages.end())
     throw UsageError(fmt::format("--stage {}: no such stage\nhelp: the stages are {}", stage,
                                  fmt::join(stages, ", ")));
-  const SourceText source = read_model_source(options);
+  const SourceText source = read_source(options.model);
   std::string text = show_stage(source, request_with_sizes(options, source), stage);
   if (!text.ends_with('\n')) text += '\n';
   print(text);

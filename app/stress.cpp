@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "app/interrupt.hpp"
+#include "app/load_integrator.hpp"
 #include "app/plot.hpp"
 #include "app/stress_domain.hpp"
 #include "app/stress_grid.hpp"
@@ -28,14 +29,13 @@ namespace {
 constexpr unsigned kThreads = 2;
 
 StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
-  StressMap map{
-      .model = grid.plugin().model.name,
-      .scene = grid.scene_name(),
-      .method = grid.plugin().scheme_name,
-      .axes = grid.axes(),
-      .steps = limits.steps,
-      .compiler = fmt::format("{} {}", runtime::compiler_version(runtime::find_compiler()),
-                              fmt::join(runtime::compile_flags({}, {}), " "))};
+  StressMap map{.model = grid.plugin().model.name,
+                .scene = grid.scene_name(),
+                .method = grid.plugin().scheme_name,
+                .axes = grid.axes(),
+                .steps = limits.steps,
+                .compiler = fmt::format("{} {}", runtime::compiler_version(chosen_compiler("")),
+                                        fmt::join(runtime::compile_flags({}, {}), " "))};
   map.cells.resize(map.columns() * map.rows());
   return map;
 }

@@ -122,7 +122,7 @@ std::optional<double> member_number(const std::string& text, double fallback,
 
 StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(axes_of(options)) {
   options_.method = with_run_time_members(options.method, axes_);
-  const SourceText source = read_model_source(options_.method);
+  const SourceText source = read_source(options_.method.model);
   Request request = request_of(options_.method);
   set_ = split_sizes(read_model(source), options_.scene.set);
   request.sizes = set_.sizes;

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/json_document.hpp"
 #include "app/stress.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -180,7 +182,8 @@ std::string stress_csv(const StressMap& map) {
                         cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "",
                         number_or_empty(cell.state_error),
                         cell.state_error ? runtime::number_text(cell.state_scale) : "",
-                        runtime::csv_cell(cell.state_missing), runtime::csv_cell(cell.reason));
+                        runtime::csv_cell(visible_text(cell.state_missing)),
+                        runtime::csv_cell(visible_text(cell.reason)));
   }
   return text;
 }
@@ -217,7 +220,7 @@ std::string stress_json(const StressMap& map) {
       {"model", map.model}, {"scene", map.scene},           {"method", map.method},
       {"steps", map.steps}, {"references", map.references}, {"compiler", map.compiler},
       {"cells", cells}};
-  return json.dump(2) + "\n";
+  return json_document(json);
 }
 
 }  // namespace hamgen::app

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/stress.hpp"
+#include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -88,16 +89,6 @@ std::vector<double> borders(const StressAxis& axis) {
   return result;
 }
 
-// Single quotes: gnuplot then looks for neither escapes nor commands.
-std::string in_quotes(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += c;
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "'";
-}
-
 std::string range_text(char name, const StressAxis& axis, const std::vector<double>& border) {
   return fmt::format("{0} logscale {1}\nset format {1} '{2}'\nset {1}range [{3:.9g}:{4:.9g}]\n",
                      axis.logarithmic ? "set" : "unset", name,
@@ -171,10 +162,10 @@ std::string stress_script(const StressMap& map, const std::string& output) {
           : fmt::format("svg size {},400 dynamic enhanced font 'Helvetica, Arial, sans-serif,12' "
                         "background rgb 'white'",
                         width),
-      in_quotes(output),
-      in_quotes(fmt::format("{}{}: {}, {} steps a cell", map.model,
-                            map.scene.empty() ? "" : ", " + map.scene, map.method, map.steps)),
-      in_quotes(axis_label(map.axes[0])));
+      gnuplot_path(output),
+      gnuplot_text(fmt::format("{}{}: {}, {} steps a cell", map.model,
+                               map.scene.empty() ? "" : ", " + map.scene, map.method, map.steps)),
+      gnuplot_text(axis_label(map.axes[0])));
   text += range_text('x', map.axes[0], borders(map.axes[0])) + range_text('y', down, borders(down));
   if (map.axes.size() == 1) text += "unset ytics\n";
   if (!map.linear_bound.empty()) {
@@ -196,8 +187,8 @@ std::string stress_script(const StressMap& map, const std::string& output) {
         "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
         "set tmargin at screen 0.83\nset bmargin at screen 0.16\n"
         "set title {}\nset ylabel {} noenhanced\n",
-        begin / width, (begin + share) / width, in_quotes(panels[i].title),
-        in_quotes(i == 0 ? axis_label(down) : ""));
+        begin / width, (begin + share) / width, gnuplot_text(panels[i].title),
+        gnuplot_text(i == 0 ? axis_label(down) : ""));
     text += is_last ? fmt::format(
                           "set key at screen {:.4f},0.83 left top Left reverse noenhanced "
                           "samplen 1.5\n",

@@ -2,7 +2,9 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <string>
 
+#include "generator/base/quoted_text.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -13,13 +15,14 @@ void print_buffered(std::string_view text) {
 }
 
 void print(std::string_view text) {
-  print_buffered(text);
+  print_buffered(visible_lines(text));
   if (std::fflush(stdout) != 0) throw runtime::file_error("write to", "standard output", errno);
 }
 
 void print_error(std::string_view text) {
   std::fflush(stdout);
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  const std::string shown = visible_lines(text);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 }  // namespace hamgen::app

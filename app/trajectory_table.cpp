@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/terminal.hpp"
+#include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -19,9 +20,10 @@ std::vector<std::string> column_names(const Columns& columns) {
   return names;
 }
 
-std::string remark_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return "# " + text + "\n";
+std::vector<std::string> comment_texts(const std::vector<std::string>& metadata) {
+  std::vector<std::string> texts;
+  for (const std::string& line : metadata) texts.push_back(comment_text(line));
+  return texts;
 }
 
 }  // namespace
@@ -31,11 +33,11 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
     : columns_(std::move(columns)) {
   const std::vector<std::string> names = column_names(columns_);
   if (target != "-") {
-    file_ = std::make_unique<runtime::CsvWriter>(target, metadata, names);
+    file_ = std::make_unique<runtime::CsvWriter>(target, comment_texts(metadata), names);
     return;
   }
   std::string head;
-  for (const std::string& line : metadata) head += remark_line(line);
+  for (const std::string& line : comment_texts(metadata)) head += "# " + line + "\n";
   print(fmt::format("{}{}\n", head, fmt::join(names, ",")));
 }
 
@@ -56,9 +58,9 @@ void TrajectoryTable::add(const runtime::Record& record) {
 
 void TrajectoryTable::publish(const std::string& remark) {
   if (file_) {
-    file_->publish(remark);
+    file_->publish(comment_text(remark));
   } else {
-    print(remark.empty() ? "" : remark_line(remark));
+    print(remark.empty() ? "" : "# " + comment_text(remark) + "\n");
   }
 }
 

@@ -16,6 +16,7 @@
 #include "app/tune_polish.hpp"
 #include "app/tune_report.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "generator/language/read_model.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/csv_writer.hpp"
@@ -63,7 +64,7 @@ GaugeForm form_of(const std::string& text) {
 // The run ends after a whole number of steps: h stays, the time gives way.
 TuneSetting tune_setting(const TuneOptions& options) {
   TuneSetting setting;
-  setting.source = read_model_source({.model = options.model});
+  setting.source = read_source(options.model);
   SizesAndRest set = split_sizes(read_model(setting.source), options.scene.set);
   setting.base.sizes = set.sizes;
   setting.base.scalar = options.scalar;
@@ -316,7 +317,7 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
   const std::string header = fmt::format("# made by   hamgen " HAMGEN_VERSION
                                          "\n# {}\n# beta = b*h, gamma = c*h; energy_spread is max "
                                          "H - min H, empty where the run failed\n",
-                                         title);
+                                         comment_text(title));
   runtime::atomic_write(csv, map_csv(map, header));
   if (std::ranges::none_of(map.spread, is_drawn)) {
     print_error("hamgen: no picture: nowhere on the map is there an energy error to draw\n");

@@ -6,15 +6,10 @@
 #include <iterator>
 
 #include "app/tune_map.hpp"
+#include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {
 namespace {
-
-std::string gnuplot_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
 
 // About five ticks, at multiples of 1, 2 or 5 times a power of ten.
 double tick_distance(const MapAxis& axis) {
@@ -55,7 +50,7 @@ std::string mark(const MapPoint& point, int shape, const std::string& title) {
   return fmt::format(
       ", \\\n  {0} ps 2.6 lw 6 lc rgb 'white' notitle"
       ", \\\n  {0} ps 2.4 lw 2.5 lc rgb 'black' title {1}",
-      at, gnuplot_quoted(title));
+      at, gnuplot_text(title));
 }
 
 std::string what_stays_bounded(const EnergyMap& map) {
@@ -90,8 +85,8 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set rmargin at screen 0.79\nset lmargin at screen 0.12\n"
       "set tmargin at screen 0.92\nset bmargin at screen 0.25\n"
       "set key at screen 0.455,0.11 center top horizontal maxcols 2 noenhanced\n",
-      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", gnuplot_quoted(output),
-      gnuplot_quoted(title), what_stays_bounded(map), svg ? 2 : 1);
+      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", gnuplot_path(output),
+      gnuplot_text(title), what_stays_bounded(map), svg ? 2 : 1);
   text += map_range("x", map.b) + map_range("y", map.c);
   std::vector<double> drawn;
   std::ranges::copy_if(map.spread, std::back_inserter(drawn), is_drawn);

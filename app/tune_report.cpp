@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/json_document.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -170,7 +171,7 @@ std::string tune_json(const TuneReport& report) {
                      {"evaluations", report.evaluations},
                      {"polish_ended", report.polish_ended},
                      {"command", report.command}};
-  return json.dump(2) + "\n";
+  return json_document(json);
 }
 
 }  // namespace hamgen::app

@@ -5,6 +5,7 @@
 
 #include "app/command_line.hpp"
 #include "app/initial_data.hpp"
+#include "app/json_document.hpp"
 #include "app/measure.hpp"
 #include "app/modified_energy.hpp"
 #include "app/terminal.hpp"
@@ -85,7 +86,7 @@ void add_beside(Proof& proof, const Finding& measured) {
 }
 
 int verify(const VerifyOptions& options) {
-  const SourceText source = read_model_source(options.method);
+  const SourceText source = read_source(options.method.model);
   Request request = request_with_sizes(options.method, source);
   request.tangent = options.measure;  // then it is read back as well
   Proof proof = verify_step(source, request);
@@ -127,7 +128,7 @@ int verify(const VerifyOptions& options) {
     rows.push_back(report.json);
     text += report.text;
   }
-  print(options.json ? rows.dump(2) + "\n" : text);
+  print(options.json ? json_document(rows) : text);
   require(proof, options.required);
   return holds ? done : proof_failed;
 }

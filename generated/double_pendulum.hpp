@@ -16,6 +16,18 @@
 #pragma once
 #include <cmath>
 
+#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ || \
+    defined __NO_SIGNED_ZEROS__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ > 0)
+#error "what rounding loses is kept here: compile without -ffast-math, -Ofast and parts of them"
+#endif
+#if defined __FLT_EVAL_METHOD__ && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ == 2)
+#error "numbers must not be kept in wider registers: compile with -msse2 -mfpmath=sse"
+#endif
+#ifdef __clang__  // which has no macro for -fassociative-math
+#pragma float_control(push)
+#pragma clang fp reassociate(off)
+#endif
+
 namespace double_pendulum::symplectic_euler_a {
 
 using Real = double;
@@ -324,3 +336,7 @@ class Propagator {
 };
 
 }  // namespace double_pendulum::symplectic_euler_a
+
+#ifdef __clang__
+#pragma float_control(pop)
+#endif

@@ -19,6 +19,18 @@
 #pragma once
 #include <cmath>
 
+#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ || \
+    defined __NO_SIGNED_ZEROS__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ > 0)
+#error "what rounding loses is kept here: compile without -ffast-math, -Ofast and parts of them"
+#endif
+#if defined __FLT_EVAL_METHOD__ && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ == 2)
+#error "numbers must not be kept in wider registers: compile with -msse2 -mfpmath=sse"
+#endif
+#ifdef __clang__  // which has no macro for -fassociative-math
+#pragma float_control(push)
+#pragma clang fp reassociate(off)
+#endif
+
 namespace fput::implicit_midpoint {
 
 using Real = double;
@@ -411,3 +423,7 @@ class Propagator {
 };
 
 }  // namespace fput::implicit_midpoint
+
+#ifdef __clang__
+#pragma float_control(pop)
+#endif

@@ -43,13 +43,10 @@ const Scheme& named_scheme(const std::string& name) {
                                near.empty() ? "" : ", did you mean '" + near + "'?"));
 }
 
-// The member of the request; in its description the user's own words: 0.03, not 3/100.
+// The member of the request.
 Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
   if (request.gauge.starts_with('[')) {
-    Scheme scheme =
-        member_of_matrix(mechanics.degrees_of_freedom, read_gauge_matrix(model, request.gauge));
-    scheme.description = "C = " + request.gauge;
-    return scheme;
+    return read_gauge_matrix(model, request.gauge);
   }
   if (!request.gauge.empty()) {
     return locally_exact_member(mechanics, read_reference(model, request.reference));
@@ -57,11 +54,9 @@ Scheme requested_member(const Model& model, const Mechanics& mechanics, const Re
   const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
   const std::string beta = request.beta.empty() ? "0" : request.beta;
   const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
-  Scheme scheme =
-      family_member(mechanics.degrees_of_freedom, read_gauge_block(model, "alpha", alpha),
-                    read_gauge_block(model, "beta", beta), read_gauge_block(model, "gamma", gamma));
-  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", alpha, beta, gamma);
-  return scheme;
+  return family_member(mechanics.degrees_of_freedom, read_gauge_block(model, "alpha", alpha),
+                       read_gauge_block(model, "beta", beta),
+                       read_gauge_block(model, "gamma", gamma));
 }
 
 Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {

@@ -114,7 +114,9 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
                      .name_space = request.name_space,
                      .tangent = request.tangent && !without_tangent(program),
                      .watched_step = request.step};
-  if (options.name_space.empty()) {
+  if (!options.name_space.empty()) {
+    require_namespace(options.name_space);
+  } else {
     const StepEquations& equations = program.plan.equations;
     std::string scheme = equations.scheme.name;
     std::ranges::replace(scheme, '-', '_');

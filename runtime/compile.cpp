@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
+#include "runtime/arithmetic.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/plugin_header.hpp"
 #include "runtime/process.hpp"
@@ -29,17 +31,6 @@ constexpr std::array<const char*, 8> kFlags = {"-std=c++20",
                                                "-fno-math-errno",
                                                "-fno-semantic-interposition"};
 
-// Besides rounding differently, linking with the first three makes GCC set "flush to zero" for the
-// whole process that loads the object.
-constexpr std::array<std::string_view, 8> kRefused = {"-ffast-math",
-                                                      "-Ofast",
-                                                      "-funsafe-math-optimizations",
-                                                      "-fassociative-math",
-                                                      "-ffinite-math-only",
-                                                      "-freciprocal-math",
-                                                      "-fno-signed-zeros",
-                                                      "-fcx-limited-range"};
-
 // Note [one exported symbol]
 // Two plugins of one model define the same inline functions.  Were they visible, the dynamic linker
 // would let the first definition, or one in the host, stand in for the others.
@@ -53,6 +44,11 @@ void check_name(const std::string& name) {
   }
 }
 
+void refuse_flags(std::span<const std::string> flags) {
+  if (const std::optional<std::string> reason = refused_flag(flags))
+    throw ToolError({.message = *reason});
+}
+
 void write_file(const std::filesystem::path& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);
@@ -63,15 +59,8 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
 
 std::vector<std::string> compile_flags(const PluginSource& source, const CompileOptions& options) {
   std::vector<std::string> flags(kFlags.begin(), kFlags.end());
-  for (const std::string& flag : options.extra_flags) {
-    if (std::ranges::find(kRefused, flag) != kRefused.end()) {
-      throw ToolError({.message = fmt::format("the compiler flag '{}' is refused: it changes the "
-                                              "meaning of the arithmetic, and the methods' "
-                                              "properties would not hold",
-                                              flag)});
-    }
-    flags.push_back(flag);
-  }
+  refuse_flags(options.extra_flags);
+  flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
   if (source.uses_eigen) {
     flags.push_back("-isystem");
     flags.push_back(std::filesystem::absolute(options.eigen_include).string());
@@ -92,6 +81,7 @@ void write_sources(const PluginSource& source, const std::filesystem::path& dire
 std::filesystem::path compile_sources(const PluginSource& source, const Compiler& compiler,
                                       const CompileOptions& options,
                                       const std::filesystem::path& directory) {
+  refuse_flags(std::span(compiler.command).subspan(1));
   ProcessRequest request{.command = compiler.command,
                          .working_directory = directory,
                          .time_limit = options.time_limit,

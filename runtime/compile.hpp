@@ -33,7 +33,7 @@ struct CompileOptions {
 };
 
 // The flags for a source, without file names.  Throws ToolError if an extra flag would change what
-// the arithmetic means (-ffast-math and its parts).
+// the arithmetic means (runtime/arithmetic.hpp).
 [[nodiscard]] std::vector<std::string> compile_flags(const PluginSource& source,
                                                      const CompileOptions& options);
 
@@ -41,7 +41,8 @@ struct CompileOptions {
 void write_sources(const PluginSource& source, const std::filesystem::path& directory);
 
 // Compiles what write_sources wrote and returns the path of the object, in the same directory.
-// Throws ToolError with the command, the exit status and the end of the compiler's output.
+// Throws ToolError with the command, the exit status and the end of the compiler's output, or if an
+// argument that came with the compiler would change what the arithmetic means.
 [[nodiscard]] std::filesystem::path compile_sources(const PluginSource& source,
                                                     const Compiler& compiler,
                                                     const CompileOptions& options,

@@ -32,13 +32,6 @@ void append_remark(std::string& text, std::string_view remark) {
   text += '\n';
 }
 
-std::string column_text(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
-}
-
 }  // namespace
 
 std::string number_text(double value) {
@@ -54,7 +47,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& target, std::span<const std::s
   for (const std::string& remark : metadata) append_remark(line_, remark);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) line_ += ',';
-    line_ += column_text(columns[i]);
+    line_ += csv_cell(columns[i]);
   }
   line_ += '\n';
   file_.write(line_);
@@ -86,10 +79,11 @@ void CsvWriter::publish(std::string_view last_remark) {
 }
 
 std::string csv_cell(std::string text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
     text.insert(at, 1, '"');
-  std::ranges::replace(text, '\n', ' ');
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return '"' + text + '"';
 }
 

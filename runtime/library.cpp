@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "runtime/arithmetic.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::runtime {
@@ -28,16 +29,39 @@ bool is_complete(const hamgen_plugin& plugin) {
 void Library::Close::operator()(void* handle) const { ::dlclose(handle); }
 
 Library::Library(const std::filesystem::path& object) {
-  // Without a slash dlopen would search the system's directories.
-  handle_.reset(::dlopen(std::filesystem::absolute(object).c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!environment_is_ieee())
+    throw_not_loaded(object,
+                     "this thread does not round to nearest, or takes subnormal numbers for zero\n"
+                     "help: fesetenv(FE_DFL_ENV) before integrators are loaded and run");
+  bool is_ieee_after = false;
+  {
+    // The object may have been linked with code that changes the environment as it is loaded, as
+    // the compilers do for -ffast-math.
+    const KeptEnvironment kept;
+    // Without a slash dlopen would search the system's directories.
+    handle_.reset(::dlopen(std::filesystem::absolute(object).c_str(), RTLD_NOW | RTLD_LOCAL));
+    is_ieee_after = environment_is_ieee();
+  }
   if (!handle_) {
     const char* const reason = ::dlerror();
     throw_not_loaded(object, reason != nullptr ? reason : "unknown reason");
   }
+  if (!is_ieee_after) {
+    throw_not_loaded(object,
+                     "it makes subnormal numbers zero or changes the rounding in the whole "
+                     "program: its compiler adds -ffast-math, -Ofast or parts of them\n"
+                     "help: compile it without them");
+  }
   void* const symbol = ::dlsym(handle_.get(), "hamgen_plugin_entry");
   if (symbol == nullptr) throw_not_loaded(object, "it is no hamgen plugin");
   plugin_ = reinterpret_cast<hamgen_plugin_entry_type>(symbol)();
-  if (plugin_ == nullptr) throw_not_loaded(object, "its table of functions is missing");
+  if (plugin_ == nullptr) {
+    throw_not_loaded(object,
+                     "its table of functions is missing: it was compiled with flags that change "
+                     "what the arithmetic means, so that sums, quotients, signed zeros or NaN are "
+                     "not those of IEEE 754\n"
+                     "help: compile it without -ffast-math, -Ofast and parts of them");
+  }
   // The version comes first: the other fields mean something only if it is ours.
   if (plugin_->version != HAMGEN_PLUGIN_VERSION) {
     throw_not_loaded(object,

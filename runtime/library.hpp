@@ -14,7 +14,9 @@ namespace hamgen::runtime {
 // Keeps the shared object loaded as long as it lives.  Integrators share it.
 class Library {
  public:
-  // Throws ToolError if the object cannot be loaded, is no plugin, or is of another version.
+  // Throws ToolError if the object cannot be loaded, is no plugin, or is of another version; and if
+  // its arithmetic is not IEEE 754's, or that of the calling thread is not (the thread's
+  // floating-point environment stays what it was).
   explicit Library(const std::filesystem::path& object);
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;

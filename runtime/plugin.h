@@ -2,7 +2,10 @@
  *
  * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  States
  * and parameters cross the interface as doubles; for wider scalars every value is hi + lo, with
- * `lo` pointers that may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values). */
+ * `lo` pointers that may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
+ *
+ * hamgen_plugin_entry returns null where hamgen_arithmetic_is_ieee() is 0: the plugin then was
+ * compiled with flags, such as -ffast-math, under which its methods are not what they claim. */
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
@@ -64,6 +67,22 @@ struct hamgen_plugin {
 };
 
 typedef const struct hamgen_plugin* (*hamgen_plugin_entry_type)(void);
+
+/* 1 if, where this is compiled, a sum is not reordered, a quotient is not a product with a
+ * reciprocal, zero has its sign and NaN is not equal to itself.  The operands are volatile: to the
+ * compiler they could be anything. */
+static inline int hamgen_arithmetic_is_ieee(void) {
+  const volatile double operands[6] = {1.0, 1e-18, 49.0, 98.0, -0.0, __builtin_nan("")};
+  const double a = operands[0], b = operands[1], y = operands[2], minus_zero = operands[4];
+  const double nan = operands[5];
+  /* a + b = 1, and what rounding lost of it is b. */
+  const double sum = a + b, part = sum - a;
+  const double lost = (a - (sum - part)) + (b - part);
+  /* 49*(1/49) is not 1. */
+  const double one = operands[2] / y, two = operands[3] / y;
+  return lost == b && one == 1.0 && two == 2.0 && !__builtin_signbit(minus_zero + 0.0) &&
+         nan != nan;
+}
 
 #ifdef __cplusplus
 }

@@ -22,8 +22,25 @@ bool is_plain(char c) {
          std::string_view("-_./=+,:@%").find(c) != std::string_view::npos;
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
+// $'...' of POSIX.1-2024, bash, ksh and zsh: the one form that has no control character in it.
+std::string quoted_controls(const std::string& word) {
+  std::string text = "$'";
+  for (const char c : word) {
+    if (is_control(c)) {
+      text += c == '\n' ? "\\n" : fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    } else {
+      if (c == '\'' || c == '\\') text += '\\';
+      text += c;
+    }
+  }
+  return text + "'";
+}
+
 std::string quoted(const std::string& word) {
   if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+  if (std::ranges::any_of(word, is_control)) return quoted_controls(word);
   std::string text = "'";
   for (const char c : word) {
     if (c == '\'') {

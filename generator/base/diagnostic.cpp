@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "generator/base/quoted_text.hpp"
 #include "generator/base/utf8.hpp"
 
 namespace hamgen {
@@ -60,7 +61,7 @@ std::string render(const Diagnostic& diagnostic, const SourceText& source) {
   const std::size_t from = std::min(diagnostic.span.begin - line_start, line.size());
   const std::size_t to = std::min(diagnostic.span.end - line_start, line.size());
   const char* severity = diagnostic.severity == Severity::error ? "error" : "warning";
-  std::string text = fmt::format("{}:{}:{}: {}: {}\n", printable(source.path), start.line,
+  std::string text = fmt::format("{}:{}:{}: {}: {}\n", visible_text(source.path), start.line,
                                  start.column, severity, diagnostic.message);
   text += excerpt(line, start.line, from, to);
   if (!diagnostic.help.empty()) text += fmt::format("help: {}\n", diagnostic.help);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/quoted_text.hpp"
 #include "generator/base/utf8.hpp"
 
 namespace hamgen {
@@ -38,12 +39,12 @@ SourceText make_source(std::string path, std::string text) {
 SourceText read_source(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    throw UsageError(fmt::format("cannot read '{}': it is a directory", printable(path)));
+    throw UsageError(fmt::format("cannot read '{}': it is a directory", visible_text(path)));
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw UsageError(fmt::format("cannot read '{}': {}", printable(path), std::strerror(errno)));
+    throw UsageError(fmt::format("cannot read '{}': {}", visible_text(path), std::strerror(errno)));
   }
   // Read in pieces: a pipe or a device has no size to ask for.
   std::string text;
@@ -51,7 +52,8 @@ SourceText read_source(const std::string& path) {
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
     text.append(piece, 0, static_cast<std::size_t>(file.gcount()));
     if (text.size() > largest_file) {
-      throw UsageError(fmt::format("cannot read '{}': it is larger than 16 MB", printable(path)));
+      throw UsageError(
+          fmt::format("cannot read '{}': it is larger than 16 MB", visible_text(path)));
     }
   }
   return make_source(path, std::move(text));

@@ -19,17 +19,21 @@ std::optional<CodePoint> code_point_at(std::string_view text, std::size_t offset
   return CodePoint{.value = value, .length = length};
 }
 
+bool is_control(char32_t c) {
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || c == 0x061C ||
+         c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
     const std::optional<CodePoint> point = code_point_at(text, i);
     const std::size_t length = point ? point->length : 1;
-    if (!point || (point->value < 0x20 && point->value != '\t') ||
-        (point->value >= 0x7F && point->value < 0xA0)) {
-      result += '?';
-    } else if (point->value == '\t') {
+    if (point && point->value == '\t') {
       result += ' ';
+    } else if (!point || is_control(point->value)) {
+      result += '?';
     } else {
       result += text.substr(i, length);
     }

@@ -1,4 +1,4 @@
-// Enough of UTF-8 to count columns and to name an illegal byte.
+// Enough of UTF-8 to count columns, to name an illegal byte and to know a control character.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,13 @@ struct CodePoint {
 // surrogates are not).
 [[nodiscard]] std::optional<CodePoint> code_point_at(std::string_view text, std::size_t offset);
 
-// The text made safe to print on a terminal: tabs become one space, other control characters and
-// illegal bytes '?'.  The number of code points, illegal bytes counting one each, is kept.
+// Characters that end a line, move the cursor or turn the order in which text is shown, so that a
+// reader sees something else than a compiler: Unicode's category Cc (tab and line ends included),
+// the separators of lines and paragraphs, and the property Bidi_Control.
+[[nodiscard]] bool is_control(char32_t character);
+
+// A line of a source as a terminal can show it, code point by code point: tabs become one space,
+// other control characters and illegal bytes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace hamgen

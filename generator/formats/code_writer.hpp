@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "generator/base/quoted_text.hpp"
+
 namespace hamgen {
 
 class CodeWriter {
@@ -57,15 +59,17 @@ class CodeWriter {
       const std::string word = text.substr(begin, end - begin);
       if (line.size() + word.size() > kColumns - 2 && line != hanging) {
         while (line.ends_with(' ')) line.pop_back();
-        text_ += line + '\n';
+        text_ += comment_text(line) + '\n';
         line = hanging;
       }
       line += word + " ";
       begin = end + 1;
     }
     while (line.ends_with(' ')) line.pop_back();
-    text_ += line + '\n';
+    text_ += comment_text(line) + '\n';
   }
+  // A comment of one line, however long: a command, a path.
+  void remark(const std::string& lead, const std::string& text) { line(lead + comment_text(text)); }
   // Opens a block: the text, " {", and a deeper level.
   void open(const std::string& text) {
     line(text.empty() ? "{" : text + " {");
@@ -86,10 +90,10 @@ class CodeWriter {
       if (remark.empty()) {
         line(code);
       } else if (code.size() > kLong) {
-        line("// " + remark);
+        line("// " + comment_text(remark));
         line(code);
       } else {
-        line(code + std::string(width - code.size() + 2, ' ') + "// " + remark);
+        line(code + std::string(width - code.size() + 2, ' ') + "// " + comment_text(remark));
       }
     }
   }

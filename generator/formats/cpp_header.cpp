@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_context.hpp"
 #include "generator/formats/cpp_functions.hpp"
@@ -150,7 +151,11 @@ std::string cpp_header(const Program& program, const CppOptions& options) {
   out.line("#pragma once");
   write_includes(out, context);
   out.line();
+  begin_ieee_arithmetic(out, context.scalar);
+  out.line();
   out.lines(body);
+  out.line();
+  end_ieee_arithmetic(out);
   return out.text();
 }
 
@@ -165,7 +170,11 @@ std::string cpp_plugin(const Program& program, const CppOptions& options) {
   out.line("#include \"plugin.h\"");
   write_includes(out, context);
   out.line();
+  begin_ieee_arithmetic(out, context.scalar);
+  out.line();
   out.lines(body);
+  out.line();
+  end_ieee_arithmetic(out);
   write_interface(out, context);
   return out.text();
 }

@@ -72,7 +72,7 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
 
 void write_interface(CodeWriter& out, const CppContext& context) {
   const std::string description =
-      fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name);
+      cpp_string(fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name));
   out.line();
   out.line("// The interface of plugin.h.");
   out.line(fmt::format("using namespace {};", context.options.name_space));
@@ -195,16 +195,18 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line();
   if (context.options.tangent) write_tangent_interface(out, context);
   out.line(
-      fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, \"{}\", "
-                  "\"{}\", create, destroy, advance, get_state, energy_of, invariants_of, "
+      fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, "
+                  "{}, create, destroy, advance, get_state, energy_of, invariants_of, "
                   "gradient_of, {}}};",
                   context.n(), context.environment.parameters.size(), invariants + modified,
-                  context.scalar.digits, description, context.program.plan.solver,
+                  context.scalar.digits, description, cpp_string(context.program.plan.solver),
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");
   out.line();
-  out.line("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() { return &plugin; }");
+  out.open("extern \"C\" const hamgen_plugin* hamgen_plugin_entry()");
+  out.line("return hamgen_arithmetic_is_ieee() ? &plugin : nullptr;");
+  out.close();
 }
 
 }  // namespace hamgen

@@ -8,14 +8,6 @@ namespace hamgen {
 
 namespace {
 
-// The user's words as the end of a // comment: a line's end there, or a backslash before it, would
-// let the compiler read on.
-std::string one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < ' '; }, ' ');
-  return text.ends_with('\\') ? text + "." : text;
-}
-
 Cost sum(Cost total, const Cost& more) {
   total.additions += more.additions;
   total.multiplications += more.multiplications;
@@ -50,23 +42,23 @@ void write_gradient_cost(CodeWriter& out, const Program& program) {
 void write_preamble(CodeWriter& out, const CppContext& context) {
   const Scheme& scheme = context.equations.scheme;
   const SolvePlan& plan = context.program.plan;
-  out.line(fmt::format("// {}, {}.  Generated: change the model, not this file.",
-                       context.mechanics.name, scheme.name));
+  out.remark("// ", fmt::format("{}, {}.  Generated: change the model, not this file.",
+                                context.mechanics.name, scheme.name));
   out.line("//");
   out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
   const CppOptions& options = context.options;
-  if (!options.command.empty()) out.line("//   command   " + one_line(options.command));
-  if (!options.model_path.empty()) out.line("//   model     " + one_line(options.model_path));
-  if (!options.model_digest.empty()) out.line("//   sha256    " + options.model_digest);
+  if (!options.command.empty()) out.remark("//   command   ", options.command);
+  if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);
+  if (!options.model_digest.empty()) out.remark("//   sha256    ", options.model_digest);
   std::string formula = context.mechanics.hamiltonian_text;
   std::ranges::replace(formula, '\n', ' ');
   out.comment(context.mechanics.has_time ? "//   H(q, p, t) = " : "//   H(q, p) = ", formula);
   const bool symplectic = scheme.symplectic && !plan.sweeps;
   const bool raised = scheme.is_member() && scheme.member().generating_order > 0;
-  out.line(fmt::format("//   scheme    {}: order {}{}{}{}", scheme.description, scheme.order,
-                       raised ? " by generating function" : "",
-                       scheme.symmetric && !plan.sweeps ? ", symmetric" : "",
-                       symplectic ? ", symplectic" : ", not symplectic"));
+  out.remark("//   scheme    ", fmt::format("{}: order {}{}{}{}", scheme.description, scheme.order,
+                                            raised ? " by generating function" : "",
+                                            scheme.symmetric && !plan.sweeps ? ", symmetric" : "",
+                                            symplectic ? ", symplectic" : ", not symplectic"));
   if (!options.proved.empty()) out.comment("//   proved    ", options.proved);
   if (!options.tested.empty()) out.comment("//   tested    ", options.tested);
   if (!options.refuted.empty()) out.comment("//   refuted   ", options.refuted);

@@ -30,13 +30,6 @@ std::string initial_value(const Field& field, const ScalarType& scalar) {
   return field.type == "Real" ? " = " + literal(0, scalar) : "";
 }
 
-// The user's words behind //: a backslash at the end would join the next line.
-std::string remark(const Field& field) {
-  std::string text = field.remark;
-  std::ranges::replace(text, '\\', '/');
-  return text;
-}
-
 // Is there an instruction of this kind anywhere in the body?
 bool any(const Body& body, const std::function<bool(const Instruction&)>& is) {
   return std::ranges::any_of(body, [&](const Instruction& instruction) {
@@ -318,7 +311,7 @@ class StepWriter {
 }  // namespace
 
 void write_record(CodeWriter& out, const Record& record, const ScalarType& scalar) {
-  for (const std::string& line : record.remark) out.line("// " + line);
+  for (const std::string& line : record.remark) out.remark("// ", line);
   if (record.fields.empty()) {
     out.line("struct " + record.name + " {};");
     return;
@@ -328,7 +321,7 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
   for (const Field& field : record.fields) {
     members.emplace_back(fmt::format("{} {}{}{};", field.type, field.name, sizes_text(field),
                                      initial_value(field, scalar)),
-                         remark(field));
+                         field.remark);
   }
   out.aligned(members);
   out.close(";");

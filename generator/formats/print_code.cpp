@@ -41,7 +41,7 @@ class RoutinePrinter {
   }
 
   void print() {
-    for (const std::string& line : routine_.remark) out_.line("// " + line);
+    for (const std::string& line : routine_.remark) out_.remark("// ", line);
     out_.open(signature());
     if (!routine_.result.object.empty()) {
       out_.line(routine_.result.type + " " + routine_.result.object + ";");
@@ -185,7 +185,7 @@ class RoutinePrinter {
       // What an iteration declares stands above its comment.
       const auto* iterate = std::get_if<Iterate>(&node.value);
       if (iterate == nullptr) {
-        for (const std::string& line : node.remark) out_.line("// " + line);
+        for (const std::string& line : node.remark) out_.remark("// ", line);
       } else {
         remark_ = &node.remark;
       }
@@ -222,7 +222,7 @@ class RoutinePrinter {
 
   void newton(const Iterate& iterate) {
     const std::string rule = "start." + iterate.name;
-    for (const std::string& line : *remark_) out_.line("// " + line);
+    for (const std::string& line : *remark_) out_.remark("// ", line);
     out_.line(rule + ".begin();");
     out_.open("for (int iteration = 1;; ++iteration)");
     print(iterate.body);

@@ -18,7 +18,7 @@ constexpr std::size_t most_errors = 100;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_name_character(char c) { return is_letter(c) || is_digit(c) || c == '_'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 // The names of the Greek letters from alpha (U+03B1) to omega (U+03C9).
 constexpr std::array<std::string_view, 25> greek = {
@@ -42,6 +42,9 @@ class Lexer {
     return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
   }
 
+  // LF or CR LF.
+  bool at_line_end() const { return peek() == '\n' || (peek() == '\r' && peek(1) == '\n'); }
+
   void add(TokenKind kind, std::size_t begin, std::size_t end) {
     result_.tokens.push_back({kind, {begin, end}, text_.substr(begin, end - begin)});
   }
@@ -54,9 +57,9 @@ class Lexer {
 
   void read_one() {
     const char c = peek();
-    if (c == '\n') {
+    if (at_line_end()) {
       end_line(at_);
-      ++at_;
+      at_ += c == '\r' ? 2 : 1;
     } else if (is_blank(c)) {
       ++at_;
     } else if (c == '#') {
@@ -74,8 +77,7 @@ class Lexer {
 
   // The word that begins the line after the one that ends here.
   std::string_view next_word(std::size_t newline) const {
-    std::size_t begin = newline;
-    while (begin < text_.size() && (is_blank(text_[begin]) || text_[begin] == '\n')) ++begin;
+    const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n", newline), text_.size());
     std::size_t end = begin;
     while (end < text_.size() && is_name_character(text_[end])) ++end;
     return text_.substr(begin, end - begin);
@@ -94,9 +96,7 @@ class Lexer {
 
   void read_comment() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && text_[at_] != '\n') {
-      if (!check_character()) return;
-    }
+    while (at_ < text_.size() && !at_line_end()) pass_character();
     std::size_t from = begin;
     while (from < at_ && (text_[from] == '#' || is_blank(text_[from]))) ++from;
     std::size_t to = at_;
@@ -104,16 +104,29 @@ class Lexer {
     comment_ = text_.substr(from, to - from);
   }
 
-  // Passes over one character of a comment or a unit; false, with a report, if it is illegal.
-  bool check_character() {
+  // Passes over one character of a comment or a unit, with a report if it is illegal.  What is
+  // emitted quotes them.
+  void pass_character() {
     const std::optional<CodePoint> point = code_point_at(text_, at_);
-    const bool control = point && point->value < 0x20 && !is_blank(peek());
-    if (point && !control && point->value != 0x7F) {
-      at_ += point->length;
-      return true;
+    if (!point) return illegal_byte();
+    if (is_control(point->value) && peek() != '\t') return control_character(*point);
+    at_ += point->length;
+  }
+
+  void control_character(const CodePoint& point) {
+    const std::size_t begin = at_;
+    if (peek() != '\r' && point.length == 1) return illegal_byte();
+    at_ += point.length;
+    if (point.length == 1) {
+      return fail(
+          begin, at_, fmt::format("a carriage return without a line feed at offset {}", begin),
+          "end lines with LF or CR LF: some programs take a lone CR for a line's end, others "
+          "do not");
     }
-    illegal_byte();
-    return false;
+    fail(begin, at_,
+         fmt::format("illegal character U+{:04X} at offset {}",
+                     static_cast<std::uint32_t>(point.value), begin),
+         "remove it: it would show a reader something else than the compiler sees");
   }
 
   void illegal_byte() {
@@ -179,9 +192,7 @@ class Lexer {
   void read_unit() {
     const std::size_t begin = at_++;
     const std::size_t inside = at_;
-    while (at_ < text_.size() && text_[at_] != ']' && text_[at_] != '\n' && text_[at_] != '#') {
-      if (!check_character()) return;
-    }
+    while (at_ < text_.size() && peek() != ']' && peek() != '#' && !at_line_end()) pass_character();
     if (peek() != ']') {
       fail(begin, begin + 1, "'[' is never closed", "write the unit on one line, as in q [rad]");
       return;
@@ -217,7 +228,8 @@ class Lexer {
     const std::size_t begin = at_;
     const std::optional<CodePoint> point = code_point_at(text_, at_);
     const char c = peek();
-    if (!point || static_cast<unsigned char>(c) < 0x20 || c == 0x7F) return illegal_byte();
+    if (!point) return illegal_byte();
+    if (is_control(point->value)) return control_character(*point);
     at_ += point->length;
     if (point->value < 0x80) {
       return fail(begin, at_, fmt::format("illegal character '{}'", c),
@@ -237,7 +249,7 @@ class Lexer {
     // The rest of a foreign word is one mistake with its first letter.
     while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x80) {
       const std::optional<CodePoint> next = code_point_at(text_, at_);
-      if (!next) break;
+      if (!next || is_control(next->value)) break;
       at_ += next->length;
     }
     fail(begin, at_,

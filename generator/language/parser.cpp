@@ -272,6 +272,9 @@ auto parse_alone(const SourceText& source, Read read) {
   try {
     auto result = read(in);
     in.expect_operator_or_end();
+    while (in.peek().kind == TokenKind::newline) in.next();
+    if (in.peek().kind != TokenKind::end)
+      in.fail(in.peek().span, "a second line", "an expression goes on inside parentheses only");
     if (diagnostics.empty()) return result;
   } catch (const SyntaxError& error) {
     if (error.diagnostic) diagnostics.push_back(*error.diagnostic);

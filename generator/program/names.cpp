@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "generator/base/diagnostic.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -122,6 +124,16 @@ bool is_reserved(std::string_view name) {
   return is_keyword(name) || is_numbered(name) || std::ranges::find(kOurs, name) != std::end(kOurs);
 }
 
+// Letters, digits and underscores of ASCII, whatever the locale.
+bool is_free_name(const std::string& name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_word = [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
+  };
+  return !name.empty() && std::ranges::all_of(name, is_word) && !is_digit(name.front()) &&
+         name.find("__") == std::string::npos && identifier(name) == name;
+}
+
 }  // namespace
 
 std::string identifier(const std::string& name) {
@@ -142,6 +154,20 @@ std::string member_identifier(const std::string& name) {
                  text.substr(0, text.size() - 1) == name
              ? name
              : text;
+}
+
+void require_namespace(const std::string& text) {
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find("::", begin);
+    const std::string name = text.substr(begin, end - begin);
+    if (!is_free_name(name))
+      throw UsageError(
+          fmt::format("--namespace {}: '{}' cannot name a namespace\nhelp: write --namespace "
+                      "my_models or --namespace my::models",
+                      text, name));
+    if (end == std::string::npos) return;
+    begin = end + 2;
+  }
 }
 
 ElementName split_element(const std::string& name) {

@@ -13,6 +13,10 @@ namespace hamgen {
 // The same for a member of a struct, which may be called what a local may not: z.h, par.k.
 [[nodiscard]] std::string member_identifier(const std::string& name);
 
+// Throws UsageError unless the text is a namespace, "a" or "a::b", with names that C++ and the
+// emitted code leave free.
+void require_namespace(const std::string& text);
+
 // "q[12]" is {"q", 12}; "q" is {"q", none}.
 struct ElementName {
   std::string base;

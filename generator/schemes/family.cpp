@@ -128,16 +128,16 @@ Scheme member_scheme(int degrees_of_freedom, SparseMatrix c) {
   return scheme;
 }
 
-std::string block_text(const GaugeBlock& block, int n) {
+}  // namespace
+
+std::string to_text(const GaugeBlock& block, std::size_t columns) {
   std::string text;
   for (std::size_t k = 0; k < block.entries.size(); ++k) {
-    if (k != 0) text += block.is_matrix && k % static_cast<std::size_t>(n) == 0 ? "], [" : ", ";
-    text += to_text(block.entries[k]);
+    if (k != 0) text += block.is_matrix && k % columns == 0 ? "], [" : ", ";
+    text += block.words.empty() ? to_text(block.entries[k]) : block.words[k];
   }
   return block.is_matrix ? "[[" + text + "]]" : text;
 }
-
-}  // namespace
 
 Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
                      const GaugeBlock& gamma) {
@@ -164,8 +164,9 @@ Scheme family_member(int n, const GaugeBlock& alpha, const GaugeBlock& beta,
     c.emplace(std::pair(n + place.first, place.second), -value);
   }
   Scheme scheme = member_scheme(n, std::move(c));
-  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", block_text(alpha, n),
-                                   block_text(beta, n), block_text(gamma, n));
+  const auto columns = static_cast<std::size_t>(n);
+  scheme.description = fmt::format("alpha = {}, beta = {}, gamma = {}", to_text(alpha, columns),
+                                   to_text(beta, columns), to_text(gamma, columns));
   return scheme;
 }
 

@@ -27,8 +27,7 @@ class GaugeText {
     const std::string_view outer = without_blanks(text);
     GaugeBlock block;
     if (!outer.starts_with('[')) {
-      for (const std::string_view piece : outermost_pieces(outer))
-        block.entries.push_back(entry(piece));
+      for (const std::string_view piece : outermost_pieces(outer)) add_entry(piece, block);
       return block;
     }
     const std::vector<std::string_view> rows = outermost_pieces(inside(outer));
@@ -36,12 +35,12 @@ class GaugeText {
     if (block.is_matrix && rows.size() != size) refuse(rows.size(), "rows", size);
     for (const std::string_view row : rows) {
       if (!block.is_matrix) {
-        block.entries.push_back(entry(row));
+        add_entry(row, block);
         continue;
       }
       const std::vector<std::string_view> entries = outermost_pieces(inside(row));
       if (entries.size() != size) refuse(entries.size(), "entries in a row", size);
-      for (const std::string_view piece : entries) block.entries.push_back(entry(piece));
+      for (const std::string_view piece : entries) add_entry(piece, block);
     }
     return block;
   }
@@ -73,9 +72,10 @@ class GaugeText {
     return text.substr(1, text.size() - 2);
   }
 
-  [[nodiscard]] Expression entry(std::string_view text) const {
-    return scheme_parameter(model_, option_,
-                            read_expression("--" + option_, std::string(text), names_));
+  void add_entry(std::string_view text, GaugeBlock& block) const {
+    const NodePtr node = read_expression("--" + option_, std::string(text), names_);
+    block.entries.push_back(scheme_parameter(model_, option_, node));
+    block.words.push_back(to_text(node));
   }
 
   const Model& model_;
@@ -90,7 +90,7 @@ GaugeBlock read_gauge_block(const Model& model, const std::string& option,
   return GaugeText(model, option).read(text, static_cast<std::size_t>(degrees_of_freedom(model)));
 }
 
-SparseMatrix read_gauge_matrix(const Model& model, const std::string& text) {
+Scheme read_gauge_matrix(const Model& model, const std::string& text) {
   const auto size = 2 * static_cast<std::size_t>(degrees_of_freedom(model));
   const std::string option = "gauge";
   const GaugeBlock block = GaugeText(model, option).read(text, size);
@@ -98,7 +98,9 @@ SparseMatrix read_gauge_matrix(const Model& model, const std::string& text) {
   SparseMatrix c;
   for (std::size_t k = 0; k < block.entries.size(); ++k)
     c[{static_cast<int>(k / size), static_cast<int>(k % size)}] = block.entries[k];
-  return c;
+  Scheme scheme = member_of_matrix(static_cast<int>(degrees_of_freedom(model)), std::move(c));
+  scheme.description = "C = " + to_text(block, size);
+  return scheme;
 }
 
 Values read_reference(const Model& model,

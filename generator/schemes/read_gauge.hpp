@@ -17,8 +17,8 @@ namespace hamgen {
 [[nodiscard]] GaugeBlock read_gauge_block(const Model& model, const std::string& option,
                                           const std::string& text);
 
-// All of C, 2n x 2n, row by row, with entries as above: "[[a, b], [c, -a]]".
-[[nodiscard]] SparseMatrix read_gauge_matrix(const Model& model, const std::string& text);
+// The member with all of C given, 2n x 2n, row by row, entries as above: "[[a, b], [c, -a]]".
+[[nodiscard]] Scheme read_gauge_matrix(const Model& model, const std::string& text);
 
 // The point at which a gauge is taken, by the names of variables and parameters: a variable that is
 // not given is 0, a parameter has its default.  Throws as scene_values does.

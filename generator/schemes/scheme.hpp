@@ -72,7 +72,12 @@ struct GaugeBlock {
   // One entry for all degrees of freedom, one for each, or n x n entries row by row.
   std::vector<Expression> entries;
   bool is_matrix = false;
+  // The entries as a person would write them, 0.03 for 3/100; empty: as algebra writes them.
+  std::vector<std::string> words = {};
 };
+
+// "a", "a, b" or "[[a, b], [c, d]]", with `columns` entries in each row.
+[[nodiscard]] std::string to_text(const GaugeBlock& block, std::size_t columns);
 
 // The member with these blocks.  Throws UsageError on a wrong count, and on a beta or gamma that is
 // not symmetric.

@@ -106,11 +106,15 @@ TEST(Generate, RegeneratesForAnotherSize) {
   EXPECT_EQ(hamgen({"generate", model, "--set", "N=0.5"}).status, 2);
 }
 
-TEST(Generate, RefusesAPathThatACommentCannotHold) {
+TEST(Generate, ShowsControlCharactersOfAPath) {
   const Scratch scratch;
-  const Result result = hamgen({"generate", scratch.write("a\nb.ham", pendulum)});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_TRUE(contains(result.err, "control characters")) << result.err;
+  const std::string path = scratch.write("a\n\u202Eb.ham", pendulum);
+  const Result result = hamgen({"generate", path});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string folder = path.substr(0, path.rfind('/') + 1);
+  EXPECT_EQ(lines(result.out).at(3),
+            "//   command   hamgen generate $'" + folder + "a\\n<U+202E>b.ham'");
+  EXPECT_EQ(lines(result.out).at(4), "//   model     " + folder + "a<U+000A><U+202E>b.ham");
 }
 
 TEST(Generate, RefusesAnUnwritableDirectory) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
@@ -50,6 +51,49 @@ Csv read_csv(const std::string& text) {
       csv.rows.back().push_back(std::strtod(cell.c_str(), nullptr));
   }
   return csv;
+}
+
+TEST(Run, RefusesCompilersThatChangeTheArithmetic) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  for (const std::string flag : {"-ffast-math", "-Ofast", "-fassociative-math", "@flags"}) {
+    const Result option = hamgen({"run", model, "--compiler", "g++ " + flag});
+    EXPECT_EQ(option.status, 2) << option.err;
+    EXPECT_TRUE(contains(option.err, "--compiler: ") && contains(option.err, "'" + flag + "'"))
+        << option.err;
+    for (const std::string command : {"run", "bench", "stress", "tune"}) {
+      const Result variable = hamgen({command, model}, {"CXX=g++ " + flag});
+      EXPECT_EQ(variable.status, 2) << command << variable.err;
+      EXPECT_TRUE(contains(variable.err, "$CXX: ")) << variable.err;
+    }
+  }
+}
+
+TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string script = scratch.write("compiler", "#!/bin/sh\nexec g++ \"$@\" -ffast-math\n");
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  const Result result = hamgen({"run", model, "--compiler", script});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_TRUE(contains(result.err, "compile without -ffast-math")) << result.err;
+}
+
+TEST(Run, ShowsControlCharactersOfPathsInTextJsonAndCsv) {
+  const Scratch scratch;
+  const std::string name = "a\r\n\u202E#b\xFF.ham";
+  const std::string model = scratch.write(name, pendulum);
+  const Result result =
+      hamgen({"run", model, "--json", "--steps", "10", "-o", scratch.path("rows.csv")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, R"(a\r\n\u202e#b)")) << result.out;
+  EXPECT_TRUE(
+      json::parse(result.out).at("path").get<std::string>().ends_with("a\r\n\u202E#b\uFFFD.ham"));
+  const Csv csv = read_csv(read(scratch.path("rows.csv")));
+  EXPECT_EQ(csv.rows.size(), 11u);
+  EXPECT_TRUE(contains(csv.metadata.at(1), "a<U+000D><U+000A><U+202E>#b<0xFF>.ham"))
+      << csv.metadata.at(1);
+  EXPECT_FALSE(contains(result.err, "\r") || contains(result.err, "\u202E")) << result.err;
 }
 
 TEST(Run, TakesTheParametersOfTheSchemeAtRunTime) {

@@ -190,9 +190,8 @@ TEST(EmittedHeaders, IncludeNothingThatTheyDoNotUse) {
       SCOPED_TRACE(model.stem().string() + ", " + variant.name);
       std::istringstream lines(text);
       for (std::string line; std::getline(lines, line);) {
-        if (!line.starts_with("#")) continue;
-        const bool known = line == "#pragma once" || line == "#include <cmath>" ||
-                           line.starts_with("#include <Eigen/");
+        if (!line.starts_with("#include")) continue;
+        const bool known = line == "#include <cmath>" || line.starts_with("#include <Eigen/");
         EXPECT_TRUE(known) << line;
       }
       const bool eigen = text.find("#include <Eigen/") != std::string::npos;

@@ -36,5 +36,14 @@ TEST(Lexer, a_keyword_ends_the_statement_whatever_is_open) {
   EXPECT_EQ(words_of("let a = (b\nH = c"), "let|a|=|(|b|-- |H|=|c|-- ||");
 }
 
+TEST(Lexer, windows_line_ends_are_line_ends_and_no_part_of_a_comment) {
+  EXPECT_EQ(words_of("a = (b # one\r\n + c) # two\r\nd [m]\r\n"),
+            words_of("a = (b # one\n + c) # two\nd [m]\n"));
+}
+
+TEST(Lexer, a_tab_may_stand_in_a_comment_and_in_a_unit) {
+  EXPECT_EQ(words_of("q [m\ts] # a\tb"), "q|unit m\ts|-- a\tb||");
+}
+
 }  // namespace
 }  // namespace hamgen

@@ -20,6 +20,17 @@ TEST(Process, HandsOverWordsAsTheyAre) {
   EXPECT_EQ(result.output, "[a b][$HOME][; rm x]");
 }
 
+TEST(CommandText, IsReadBackByAShellAndHasNoControlCharacter) {
+  std::string bytes;
+  for (int byte = 1; byte < 256; ++byte) bytes += static_cast<char>(byte);
+  for (const std::string& word : {bytes, std::string("a b"), std::string("it's"), std::string(),
+                                  std::string("\n7"), std::string("\\\r'$(id)`id`")}) {
+    const std::string text = command_text(std::vector<std::string>{"printf", "%s", word});
+    for (const char c : text) EXPECT_FALSE(static_cast<unsigned char>(c) < 0x20 || c == 0x7F);
+    EXPECT_EQ(run_process({.command = {"bash", "-c", text}}).output, word) << text;
+  }
+}
+
 TEST(Process, KeepsBothStreamsInOrderAndTheExitStatus) {
   const ProcessResult result =
       run_process({.command = {"sh", "-c", "echo out; echo err >&2; echo out; exit 7"}});
