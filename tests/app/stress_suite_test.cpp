@@ -16,6 +16,7 @@ TEST(StressSuite, NoCellEndsInANanAHangOrACrash) {
   ::setenv("HAMGEN", HAMGEN_EXECUTABLE, 1);
   runtime::ProcessRequest request;
   request.command = {HAMGEN_SOURCE_DIR "/scripts/stress-suite", "--quick", scratch.path("docs")};
+  request.time_limit = std::chrono::minutes(20);
   const runtime::ProcessResult result = runtime::run_process(request);
   ASSERT_TRUE(result.succeeded()) << result.output;
   int maps = 0;
