@@ -27,15 +27,6 @@ runtime::InitialValues start_of(const BenchMethod& method, const SceneValues& sc
 // Without a chance to stop for at most so many steps.
 constexpr long long kStepsAtOnce = 1 << 20;
 
-// The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
-double timed_run(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
-  runtime::Integrator integrator(method.loaded.library, start);
-  const double begin = thread_seconds();
-  for (long long left = steps; left > 0 && !interrupt_flag(); left -= kStepsAtOnce)
-    static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
-  return thread_seconds() - begin;
-}
-
 std::string outcome_of(const runtime::RunSummary& summary) {
   if (summary.status == runtime::Status::done) return "done";
   return fmt::format("{} in step {}", runtime::to_text(summary.status), summary.steps_done + 1);
@@ -78,6 +69,15 @@ BenchTime time_of(const BenchRow& row) {
           .spread = (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / median};
 }
 
+// The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
+double processor_clock(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
+  runtime::Integrator integrator(method.loaded.library, start);
+  const double begin = thread_seconds();
+  for (long long left = steps; left > 0 && !interrupt_flag(); left -= kStepsAtOnce)
+    static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
+  return thread_seconds() - begin;
+}
+
 double gradients_per_step(const Method& method, double iterations_per_step) {
   struct Count {
     double iterations;
@@ -97,7 +97,7 @@ double gradients_per_step(const Method& method, double iterations_per_step) {
 }
 
 void measure_errors(const BenchMethod& method, const SceneValues& scene,
-                    const ReferenceSolution& reference, BenchRow& row) {
+                    const ReferenceSolution& reference, BenchRow& row, const RunClock& clock) {
   if (!method.refusal.empty()) {
     row.outcome = "refused: " + method.refusal;
     return;
@@ -127,14 +127,15 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
     row.energy_spread = summary.energy->spread();
   }
   if (!reference.state.empty()) row.state_error = distance(integrator.state(), reference.state);
-  row.once = timed_run(method, start, row.steps);
+  row.once = clock(method, start, row.steps);
   row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
 }
 
-void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row) {
+void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,
+                  const RunClock& clock) {
   const runtime::InitialValues start = start_of(method, scene, row);
   double total = 0.0;
-  for (long run = 0; run < row.runs_per_sample; ++run) total += timed_run(method, start, row.steps);
+  for (long run = 0; run < row.runs_per_sample; ++run) total += clock(method, start, row.steps);
   row.samples.push_back(total / static_cast<double>(row.runs_per_sample));
 }
 

@@ -10,6 +10,7 @@
 #include "app/reference.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
+#include "runtime/integrator.hpp"
 #include "runtime/load_plugin.hpp"
 
 namespace hamgen::app {
@@ -26,6 +27,13 @@ struct BenchMethod {
 // Throws ToolError if the compiler fails; a method that does not suit the model is refused.
 [[nodiscard]] BenchMethod bench_method(const std::string& spec, const SourceText& source,
                                        const Request& request, const std::string& compiler);
+
+// What tells the time: how long [s] the steps alone take from a start, without records or energies.
+using RunClock =
+    std::function<double(const BenchMethod&, const runtime::InitialValues& start, long steps)>;
+// Runs the steps and returns the processor time they took.
+[[nodiscard]] double processor_clock(const BenchMethod& method, const runtime::InitialValues& start,
+                                     long steps);
 
 struct BenchRow {
   std::size_t method = 0;  // index among the methods
@@ -61,9 +69,11 @@ struct BenchTime {
 // Fills errors and outcome by one run that watches the energy, and `runs_per_sample`, so that a
 // sample takes about 2 ms or more.
 void measure_errors(const BenchMethod& method, const SceneValues& scene,
-                    const ReferenceSolution& reference, BenchRow& row);
+                    const ReferenceSolution& reference, BenchRow& row,
+                    const RunClock& clock = processor_clock);
 
-// Adds one sample of the run time: the steps alone, without records or energies.
-void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row);
+// Adds one sample of the run time.
+void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,
+                  const RunClock& clock = processor_clock);
 
 }  // namespace hamgen::app

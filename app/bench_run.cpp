@@ -175,7 +175,7 @@ void measure_all_errors(const BenchRequest& options, const Setting& setting, Ben
   Work work("errors", all, options.quiet);
   for (BenchRow& row : bench.rows) {
     if (interrupt_flag()) return;
-    measure_errors(bench.methods[row.method], setting.scene, bench.reference, row);
+    measure_errors(bench.methods[row.method], setting.scene, bench.reference, row, options.clock);
     work.done(row.steps);
   }
 }
@@ -190,7 +190,7 @@ void measure_all_times(const BenchRequest& options, const Setting& setting, Benc
     for (BenchRow& row : bench.rows) {
       if (interrupt_flag()) return;
       if (!row.ok()) continue;
-      measure_time(bench.methods[row.method], setting.scene, row);
+      measure_time(bench.methods[row.method], setting.scene, row, options.clock);
       work.done(row.steps * row.runs_per_sample);
     }
   }
@@ -210,7 +210,7 @@ void add_steps_for_target(const BenchRequest& options, const Setting& setting, B
                            .measure =
                                [&](BenchRow& row) {
                                  measure_errors(bench.methods[row.method], setting.scene,
-                                                bench.reference, row);
+                                                bench.reference, row, options.clock);
                                  return !interrupt_flag();
                                },
                            .on_progress = fraction_bar(bar, options.quiet)});

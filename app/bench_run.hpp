@@ -20,6 +20,7 @@ struct BenchRequest {
   bool quiet = false;
   std::optional<std::string> scene_h, scene_steps;  // in place of the scene's
   const char* length = "--time 10";                 // the option for a scene without steps
+  RunClock clock = processor_clock;                 // what is chosen by time is chosen by this one
 };
 
 // Loads the methods, computes the reference, measures errors, then times; with progress bars on a

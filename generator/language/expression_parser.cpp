@@ -56,6 +56,7 @@ class ExpressionParser::Nesting {
 };
 
 const Token& ExpressionParser::peek(std::size_t ahead) const {
+  ++looks_;
   return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
 }
 

@@ -32,6 +32,8 @@ class ExpressionParser {
   const Token& next();
   bool accept(std::string_view symbol);
   [[nodiscard]] bool at_line_end() const;
+  // How often a token was looked at: the work so far.
+  [[nodiscard]] std::size_t looks() const { return looks_; }
 
   // sum := product (('+' | '-') product)*
   NodePtr expression();
@@ -71,6 +73,7 @@ class ExpressionParser {
   const std::vector<Token>& tokens_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  mutable std::size_t looks_ = 0;
 };
 
 }  // namespace hamgen

@@ -35,6 +35,7 @@ class Parser {
         spoil(begin, in_.peek().span.begin);
       }
     }
+    syntax_.looks += in_.looks();
     return std::move(syntax_);
   }
 
@@ -43,12 +44,15 @@ class Parser {
   void spoil(std::size_t begin, std::size_t end) {
     static const std::set<std::string_view> others = {"system", "parameter", "let",
                                                       "H",      "invariant", "scene"};
-    bool first = true;
-    for (const Token& token : lexed_.tokens) {
-      const bool inside = token.span.begin >= begin && token.span.begin < end;
-      if (inside && token.kind == TokenKind::name) syntax_.spoiled.emplace_back(token.text);
-      if (inside && first && !others.contains(token.text)) syntax_.variables_are_read = false;
-      first = first && !inside;
+    const auto at = [this](std::size_t offset) {
+      return std::ranges::lower_bound(lexed_.tokens, offset, {},
+                                      [](const Token& token) { return token.span.begin; });
+    };
+    const auto first = at(begin);
+    for (auto token = first, last = at(end); token != last; ++token) {
+      ++syntax_.looks;
+      if (token->kind == TokenKind::name) syntax_.spoiled.emplace_back(token->text);
+      if (token == first && !others.contains(token->text)) syntax_.variables_are_read = false;
     }
   }
 

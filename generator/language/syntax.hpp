@@ -76,6 +76,7 @@ struct Syntax {
   std::vector<Diagnostic> diagnostics;
   bool variables_are_read = true;    // no line that could not be read may have declared one
   std::vector<std::string> spoiled;  // names on lines that could not be read: silent if unknown
+  std::size_t looks = 0;             // of the parser at a token: the work it did
 };
 
 }  // namespace hamgen

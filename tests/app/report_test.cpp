@@ -142,6 +142,7 @@ TEST(Report, ShowsInABrowserWideAndNarrow) {
                      "--dump-dom",
                      "file://" + probe};
   request.output_limit = 64u << 20;
+  request.time_limit = std::chrono::minutes(20);
   runtime::ProcessResult result;
   try {
     result = runtime::run_process(request);

@@ -16,6 +16,7 @@ TEST(StressSuite, NoCellEndsInANanAHangOrACrash) {
   ::setenv("HAMGEN", HAMGEN_EXECUTABLE, 1);
   runtime::ProcessRequest request;
   request.command = {HAMGEN_SOURCE_DIR "/scripts/stress-suite", "--quick", scratch.path("docs")};
+  request.time_limit = std::chrono::minutes(20);  // less than a cell has: one that hangs fails here
   const runtime::ProcessResult result = runtime::run_process(request);
   ASSERT_TRUE(result.succeeded()) << result.output;
   int maps = 0;
@@ -24,7 +25,6 @@ TEST(StressSuite, NoCellEndsInANanAHangOrACrash) {
     ++maps;
     const std::string text = read(entry.path().string());
     EXPECT_FALSE(std::regex_search(text, std::regex("[-,](nan|inf)"))) << entry.path();
-    EXPECT_FALSE(contains(text, "out of time")) << entry.path();
     EXPECT_TRUE(std::filesystem::exists(scratch.path("docs/stability/") +
                                         entry.path().stem().string() + ".png"));
   }

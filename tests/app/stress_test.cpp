@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,10 +15,18 @@ using Json = nlohmann::json;
 
 const std::string models = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/";
 
-Json cells_of(std::vector<std::string> arguments) {
+// Every cell and every reference has all the time it needs.
+Result stress(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "stress");
-  arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const Result result = hamgen(arguments);
+  arguments.insert(arguments.end(), {"--quiet", "--seconds", "3600"});
+  if (std::ranges::find(arguments, "--reference-seconds") == arguments.end())
+    arguments.insert(arguments.end(), {"--reference-seconds", "3600"});
+  return hamgen(arguments);
+}
+
+Json cells_of(std::vector<std::string> arguments) {
+  arguments.emplace_back("--json");
+  const Result result = stress(arguments);
   EXPECT_EQ(result.status, 0) << result.err;
   return Json::parse(result.out).at("cells");
 }
@@ -109,8 +118,8 @@ TEST(Stress, WhereTheRootOfANegativeNumberIsMetTheDomainWasLeft) {
 
 // The Kepler scene begins at p2 = sqrt((1 + e)/(1 - e)): no ellipse from e = 1 on.
 TEST(Stress, ValuesThatTheSceneDoesNotAllowAreAnOutcomeOfTheirCells) {
-  const Json cells = cells_of({models + "kepler.ham", "--vary", "e=0:2:5", "--vary", "h=0.1:10:3",
-                               "--steps", "10", "--reference-seconds", "1"});
+  const Json cells = cells_of(
+      {models + "kepler.ham", "--vary", "e=0:2:5", "--vary", "h=0.1:10:3", "--steps", "10"});
   ASSERT_EQ(cells.size(), 15u);
   for (const Json& cell : cells) {
     const double e = cell.at("at").at("e");
@@ -121,7 +130,7 @@ TEST(Stress, ValuesThatTheSceneDoesNotAllowAreAnOutcomeOfTheirCells) {
     EXPECT_EQ(cell.at("state_error").is_null(), e >= 1.0) << cell;
   }
   // Nothing but that is an error of the command.
-  const Result none = hamgen({"stress", models + "kepler.ham", "--vary", "e=1:2:5"});
+  const Result none = stress({models + "kepler.ham", "--vary", "e=1:2:5"});
   EXPECT_EQ(none.status, 3) << none.err;
   EXPECT_TRUE(contains(none.err, "kepler.ham:19")) << none.err;
 }
@@ -138,9 +147,8 @@ TEST(Stress, APoleOfTheGaugeIsAnOutcomeOfItsCells) {
 
 // At rest in the equilibrium every step is exact, and that is no error of 10^0.
 TEST(Stress, AnErrorOfExactlyZeroIsDrawnAsTheBest) {
-  const Result result =
-      hamgen({"stress", models + "pendulum.ham", "--scene", "libration_08", "--initial", "q=0,p=0",
-              "--vary", "h=1:2:3", "--steps", "10", "--quiet"});
+  const Result result = stress({models + "pendulum.ham", "--scene", "libration_08", "--initial",
+                                "q=0,p=0", "--vary", "h=1:2:3", "--steps", "10"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.out, " ***\n")) << result.out;
   EXPECT_FALSE(contains(result.out, " 000\n")) << result.out;
@@ -154,8 +162,8 @@ TEST(Stress, AnUnknownCellIsDrawnUnlikeAnyOther) {
       scratch.write("ends.ham",
                     "system ends\ncoordinate q\nmomentum p\nH = p*q^2\n"
                     "scene s {\n  q = 1\n  p = 1\n  h = 0.5\n  steps = 10\n}\n");
-  const Result result = hamgen({"stress", path, "--vary", "h=0.1:1:2", "--steps", "3", "--scheme",
-                                "symplectic-euler-a", "--quiet", "--plot", scratch.path("m.svg")});
+  const Result result = stress({path, "--vary", "h=0.1:1:2", "--steps", "3", "--scheme",
+                                "symplectic-euler-a", "--plot", scratch.path("m.svg")});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "known in 1 of 2 cells")) << result.out;
   std::istringstream script(read(scratch.path("m.gp")));
@@ -181,9 +189,9 @@ TEST(Stress, AnEscapeIsNotAFailureOfTheStep) {
 TEST(Stress, MistakesAreSaidWithAWayOut) {
   const std::string pendulum_model = models + "pendulum.ham";
   const auto refused = [&](const std::vector<std::string>& more, std::string_view part) {
-    std::vector<std::string> arguments = {"stress", pendulum_model};
+    std::vector<std::string> arguments = {pendulum_model};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Result result = hamgen(arguments);
+    const Result result = stress(arguments);
     EXPECT_EQ(result.status, 2) << result.err;
     EXPECT_TRUE(contains(result.err, part)) << result.err;
   };

@@ -11,7 +11,9 @@ namespace hamgen::emitted_test {
 namespace {
 
 runtime::ProcessResult run(std::vector<std::string> command) {
-  return runtime::run_process({.command = std::move(command), .output_limit = 1 << 20});
+  return runtime::run_process({.command = std::move(command),
+                               .time_limit = std::chrono::minutes(20),
+                               .output_limit = 1 << 20});
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ runtime::ProcessResult reproduce(const std::vector<std::string>& arguments) {
   runtime::ProcessRequest request;
   request.command = {HAMGEN_SOURCE_DIR "/scripts/reproduce-paper"};
   request.command.insert(request.command.end(), arguments.begin(), arguments.end());
+  request.time_limit = std::chrono::minutes(20);
   return runtime::run_process(request);
 }
 

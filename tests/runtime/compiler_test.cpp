@@ -105,9 +105,8 @@ TEST_F(CompilerTest, ChangesItsIdentityWhenTheFileChanges) {
 }
 
 TEST_F(CompilerTest, ThatHangsIsEndedAtTheTimeLimit) {
-  const ToolFailure failure = failure_with("echo working; sleep 60", std::chrono::seconds(1));
+  const ToolFailure failure = failure_with("sleep 3600", std::chrono::seconds(1));
   EXPECT_EQ(failure.message, "the compiler did not make the integrator: not finished after 1 s");
-  EXPECT_EQ(failure.output_tail, "working\n");
   EXPECT_FALSE(failure.exit_status.has_value());
 }
 

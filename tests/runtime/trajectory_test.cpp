@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -115,33 +114,39 @@ TEST(Integrate, OutsideTheDomainFromTheStartTakesNoStep) {
   EXPECT_FALSE(summary.energy.has_value());
 }
 
-TEST(Integrate, StopsOnRequestSoon) {
+// Asked to stop when progress is reported for the first time, it stops the next time it looks: then
+// progress may be reported once more, and is at the end.  Without the request it would run for
+// hours.
+TEST(Integrate, StopsOnRequestTheNextTimeItLooks) {
   Integrator run = oscillator_run();
   std::atomic<bool> stop = false;
-  const RunSummary summary =
-      integrate(run, {.steps = 1'000'000'000'000,
-                      .on_progress = [&stop](const Progress&) { stop = true; },
-                      .progress_interval = std::chrono::milliseconds(20),
-                      .stop = &stop});
+  int reports = 0;
+  const auto on_progress = [&](const Progress&) {
+    stop = true;
+    ++reports;
+  };
+  const RunSummary summary = integrate(run, {.steps = 10'000'000'000'000,
+                                             .on_progress = on_progress,
+                                             .progress_interval = std::chrono::milliseconds(20),
+                                             .stop = &stop});
   EXPECT_EQ(summary.status, Status::stopped);
   EXPECT_GT(summary.steps_done, 0);
-  EXPECT_LT(summary.total_seconds, 5.0);
+  EXPECT_LE(reports, 3);
   EXPECT_EQ(summary.energy->last, run.energy());
 }
 
+// With no time between two reports every step is one, see Note [pace].
 TEST(Integrate, ReportsProgressInOrderAndAtTheEnd) {
   Integrator run = oscillator_run();
   std::vector<long long> seen;
-  (void)integrate(run, {.steps = 3'000'000,
+  (void)integrate(run, {.steps = 5,
                         .on_progress =
                             [&seen](const Progress& progress) {
-                              EXPECT_EQ(progress.steps, 3'000'000);
+                              EXPECT_EQ(progress.steps, 5);
                               seen.push_back(progress.steps_done);
                             },
-                        .progress_interval = std::chrono::milliseconds(1)});
-  ASSERT_GE(seen.size(), 2u);
-  EXPECT_TRUE(std::ranges::is_sorted(seen));
-  EXPECT_EQ(seen.back(), 3'000'000);
+                        .progress_interval = std::chrono::seconds(0)});
+  EXPECT_EQ(seen, (std::vector<long long>{1, 2, 3, 4, 5, 5}));
 }
 
 TEST(Integrate, RefusesNegativeNumbers) {

@@ -1,0 +1,151 @@
+// What hamgen bench answers to --target, by a clock of the test's own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/bench_run.hpp"
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+using app::Bench;
+using app::BenchMethod;
+using app::BenchRequest;
+using app::BenchRow;
+
+// The cost of a step of each method; of all others 1.
+using Costs = std::map<std::string, double>;
+
+// A clock that runs nothing: a step takes as many microseconds as it costs.
+app::RunClock clock_of(const Costs& costs) {
+  return [costs](const BenchMethod& method, const runtime::InitialValues&, long steps) {
+    const auto cost = costs.find(method.spec);
+    return 1e-6 * static_cast<double>(steps) * (cost == costs.end() ? 1.0 : cost->second);
+  };
+}
+
+Bench bench(BenchRequest request, const Costs& costs = {}) {
+  request.rounds = "1";
+  request.quiet = true;
+  request.clock = clock_of(costs);
+  return app::run_bench(request);
+}
+
+const BenchRow& answer_of(const Bench& bench) { return bench.rows.at(bench.answer->row.value()); }
+const std::string& method_of(const Bench& bench, const BenchRow& row) {
+  return bench.methods.at(row.method).spec;
+}
+
+// The pendulum to t = 10.
+class BenchTarget : public testing::Test {
+ protected:
+  BenchRequest request(const std::string& schemes, const std::string& steps,
+                       const std::string& target) const {
+    return {.model = model_, .schemes = schemes, .h = steps, .time = "10", .target = target};
+  }
+
+ private:
+  Scratch scratch_;
+  std::string model_ = scratch_.write("m.ham", pendulum);
+};
+
+// Where the largest step is better than asked for, a larger one is tried.
+TEST_F(BenchTarget, ALargerStepIsTriedWhereAllMeetTheTarget) {
+  const Bench result = bench(request("gauss-4", "0.1,0.05", "1e-4"));
+  EXPECT_GT(to_double(answer_of(result).h), 0.2);
+  EXPECT_LE(answer_of(result).state_error.value(), 1e-4);
+}
+
+TEST_F(BenchTarget, ASmallerStepIsTriedWhereNoneMeetsTheTarget) {
+  const Bench result = bench(request("implicit-midpoint,symplectic-euler-a", "0.2,0.1", "1e-7"));
+  const BenchRow& row = answer_of(result);
+  EXPECT_EQ(method_of(result, row), "implicit-midpoint");
+  EXPECT_LE(row.state_error.value(), 1e-7);
+  EXPECT_GE(row.state_error.value(), 0.5e-7);
+}
+
+TEST_F(BenchTarget, TheAnswerIsTheMethodThatTheClockFavours) {
+  const BenchRequest both = request("implicit-midpoint,gauss-4", "0.1,0.05", "1e-4");
+  for (const std::string dear : {"implicit-midpoint", "gauss-4"}) {
+    const Bench result = bench(both, {{dear, 1000.0}});
+    EXPECT_NE(method_of(result, answer_of(result)), dear);
+  }
+}
+
+// The midpoint rule misses 1e-7 with these steps, gauss-4 does not.
+TEST_F(BenchTarget, OnlyAMethodThatCanWinIsTriedFurther) {
+  const BenchRequest both = request("implicit-midpoint,gauss-4", "0.1,0.05", "1e-7");
+  const auto tried = [&](const Costs& costs) {
+    const Bench result = bench(both, costs);
+    return std::any_of(result.rows.begin() + 4, result.rows.end(), [&](const BenchRow& row) {
+      return method_of(result, row) == "implicit-midpoint";
+    });
+  };
+  EXPECT_FALSE(tried({}));
+  EXPECT_TRUE(tried({{"gauss-4", 1e6}}));
+}
+
+const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
+
+// The step of the answer for one method.
+double answered_step(const BenchRequest& request) { return to_double(answer_of(bench(request)).h); }
+
+// The search ends within 3 % of the border, so that a step 4 % larger misses, where the error is a
+// power of h.  Of the double pendulum it changes its sign near the border: no more is said there
+// than that a step above the given one is found.
+TEST(BenchTargetOfAModel, TheStepIsNearlyTheLargestOne) {
+  struct Case {
+    std::string model, scheme, target, steps;
+    double given;  // the largest given step that meets the target
+    bool is_power = true;
+  };
+  const std::vector<Case> cases = {
+      {"pendulum.ham", "kahan-li-8-verlet", "1e-10", "0.8,0.4,0.2,0.1", 0.8},
+      {"pendulum.ham", "kahan-li-8-verlet", "1e-9", "0.2,0.1,0.05", 0.2},
+      {"morse.ham", "blanes-moan-rkn-6", "1e-6", "0.4,0.2,0.1,0.05", 0.2},
+      {"double_pendulum.ham", "gauss-8", "1e-9", "0.16,0.08,0.04", 0.08, false}};
+  for (const auto& [model, scheme, target, steps, given, is_power] : cases) {
+    BenchRequest request{.model = kModels + model, .schemes = scheme, .h = steps, .target = target};
+    const double h = answered_step(request);
+    EXPECT_GT(h, 1.1 * given) << model << ' ' << target;
+    if (!is_power) continue;
+    request.h = std::to_string(1.04 * h);
+    request.target.clear();
+    EXPECT_GT(bench(request).rows.at(0).state_error.value(), std::stod(target)) << model << h;
+  }
+}
+
+TEST(BenchTargetOfAModel, AWeakerTargetIsReachedWithALargerStep) {
+  double before = 0.0;
+  for (const char* target : {"1e-8", "1e-7", "1e-6", "1e-5", "1e-4"}) {
+    const double h = answered_step({.model = kModels + "morse.ham",
+                                    .schemes = "blanes-moan-rkn-6",
+                                    .h = "0.4,0.2,0.1",
+                                    .target = target});
+    EXPECT_GT(h, before) << target;
+    before = h;
+  }
+}
+
+// Steps that missed on the way are no rows and so not drawn either; a method has at most one more.
+// A step costs as many gradients as it takes, of gauss-8 four in each of about six iterations.
+TEST(BenchTargetOfAModel, OnlyTheStepThatMeetsTheTargetIsShown) {
+  const std::vector<BenchRow> rows =
+      bench({.model = kModels + "pendulum.ham",
+             .schemes = "kahan-li-8-verlet,blanes-moan-6,gauss-8",
+             .h = "0.4,0.2",
+             .target = "1e-9"},
+            {{"kahan-li-8-verlet", 17}, {"blanes-moan-6", 10}, {"gauss-8", 24}})
+          .rows;
+  constexpr std::size_t given = 6;
+  EXPECT_GT(rows.size(), given);
+  EXPECT_LE(rows.size(), given + 3);
+  for (std::size_t i = given; i < rows.size(); ++i) EXPECT_LE(rows[i].state_error.value(), 1e-9);
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
