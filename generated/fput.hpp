@@ -42,41 +42,47 @@ struct StepReport {
 };
 
 inline Real magnitude(Real x) { return std::fabs(x); }
+inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
+inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 
-// value += increment, with what rounding loses kept in carry (two-sum of Knuth).
-inline void add(Real& value, Real& carry, Real increment) {
-  const Real wanted = increment + carry;
-  const Real sum = value + wanted;
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
   const Real part = sum - value;
-  carry = (value - (sum - part)) + (wanted - part);
+  carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
 
+// What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as
-//   next <= contraction * size^2,
-// where the contraction is measured, kept from step to step and checked at least every 32nd step.
-// The last increment still enters the solution, so an iteration may stop when the next one would
-// be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
-// momenta it counts 1/h times: the factor 2^-20 keeps it below the sum of the rounding errors.
+//   next <= contraction * size^Power,
+// Power = 2 with the exact matrix, 1 with an approximate one.  The contraction is measured, kept
+// from step to step and checked at least every 32nd step.  The last increment still enters the
+// solution, so an iteration may stop when the next one would be lost in rounding.  What is cut off
+// is a bias where rounding is a random walk, and in the momenta it counts 1/h times: the factor
+// 2^-20 keeps it below the sum of the rounding errors.
+template <int Power>
 struct NewtonRule {
-  Real contraction = 1.0e308;
+  Real contraction = largest;
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
 
+  static Real power(Real size) { return Power == 2 ? size * size : size; }
   void begin() {
     previous = 0;
     grown = 0;
   }
+  // size, scale: sums over the unknowns, of their increments and of their values.
   Verdict operator()(Real size, Real scale, int iterations) {
-    if (!(size <= 1.0e308)) return Verdict::failed;
-    const Real round_off = 0x1p-52 * scale;
+    if (!(size <= largest)) return Verdict::failed;
+    const Real round_off = epsilon * scale;
     if (previous > 0) {
-      const Real seen = (size < round_off ? round_off : size) / (previous * previous);
+      const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
-      const bool first = contraction >= 1.0e308;
+      const bool first = contraction >= largest;
       if (first || (size > 64 * round_off && seen > contraction)) {
         contraction = seen;
       } else if (seen < contraction) {
@@ -90,7 +96,7 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 32 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
+    if (unchecked < 32 && contraction * power(size) * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }
@@ -101,31 +107,33 @@ struct NewtonRule {
 //   (d + 1) x - s_0 - ... - s_(d-1).
 // The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
 // that is one of the highest known, the next one is tried.
+template <int Unknowns>
 struct History {
-  static constexpr int unknowns = 32;
-  static constexpr int degrees = 16;
-  Real predicted[degrees][unknowns] = {};
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
+  Real predicted[degrees][Unknowns] = {};
+  Real sum[Unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
-  void record(const Real (&solution)[unknowns]) {
+  void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
-    Real sum[unknowns] = {};
+    for (Real& s : sum) s = 0;
     for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < unknowns; ++i) {
+      for (int i = 0; i < Unknowns; ++i) {
         const Real kept = predicted[degree][i];
         predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
         sum[i] += kept;
       }
     }
   }
-  void choose(const Real (&solution)[unknowns]) {
+  void choose(const Real (&solution)[Unknowns]) {
     age = 0;
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {
       Real error = 0;
-      for (int i = 0; i < unknowns; ++i) {
+      for (int i = 0; i < Unknowns; ++i) {
         error += magnitude(solution[i] - predicted[degree][i]);
       }
       if (degree == 0 || error < least) {
@@ -140,8 +148,8 @@ struct History {
       age = 15;
     }
   }
-  void extrapolate(Real (&solution)[unknowns]) const {
-    for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
+  void extrapolate(Real (&solution)[Unknowns]) const {
+    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
   }
 };
 
@@ -194,11 +202,12 @@ inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
   }
 }
 
-// A matrix whose entries lie within 1 of the diagonal. Elimination with partial pivoting fills as
-// many diagonals again above it. Row i holds columns i - width on.
-class Matrix {
+// A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
+// as many diagonals again above it.  Row i holds columns i - Width on.
+template <int Size, int Width>
+class BandMatrix {
  public:
-  static constexpr int size = 32;
+  static constexpr int size = Size;
   void clear() {
     for (auto& row : entry_) {
       for (Real& value : row) value = 0;
@@ -208,8 +217,8 @@ class Matrix {
   // False if the matrix is singular or not finite.
   bool factorise() {
     for (int c = 0; c < size; ++c) {
-      const int last_row = c + width < size ? c + width : size - 1;
-      const int last_column = c + 2 * width < size ? c + 2 * width : size - 1;
+      const int last_row = c + Width < size ? c + Width : size - 1;
+      const int last_column = c + 2 * Width < size ? c + 2 * Width : size - 1;
       int pivot = c;
       for (int r = c + 1; r <= last_row; ++r) {
         if (magnitude(at(r, c)) > magnitude(at(pivot, c))) pivot = r;
@@ -237,25 +246,26 @@ class Matrix {
       const Real kept = x[c];
       x[c] = x[pivot_[c]];
       if (pivot_[c] != c) x[pivot_[c]] = kept;
-      const int last_row = c + width < size ? c + width : size - 1;
+      const int last_row = c + Width < size ? c + Width : size - 1;
       for (int r = c + 1; r <= last_row; ++r) x[r] -= factor_[c][r - c - 1] * x[c];
     }
     for (int r = size - 1; r >= 0; --r) {
-      const int last_column = r + 2 * width < size ? r + 2 * width : size - 1;
+      const int last_column = r + 2 * Width < size ? r + 2 * Width : size - 1;
       for (int j = r + 1; j <= last_column; ++j) x[r] -= at(r, j) * x[j];
       x[r] /= at(r, r);
     }
   }
 
  private:
-  static constexpr int width = 1;
-  static constexpr int columns = 3 * width + 1;
-  Real& at(int row, int column) { return entry_[row][column - row + width]; }
-  const Real& at(int row, int column) const { return entry_[row][column - row + width]; }
+  static constexpr int columns = 3 * Width + 1;
+  Real& at(int row, int column) { return entry_[row][column - row + Width]; }
+  const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }
   Real entry_[size][columns] = {};
-  Real factor_[size][width] = {};
+  Real factor_[size][Width] = {};
   int pivot_[size] = {};
 };
+
+using Matrix = BandMatrix<32, 1>;
 
 // put(row, column, value) for the second derivatives, repeated entries to be added.
 template <class Put>
@@ -293,8 +303,8 @@ class Propagator {
     bool solved = iterate(report);
     if (!solved && known) {
       // Extrapolation may lead astray, the state itself seldom does.
-      rule_ = NewtonRule();
-      history_ = History();
+      rule_ = {};
+      history_ = {};
       bar_ = z_;
       solved = iterate(report);
     }
@@ -380,8 +390,8 @@ class Propagator {
       return report;
     }
     for (int i = 0; i < n; ++i) {
-      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]);
-      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]);
+      two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i]);
+      two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i]);
     }
     return report;
   }
@@ -396,8 +406,8 @@ class Propagator {
   Real scale_;   // the matrix is I + scale V''
   Matrix matrix_;
   Real residual_[n] = {};
-  NewtonRule rule_;
-  History history_;
+  NewtonRule<2> rule_;
+  History<n> history_;
 };
 
 }  // namespace fput::implicit_midpoint

@@ -38,6 +38,8 @@ struct StepReport {
 };
 
 inline Real magnitude(Real x) { return std::fabs(x); }
+inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
+inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 
 // H(q, p).
 inline Real energy([[maybe_unused]] const Parameters& par, [[maybe_unused]] const State& z) {
@@ -85,31 +87,36 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   value = sum;
 }
 
+// What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 
 // When to stop Newton's iteration: at round-off.  Increments shrink as
-//   next <= contraction * size^2,
-// where the contraction is measured, kept from step to step and checked at least every 32nd step.
-// The last increment still enters the solution, so an iteration may stop when the next one would
-// be lost in rounding.  What is cut off is a bias where rounding is a random walk, and in the
-// momenta it counts 1/h times: the factor 2^-20 keeps it below the sum of the rounding errors.
+//   next <= contraction * size^Power,
+// Power = 2 with the exact matrix, 1 with an approximate one.  The contraction is measured, kept
+// from step to step and checked at least every 32nd step.  The last increment still enters the
+// solution, so an iteration may stop when the next one would be lost in rounding.  What is cut off
+// is a bias where rounding is a random walk, and in the momenta it counts 1/h times: the factor
+// 2^-20 keeps it below the sum of the rounding errors.
+template <int Power>
 struct NewtonRule {
-  Real contraction = 1.0e308;
+  Real contraction = largest;
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
 
+  static Real power(Real size) { return Power == 2 ? size * size : size; }
   void begin() {
     previous = 0;
     grown = 0;
   }
+  // size, scale: sums over the unknowns, of their increments and of their values.
   Verdict operator()(Real size, Real scale, int iterations) {
-    if (!(size <= 1.0e308)) return Verdict::failed;
-    const Real round_off = 0x1p-52 * scale;
+    if (!(size <= largest)) return Verdict::failed;
+    const Real round_off = epsilon * scale;
     if (previous > 0) {
-      const Real seen = (size < round_off ? round_off : size) / (previous * previous);
+      const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
-      const bool first = contraction >= 1.0e308;
+      const bool first = contraction >= largest;
       if (first || (size > 64 * round_off && seen > contraction)) {
         contraction = seen;
       } else if (seen < contraction) {
@@ -123,7 +130,7 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 32 && contraction * size * size * 1048576 <= round_off) return Verdict::done;
+    if (unchecked < 32 && contraction * power(size) * 1048576 <= round_off) return Verdict::done;
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
   }
@@ -133,7 +140,7 @@ struct NewtonRule {
 struct Start {
   Real value[2] = {};
   bool known = false;  // else the state itself is the start
-  NewtonRule rule_0;
+  NewtonRule<2> rule_0;
 };
 
 // dz = Z - z for one step from z + carry.
@@ -248,31 +255,33 @@ struct Start {
 //   (d + 1) x - s_0 - ... - s_(d-1).
 // The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
 // that is one of the highest known, the next one is tried.
+template <int Unknowns>
 struct History {
-  static constexpr int unknowns = 2;
-  static constexpr int degrees = 16;
-  Real predicted[degrees][unknowns] = {};
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
+  Real predicted[degrees][Unknowns] = {};
+  Real sum[Unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
-  void record(const Real (&solution)[unknowns]) {
+  void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
-    Real sum[unknowns] = {};
+    for (Real& s : sum) s = 0;
     for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < unknowns; ++i) {
+      for (int i = 0; i < Unknowns; ++i) {
         const Real kept = predicted[degree][i];
         predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
         sum[i] += kept;
       }
     }
   }
-  void choose(const Real (&solution)[unknowns]) {
+  void choose(const Real (&solution)[Unknowns]) {
     age = 0;
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {
       Real error = 0;
-      for (int i = 0; i < unknowns; ++i) {
+      for (int i = 0; i < Unknowns; ++i) {
         error += magnitude(solution[i] - predicted[degree][i]);
       }
       if (degree == 0 || error < least) {
@@ -287,8 +296,8 @@ struct History {
       age = 15;
     }
   }
-  void extrapolate(Real (&solution)[unknowns]) const {
-    for (int i = 0; i < unknowns; ++i) solution[i] = predicted[best][i];
+  void extrapolate(Real (&solution)[Unknowns]) const {
+    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
   }
 };
 
@@ -345,7 +354,7 @@ class Propagator {
   State carry_;
   Coefficients k_;
   Start start_;
-  History history_;
+  History<2> history_;
 };
 
 }  // namespace kepler::implicit_midpoint

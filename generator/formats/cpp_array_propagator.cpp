@@ -118,7 +118,7 @@ class ArrayPropagator {
   [[nodiscard]] std::string forgotten() const {
     if (!iterates(plan_)) return "";
     const bool newton = plan_.method == ArrayMethod::newton;
-    return std::string(newton ? "rule_ = NewtonRule();\n" : "") + "history_ = History();\n";
+    return std::string(newton ? "rule_ = {};\n" : "") + "history_ = {};\n";
   }
 
   void write_update() {
@@ -136,8 +136,8 @@ class ArrayPropagator {
       return report;
     }}
     for (int i = 0; i < n; ++i) {{
-      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]);
-      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]);
+      two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i]);
+      two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i]);
     }}
     return report;
   }}
@@ -174,10 +174,12 @@ class ArrayPropagator {
     if (plan_.matrix) members.emplace_back("Matrix matrix_;", "");
     if (plan_.constant_matrix) members.emplace_back("bool factorised_ = false;", "");
     if (iterates(plan_)) {
-      members.emplace_back(
-          plan_.reduced ? "Real residual_[n] = {};" : "Real residual_[2 * n] = {};", "");
-      if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule rule_;", "");
-      members.emplace_back("History history_;", "");
+      const char* unknowns = plan_.reduced ? "n" : "2 * n";
+      members.emplace_back(fmt::format("Real residual_[{}] = {{}};", unknowns), "");
+      if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule<2> rule_;", "");
+      if (plan_.method == ArrayMethod::fixed_point)
+        members.emplace_back(fmt::format("Real length_[{}] = {{}};", unknowns), "");
+      members.emplace_back(fmt::format("History<{}> history_;", unknowns), "");
     }
     out_.aligned(members);
   }

@@ -49,7 +49,7 @@ std::string sweeps_step(const Mechanics& mechanics, const ArrayWeights& w, int s
 
 std::string iterated_step(const ArrayPlan& plan) {
   const bool newton = plan.method == ArrayMethod::newton;
-  const std::string forget = newton ? "      rule_ = NewtonRule();\n" : "";
+  const std::string forget = newton ? "      rule_ = {};\n" : "";
   const std::string ahead =
       plan.reduced ? "      history_.extrapolate(bar_.q);\n" : R"(      Real start[2 * n];
       history_.extrapolate(start);
@@ -80,7 +80,7 @@ std::string iterated_step(const ArrayPlan& plan) {
     if (!solved && known) {
       // Extrapolation may lead astray, the state itself seldom does.
 )" + forget +
-         R"(      history_ = History();
+         R"(      history_ = {};
       bar_ = z_;
       solved = iterate(report);
     }
@@ -163,6 +163,21 @@ std::string residual(const ArrayPlan& plan, const ArrayWeights& w) {
 
 // bar_ -= residual_, and the sizes that the stopping rule wants.
 std::string subtract(const ArrayPlan& plan) {
+  if (plan.method == ArrayMethod::fixed_point) {
+    std::string text = R"(      Real scale = 0;
+      for (int i = 0; i < n; ++i) {
+        length_[i] = magnitude(bar_.q[i]) + magnitude(z_.q[i]);
+        scale += length_[i];
+        bar_.q[i] -= residual_[i];
+)";
+    if (!plan.reduced) {
+      text += R"(        length_[n + i] = magnitude(bar_.p[i]) + magnitude(z_.p[i]);
+        scale += length_[n + i];
+        bar_.p[i] -= residual_[n + i];
+)";
+    }
+    return text + "      }\n";
+  }
   std::string text = R"(      Real size = 0;
       Real scale = 0;
       for (int i = 0; i < n; ++i) {
@@ -185,23 +200,22 @@ std::string iteration(const Mechanics& mechanics, const ArrayPlan& plan, const A
   const std::string what = newton ? "Newton's iteration" : "Fixed-point iteration";
   const std::string on =
       plan.reduced ? "the torn momenta follow from the coordinates" : "on all stage values";
-  std::string text =
-      fmt::format("  // {} from bar_{} {}.\n", what, plan.reduced ? ";" : ",", on) +
-      "  bool iterate(StepReport& report) {\n" +
-      (newton ? "    rule_.begin();\n" : fmt::format("    FixedPointRule<{}> rule;\n", unknowns)) +
-      R"(    for (int iteration = 1;; ++iteration) {
+  std::string text = fmt::format("  // {} from bar_{} {}.\n", what, plan.reduced ? ";" : ",", on) +
+                     "  bool iterate(StepReport& report) {\n" +
+                     (newton ? "    rule_.begin();\n"
+                             : fmt::format("    FixedPointRule<{}, 2> rule;\n", unknowns)) +
+                     R"(    for (int iteration = 1;; ++iteration) {
       ++report.iterations;
       evaluate();
 )" + residual(plan, w);
   if (newton) text += "      if (!factorise()) return false;\n      matrix_.solve(residual_);\n";
   text += subtract(plan);
-  text += newton ? R"(      const Verdict verdict = rule_(size, scale, iteration);
-      if (verdict == Verdict::go_on) continue;
+  text += newton ? "      const Verdict verdict = rule_(size, scale, iteration);\n"
+                 : R"(      const Verdict verdict = rule(residual_, length_, scale, iteration);
+      report.increment = rule.size;
+)";
+  text += R"(      if (verdict == Verdict::go_on) continue;
       if (verdict == Verdict::failed) return false;
-)"
-                 : R"(      const Progress progress = rule(residual_, scale, iteration);
-      if (progress == Progress::go_on) continue;
-      if (progress == Progress::failed) return false;
 )";
   text += "      evaluate();\n      return true;\n    }\n  }\n\n" + evaluate(mechanics, plan, w);
   if (plan.matrix) text += "\n" + factorise(plan, w);

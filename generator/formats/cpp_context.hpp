@@ -69,7 +69,7 @@ void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
                       const std::set<std::string>& declared = {});
 [[nodiscard]] std::set<std::string> used_symbols(const std::vector<Statement>& statements);
 
-// The types Parameters, State, StepReport; |x| if `with_magnitude`.
-void write_types(CodeWriter& out, CppContext& context, bool with_magnitude);
+// The types Parameters, State, StepReport; what cpp_numerics() needs if `with_vocabulary`.
+void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary);
 
 }  // namespace hamgen

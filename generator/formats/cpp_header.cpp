@@ -12,8 +12,8 @@
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_preamble.hpp"
 #include "generator/formats/cpp_schemes.hpp"
-#include "generator/formats/cpp_support.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -91,12 +91,12 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
 void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
   const ArrayPlan& plan = *context.program.plan.arrays;
   write_types(out, context, iterates(plan));
-  out.lines(cpp_compensated_sum() + "\n");
+  out.lines(cpp_numerics("two_sum"));
   if (iterates(plan)) {
-    out.lines((plan.method == ArrayMethod::newton ? cpp_newton_rule(context.scalar)
-                                                  : cpp_fixed_point_rule(context.scalar)) +
-              "\n");
-    out.lines(cpp_history(plan.reduced ? context.n() : 2 * context.n()) + "\n");
+    out.lines(cpp_numerics("verdict"));
+    out.lines(
+        cpp_numerics(plan.method == ArrayMethod::newton ? "newton_rule" : "fixed_point_rule"));
+    out.lines(cpp_numerics("history"));
   }
   write_array_functions(out, context);
   write_array_propagator(out, context, role);

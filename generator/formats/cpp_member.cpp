@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
-namespace {
-
-std::string elimination_text(const CppContext& context, const MemberParts& parts) {
-  return parts.eigen ? cpp_eigen_solve() : cpp_elimination(context.scalar);
+std::string matrix_numerics(const MemberParts& parts) {
+  return cpp_numerics(parts.eigen ? "eigen_dense_matrix" : "dense_matrix");
 }
 
-}  // namespace
+std::string matrix_type(const MemberParts& parts, std::size_t size) {
+  return fmt::format("{}<{}>", parts.eigen ? "EigenDenseMatrix" : "DenseMatrix", size);
+}
 
 MemberParts member_parts(const Program& program, const ScalarType& scalar) {
   MemberParts parts;
@@ -64,7 +64,7 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
     if (!solve || !solve->constant_matrix) continue;
     const std::size_t m = solve->matrix.size();
     members.emplace_back(fmt::format("Real {}[{}][{}] = {{}};", inverse_name(s), m, m), "");
-    code.line(fmt::format("Real matrix_{}[{}][{}] = {{}};", s, m, m));
+    code.line(fmt::format("{} matrix_{};", matrix_type(parts, m), s));
     write_matrix(code, cpp, fmt::format("matrix_{}", s), *solve);
     code.line(fmt::format("k.regular = invert(matrix_{}, k.{}) && k.regular;", s, inverse_name(s)));
   }
@@ -75,7 +75,7 @@ CoefficientText write_prepare(CodeWriter& out, CppContext& context, const Member
       code.line(fmt::format("k.{}[{}] = {} * h;", name, i, literal(values[i], context.scalar)));
     }
   }
-  if (parts.inverse) out.lines(elimination_text(context, parts) + "\n" + cpp_inverse() + "\n");
+  if (parts.inverse) out.lines(matrix_numerics(parts) + cpp_numerics("inverse"));
   out.line("// What depends on h and the parameters alone.");
   out.open("struct Coefficients");
   out.aligned(members);
@@ -98,17 +98,17 @@ void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& 
   for (std::size_t i = 0; i < solve.matrix.size(); ++i) {
     for (std::size_t j = 0; j < solve.matrix[i].size(); ++j) {
       if (solve.matrix[i][j].is_zero()) continue;
-      out.line(fmt::format("{}[{}][{}] = {};", name, i, j, cpp(solve.matrix[i][j])));
+      out.line(fmt::format("{}.put({}, {}, {});", name, i, j, cpp(solve.matrix[i][j])));
     }
   }
 }
 
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
-  out.lines(cpp_two_sum() + "\n");
-  if ((parts.elimination || parts.eigen) && !parts.inverse)
-    out.lines(elimination_text(context, parts) + "\n");
-  if (parts.newton) out.lines(cpp_newton_rule(context.scalar, parts.simplified) + "\n");
-  if (parts.fixed_point) out.lines(cpp_fixed_point_rule(context.scalar) + "\n");
+  out.lines(cpp_numerics("two_sum"));
+  if ((parts.elimination || parts.eigen) && !parts.inverse) out.lines(matrix_numerics(parts));
+  if (parts.newton || parts.fixed_point) out.lines(cpp_numerics("verdict"));
+  if (parts.newton) out.lines(cpp_numerics("newton_rule"));
+  if (parts.fixed_point) out.lines(cpp_numerics("fixed_point_rule"));
   if (parts.has_start()) {
     out.line("// Start values of the implicit equations and what is remembered of their solution.");
     out.open("struct Start");
@@ -117,7 +117,7 @@ void write_support(CodeWriter& out, const CppContext& context, const MemberParts
     for (std::size_t s = 0; s < context.program.stages.size(); ++s) {
       const auto& solve = context.program.stages[s].solve;
       if (solve && solve->kind == BlockKind::newton)
-        out.line(fmt::format("NewtonRule rule_{};", s));
+        out.line(fmt::format("NewtonRule<{}> rule_{};", parts.simplified ? 1 : 2, s));
     }
     out.close(";");
     out.line();

@@ -37,10 +37,13 @@ void write_support(CodeWriter& out, const CppContext& context, const MemberParts
 // solve(par, k, h, z, start, dz).
 void write_solve(CodeWriter& out, CppContext& context, const MemberParts& parts,
                  const CoefficientText& coefficients);
-// matrix[i][j] = ...; for the entries that are not zero.
+// matrix.put(i, j, ...); for the entries that are not zero.
 void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& name,
                   const Solve& solve);
 [[nodiscard]] std::string inverse_name(std::size_t stage);
+// The class of such a matrix, "DenseMatrix<6>", and its definition.
+[[nodiscard]] std::string matrix_type(const MemberParts& parts, std::size_t size);
+[[nodiscard]] std::string matrix_numerics(const MemberParts& parts);
 
 // step(par, h, z).
 void write_member_step(CodeWriter& out, const CppContext& context, const MemberParts& parts);

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "generator/formats/cpp_member.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -16,6 +16,10 @@ std::string solve_call(const MemberParts& parts, const std::string& par, const s
   text += h + ", " + z + ", " + carry + ", ";
   if (parts.has_start()) text += start + ", ";
   return text + "dz)";
+}
+
+std::string history_type(const MemberParts& parts) {
+  return fmt::format("History<{}>", parts.unknowns.size());
 }
 
 }  // namespace
@@ -78,7 +82,7 @@ void write_substep_access(CodeWriter& out, const std::string& reset) {
 
 void write_member_propagator(CodeWriter& out, const CppContext& context, const MemberParts& parts,
                              StepRole role) {
-  if (parts.has_start()) out.lines(cpp_history(static_cast<int>(parts.unknowns.size())) + "\n");
+  if (parts.has_start()) out.lines(cpp_numerics("history"));
   out.line(parts.has_start() ? "// Many steps: start values are extrapolated, rounding errors of "
                                "the updates carried along."
                              : "// Many steps: rounding errors of the updates are carried along.");
@@ -127,8 +131,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   out.line();
   write_advance(out);
   if (role == StepRole::substep) {
-    write_substep_access(out,
-                         parts.has_start() ? "start_ = Start();\nhistory_ = History();\n" : "");
+    write_substep_access(out, parts.has_start() ? "start_ = Start();\nhistory_ = {};\n" : "");
   }
   out.line();
   out.dedent();
@@ -141,7 +144,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   if (parts.coefficients) out.line("Coefficients k_;");
   if (parts.has_start()) {
     out.line("Start start_;");
-    out.line("History history_;");
+    out.line(history_type(parts) + " history_;");
   }
   out.close(";");
   out.line();

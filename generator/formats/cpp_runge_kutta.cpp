@@ -6,8 +6,8 @@
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_stages.hpp"
-#include "generator/formats/cpp_support.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -132,12 +132,13 @@ void write_flat_state(CodeWriter& out, const CppContext& context) {
   out.open("inline void add(State& z, State& carry, const Real (&dz)[dimension])");
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
-    out.line("add(z.q[i], carry.q[i], dz[i]);");
-    out.line("add(z.p[i], carry.p[i], dz[n + i]);");
+    out.line("two_sum(z.q[i], carry.q[i], carry.q[i] + dz[i]);");
+    out.line("two_sum(z.p[i], carry.p[i], carry.p[i] + dz[n + i]);");
     out.close();
   } else {
     for (int i = 0; i < 2 * context.n(); ++i) {
-      out.line(fmt::format("add(z.{0}, carry.{0}, dz[{1}]);", context.state_field(i), i));
+      out.line(fmt::format("two_sum(z.{0}, carry.{0}, carry.{0} + dz[{1}]);",
+                           context.state_field(i), i));
     }
   }
   out.close();
@@ -155,7 +156,7 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   out.line(fmt::format("inline constexpr int dimension = {};", 2 * context.n()));
   out.line();
   write_vector_field(out, context);
-  out.lines(cpp_compensated_sum() + "\n");
+  out.lines(cpp_numerics("two_sum"));
   write_flat_state(out, context);
   if (implicit) {
     write_stages(out, context, tableau);

@@ -165,10 +165,13 @@ class SolveWriter {
   std::string scale_of(const Solve& solve, const CppExpression& cpp, Names& names) {
     std::string scale;
     for (const LoopVariable& v : solve.variables) {
-      scale += (scale.empty() ? "" : " + ") + magnitude(names.local(v.name)) + " + " +
-               magnitude(cpp(v.cold));
+      scale += (scale.empty() ? "" : " + ") + length_of(v, cpp, names);
     }
     return scale;
+  }
+  // What an unknown is rounded with.
+  static std::string length_of(const LoopVariable& v, const CppExpression& cpp, Names& names) {
+    return magnitude(names.local(v.name)) + " + " + magnitude(cpp(v.cold));
   }
 
   void write_newton(CodeWriter& out, const CppExpression& cpp, Names& names, const Solve& solve,
@@ -184,12 +187,13 @@ class SolveWriter {
     std::vector<std::string> corrections;
     if (array) {
       const std::size_t m = solve.matrix.size();
-      out.line(fmt::format("Real matrix[{0}][{0}] = {{}};", m));
+      out.line(matrix_type(parts_, m) + " matrix;");
       write_matrix(out, cpp, "matrix", solve);
       std::string values;
       for (const Expression& r : solve.residual) values += (values.empty() ? "" : ", ") + cpp(-r);
       out.line(fmt::format("Real vector[{}] = {{{}}};", m, values));
-      out.line("const bool regular = eliminate(matrix, vector);");
+      out.line("const bool regular = matrix.factorise();");
+      out.line("if (regular) matrix.solve(vector);");
       for (std::size_t j = 0; j < m; ++j) {
         corrections.push_back(names.local(solve.corrections[j]));
         out.line(fmt::format("{} = vector[{}];", corrections.back(), j));
@@ -222,7 +226,7 @@ class SolveWriter {
                          const Solve& solve, std::size_t s, const std::set<std::string>& declared) {
     const std::size_t m = solve.variables.size();
     const std::string rule = fmt::format("rule_{}", s);
-    out.line(fmt::format("FixedPointRule<{}> {};", m, rule));
+    out.line(fmt::format("FixedPointRule<{}, 2> {};", m, rule));
     out.open("for (int iteration = 1;; ++iteration)");
     write_statements(out, cpp, names, solve.body, declared);
     std::string values;
@@ -230,15 +234,22 @@ class SolveWriter {
       values += (values.empty() ? "" : ", ") + cpp(v.next - Expression::symbol(v.name));
     }
     out.line(fmt::format("const Real increment[{}] = {{{}}};", m, values));
-    out.line(fmt::format("const Real scale = {};", scale_of(solve, cpp, names)));
+    std::string lengths;
+    std::string scale;
+    for (std::size_t j = 0; j < m; ++j) {
+      lengths += (j == 0 ? "" : ", ") + length_of(solve.variables[j], cpp, names);
+      scale += fmt::format("{}length[{}]", j == 0 ? "" : " + ", j);
+    }
+    out.line(fmt::format("const Real length[{}] = {{{}}};", m, lengths));
+    out.line("const Real scale = " + scale + ";");
     for (std::size_t j = 0; j < m; ++j) {
       out.line(fmt::format("{} += increment[{}];", names.local(solve.variables[j].name), j));
     }
-    out.line("const Progress progress = " + rule + "(increment, scale, iteration);");
-    out.line("if (progress == Progress::go_on) continue;");
+    out.line("const Verdict verdict = " + rule + "(increment, length, scale, iteration);");
+    out.line("if (verdict == Verdict::go_on) continue;");
     out.line("report.iterations += iteration;");
-    out.line("if (progress == Progress::done) break;");
-    out.line("for (const Real part : increment) report.increment += magnitude(part);");
+    out.line("if (verdict == Verdict::done) break;");
+    out.line("report.increment = " + rule + ".size;");
     out.line("return report;");
     out.close();
   }
@@ -288,9 +299,10 @@ class SolveWriter {
       return;
     }
     const std::string matrix = fmt::format("matrix_{}", s);
-    out.line(fmt::format("Real {}[{}][{}] = {{}};", matrix, m, m));
+    out.line(fmt::format("{} {};", matrix_type(parts_, m), matrix));
     write_matrix(out, cpp, matrix, solve);
-    out.line(fmt::format("if (!eliminate({}, {})) return report;", matrix, vector));
+    out.line(fmt::format("if (!{}.factorise()) return report;", matrix));
+    out.line(fmt::format("{}.solve({});", matrix, vector));
     for (std::size_t j = 0; j < m; ++j) {
       out.line(
           fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), vector, j));

@@ -6,7 +6,7 @@
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_schemes.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -58,7 +58,7 @@ class SplittingWriter {
                      text);
       write_gradient("dT/dp at z.", "kinetic_gradient", context_.program.kinetic_gradient, text);
     }
-    out_.lines(cpp_compensated_sum() + "\n");
+    out_.lines(cpp_numerics("two_sum"));
     write_start();
     write_solve();
     write_step();
@@ -250,7 +250,7 @@ class SplittingWriter {
     out_.line(fmt::format("const StepReport report = solve(par_, k_, z_, {}dz);",
                           closed_ ? "start_, " : ""));
     out_.line("if (!report.converged) return report;");
-    write_update("add(z_.{x}, carry_.{x}, dz.{x});");
+    write_update("two_sum(z_.{x}, carry_.{x}, carry_.{x} + dz.{x});");
     out_.line("return report;");
     out_.close();
     out_.line();

@@ -3,62 +3,15 @@
 #include <fmt/format.h>
 
 #include "generator/formats/cpp_arrays.hpp"
-#include "generator/formats/cpp_elimination.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_tableau.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
 namespace {
-
-std::string stage_rule(const ScalarType& scalar) {
-  return fmt::format(R"(enum class Progress {{ go_on, done, failed }};
-
-// When to stop iterating the stages: at round-off, that is where they stand still, or where twice in
-// a row no component has moved less than ever before.  A zero may be an accident and says nothing.
-// The larger the last increment, the more often in a row it takes: 64, 512, 4096 units of rounding
-// after 2, 3, 4 times.
-struct StageRule {{
-  // Every `cycle`-th iteration is compared.  2 for the fixed point: where q hangs on p and p on q
-  // alone, even and odd iterations are two sequences, and one may be far ahead of the other.
-  int cycle = 1;
-  Real least[2][dimension] = {{}};  // 0 before the first increment
-  Real size = 0;                  // of the last increment
-  int stuck = 0;
-
-  // moved, length: of each component, the increments of all stages and the stages' distance from z.
-  Progress operator()(const Real (&moved)[dimension], const Real (&length)[dimension], Real scale,
-                      int iterations) {{
-    bool decreased = false;
-    size = 0;
-    for (int k = 0; k < dimension; ++k) {{
-      Real& smallest = least[iterations % cycle][k];
-      // Among many components one always flickers: but not far below the rounding of its stages.
-      const bool visible = moved[k] * 8 > {epsilon} * length[k];
-      if (visible && (smallest <= 0 || moved[k] < smallest)) {{
-        decreased = true;
-        smallest = moved[k];
-      }}
-      size += moved[k];
-    }}
-    if (!(size <= {largest})) return Progress::failed;
-    if (size <= 0) return Progress::done;
-    stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = {epsilon} * scale;
-    if (stuck >= 2 && size <= 64 * round_off) return Progress::done;
-    if (stuck >= 3 && size <= 512 * round_off) return Progress::done;
-    const bool small = size <= 4096 * round_off;
-    if (stuck >= 4 && small) return Progress::done;
-    if (iterations < 200) return Progress::go_on;
-    return small ? Progress::done : Progress::failed;
-  }}
-}};
-
-)",
-                     fmt::arg("largest", scalar.largest), fmt::arg("epsilon", scalar.epsilon));
-}
 
 std::string step_text(const ScalarType& scalar) {
   return fmt::format(
@@ -150,15 +103,14 @@ std::string private_text() {
 )";
 }
 
-std::string fixed_point_text(bool switches, const ScalarType& scalar) {
+std::string fixed_point_text(bool switches) {
   std::string text =
       switches
           ? "  // Y_i = z + sum coupling L, over and over.  False if that contracts slowly or not "
             "at all.\n"
           : "  // Y_i = z + sum coupling L, over and over.  False if that does not contract.\n";
   text += R"(  bool fixed_point(StepReport& report) {
-    StageRule rule;
-    rule.cycle = 2;
+    FixedPointRule<dimension, 2> rule;
 )";
   if (switches) text += "    Real before = 0;\n    int slow = 0;\n";
   text += R"(    for (int iteration = 1;; ++iteration) {
@@ -176,23 +128,22 @@ std::string fixed_point_text(bool switches, const ScalarType& scalar) {
         }
         scale += magnitude(y_[k]) + length[k];
       }
-      const Progress progress = rule(moved, length, scale, iteration);
+      const Verdict verdict = rule(moved, length, scale, iteration);
       report.increment = rule.size;
-      if (progress == Progress::done) return true;
-      if (progress == Progress::failed) return false;
+      if (verdict == Verdict::done) return true;
+      if (verdict == Verdict::failed) return false;
 )";
   if (switches) {
-    text += fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
+    text += R"(      const bool visible = rule.size > 4096 * epsilon * scale;
       slow = iteration > 1 && visible && 2 * rule.size > before ? slow + 1 : 0;
       if (slow >= 3) return false;
       before = rule.size;
-)",
-                        scalar.epsilon);
+)";
   }
   return text + "    }\n  }\n";
 }
 
-std::string newton_text(bool arrays, const ScalarType& scalar) {
+std::string newton_text(bool arrays) {
   const std::string fill =
       arrays ? R"(    hessian(par_, x, x + n, [&values](int row, int column, Real value) {
       values[row][column] += value;
@@ -210,6 +161,7 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
     Real values[dimension][dimension] = {};
 )" + fill +
          R"(    constexpr int half = dimension / 2;
+    matrix_.clear();
     for (int row = 0; row < Elimination::size; ++row) {
       const int i = row / dimension;
       const int k = row % dimension;
@@ -217,14 +169,14 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
         const int j = column / dimension;
         const int l = column % dimension;
         const Real slope = k < half ? values[half + k][l] : -values[k - half][l];
-        matrix_.at(row, column) = (row == column ? 1 : 0) - coupling[i][j] * scaled_[j] * slope;
+        matrix_.put(row, column, (row == column ? 1 : 0) - coupling[i][j] * scaled_[j] * slope);
       }
     }
     return matrix_.factorise();
   }
   // Simplified Newton: one elimination serves until it contracts slowly, over many steps.
   bool newton(StepReport& report) {
-    StageRule rule;
+    FixedPointRule<dimension, 1> rule;
     Real before = 0;
     int age = factorised_ ? 1 : 0;  // of the matrix, in iterations of this step
     for (int iteration = 1;; ++iteration) {
@@ -258,29 +210,28 @@ std::string newton_text(bool arrays, const ScalarType& scalar) {
       }
       Real scale = 0;
       for (int k = 0; k < dimension; ++k) scale += magnitude(y_[k]) + length[k];
-      const Progress progress = rule(moved, length, scale, iteration);
+      const Verdict verdict = rule(moved, length, scale, iteration);
       report.increment = rule.size;
       // Where the Hessian is huge the increments are small, far from any solution.
       const bool holds = 16 * residual <= reach;
-      if (progress == Progress::done && holds) return true;
-      if (progress != Progress::go_on) {
+      if (verdict == Verdict::done && holds) return true;
+      if (verdict != Verdict::go_on) {
         factorised_ = false;
         if (age == 0 || iteration > 100) return false;
         restart();  // once more with a matrix of this step
-        rule = StageRule();
+        rule = {};
         before = 0;
         age = 0;
         continue;
       }
 )" +
-         fmt::format(R"(      const bool visible = rule.size > 4096 * {} * scale;
+         R"(      const bool visible = rule.size > 4096 * epsilon * scale;
       if (before > 0 && visible && 4 * rule.size > before && age > 1) factorised_ = false;
       before = rule.size;
       ++age;
-    }}
-  }}
-)",
-                     scalar.epsilon);
+    }
+  }
+)";
 }
 
 std::string iterate_text(StageSolver solver) {
@@ -336,8 +287,12 @@ void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tablea
   write_tableau(out, context.scalar, context.program.sequence.stages, tableau.c);
   const bool tangent = context.options.tangent;
   if (newton || tangent) write_stage_hessian(out, context);
-  out.lines(stage_rule(context.scalar));
-  if (newton || tangent) out.lines(elimination_text());
+  out.lines(cpp_numerics("verdict") + cpp_numerics("fixed_point_rule"));
+  if (newton || tangent) {
+    out.lines(cpp_numerics("dense_matrix"));
+    out.line("using Elimination = DenseMatrix<stages * dimension>;");
+    out.line();
+  }
   out.lines(step_text(context.scalar));
   out.indent();
   write_advance(out);
@@ -345,9 +300,9 @@ void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tablea
   if (tangent) out.lines(stages_tangent());
   out.lines(private_text());
   if (solver != StageSolver::newton) {
-    out.lines(fixed_point_text(solver == StageSolver::both, context.scalar));
+    out.lines(fixed_point_text(solver == StageSolver::both));
   }
-  if (newton) out.lines(newton_text(context.arrays(), context.scalar));
+  if (newton) out.lines(newton_text(context.arrays()));
   out.lines(iterate_text(solver));
   out.lines(R"(
   Parameters par_;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/formats/cpp_functions.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -145,21 +145,19 @@ class LinearisationWriter {
     bool needed = false;
     for (const Linearisation::Stage& stage : value_.stages) needed = needed || stage.solve;
     if (!needed) return;
-    if (!parts_.elimination && !parts_.eigen) {
-      out_.lines(cpp_elimination(context_.scalar) + "\n");
-    }
-    if (!parts_.inverse) out_.lines(cpp_inverse() + "\n");
+    if (!parts_.elimination && !parts_.eigen) out_.lines(matrix_numerics(parts_));
+    if (!parts_.inverse) out_.lines(cpp_numerics("inverse"));
   }
 
   void write_inverse(const CppExpression& cpp, std::size_t s) {
     if (!value_.stages[s].solve) return;
     const LinearisedSolve& solve = *value_.stages[s].solve;
     const std::size_t size = solve.matrix.size();
-    out_.line(fmt::format("Real matrix_{0}[{1}][{1}] = {{}};", s, size));
+    out_.line(fmt::format("{} matrix_{};", matrix_type(parts_, size), s));
     for (std::size_t i = 0; i < size; ++i) {
       for (std::size_t j = 0; j < size; ++j) {
         if (solve.matrix[i][j].is_zero()) continue;
-        out_.line(fmt::format("matrix_{}[{}][{}] = {};", s, i, j, cpp(solve.matrix[i][j])));
+        out_.line(fmt::format("matrix_{}.put({}, {}, {});", s, i, j, cpp(solve.matrix[i][j])));
       }
     }
     out_.line(fmt::format("Real inverse_{0}[{1}][{1}];", s, size));

@@ -211,8 +211,9 @@ std::string stages_tangent() {
       for (int column = 0; column < Elimination::size; ++column) {
         const int i = row / dimension;
         const int j = column / dimension;
-        matrix.at(row, column) = (row == column ? 1 : 0) -
-                                 coupling[i][j] * slope[j][row % dimension][column % dimension];
+        matrix.put(row, column,
+                   (row == column ? 1 : 0) -
+                       coupling[i][j] * slope[j][row % dimension][column % dimension]);
       }
     }
     if (!matrix.factorise()) return false;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "generator/formats/cpp_context.hpp"
-#include "generator/formats/cpp_support.hpp"
+#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -47,7 +47,7 @@ void write_struct(CodeWriter& out, const std::string& name, const std::vector<Cp
 
 }  // namespace
 
-void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
+void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary) {
   write_struct(out, "Parameters", context.parameter_groups, true, context.scalar);
   out.line();
   write_struct(out, "State", context.state_groups, false, context.scalar);
@@ -61,8 +61,8 @@ void write_types(CodeWriter& out, CppContext& context, bool with_magnitude) {
   out.line(fmt::format("Real increment = {};", literal(0, context.scalar)));
   out.close(";");
   out.line();
-  if (!with_magnitude) return;
-  out.lines(cpp_magnitude(context.scalar, context.options.builtins) + "\n");
+  if (!with_vocabulary) return;
+  out.lines(cpp_vocabulary(context.scalar, context.options.builtins));
   context.functions.insert("fabs");
 }
 

@@ -1,0 +1,31 @@
+#include "generator/formats/numerics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen {
+
+std::string cpp_vocabulary(const ScalarType& scalar, bool builtins) {
+  std::string value = builtins ? fmt::format("__builtin_fabs{}(x)", scalar.digits == 24   ? "f"
+                                                                    : scalar.digits == 64 ? "l"
+                                                                                          : "")
+                               : "std::fabs(x)";
+  if (scalar.digits == 113) value = "x < 0 ? -x : x";
+  return fmt::format(R"(inline Real magnitude(Real x) {{ return {}; }}
+inline constexpr Real largest = {};  // what is beyond counts as infinite
+inline constexpr Real epsilon = {};  // the distance from 1 to the next number
+
+)",
+                     value, scalar.largest, scalar.epsilon);
+}
+
+std::string cpp_numerics(std::string_view name) {
+  const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
+  if (found == all_numerics().end()) internal_error(fmt::format("no numerics '{}'", name));
+  return std::string(found->text) + "\n";
+}
+
+}  // namespace hamgen

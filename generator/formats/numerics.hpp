@@ -1,0 +1,35 @@
+// The parts of an emitted file that do not depend on the mathematics: the headers of
+// generator/numerics, letter by letter, and the names that they are given.
+//
+// A header there is tested as it is (tests/numerics_blocks), includes nothing and has no guard, for
+// it stands in the namespace that defines its vocabulary:
+//   Real       a floating-point type
+//   magnitude  its absolute value
+//   largest    close to its largest number: what is not <= largest is infinite or not a number
+//   epsilon    the distance from 1 to the next number
+// Sizes are template parameters.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "generator/formats/scalar.hpp"
+
+namespace hamgen {
+
+// The vocabulary but for Real; |x| by the compiler's own function where no header is wanted.
+[[nodiscard]] std::string cpp_vocabulary(const ScalarType& scalar, bool builtins);
+
+// The text of generator/numerics/NAME.hpp and an empty line.
+[[nodiscard]] std::string cpp_numerics(std::string_view name);
+
+// A header's name, "two_sum", and its text.  Their table is made from the headers by the build: an
+// installed hamgen has no sources.
+struct NumericsText {
+  std::string_view name;
+  std::string_view text;
+};
+[[nodiscard]] std::span<const NumericsText> all_numerics();
+
+}  // namespace hamgen

@@ -1,0 +1,50 @@
+// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
+// and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
+template <int Unknowns>
+struct History {
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
+  Real predicted[degrees][Unknowns] = {};
+  Real sum[Unknowns] = {};
+  int known = 0;  // degrees that are kept up to date
+  int best = 0;
+  int age = 15;
+
+  void record(const Real (&solution)[Unknowns]) {
+    if (++age == 16) choose(solution);
+    for (Real& s : sum) s = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      for (int i = 0; i < Unknowns; ++i) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+        sum[i] += kept;
+      }
+    }
+  }
+  void choose(const Real (&solution)[Unknowns]) {
+    age = 0;
+    Real least = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      Real error = 0;
+      for (int i = 0; i < Unknowns; ++i) {
+        error += magnitude(solution[i] - predicted[degree][i]);
+      }
+      if (degree == 0 || error < least) {
+        least = error;
+        best = degree;
+      }
+    }
+    if (best + 2 < known) {
+      --known;
+    } else if (known < degrees) {
+      ++known;
+      age = 15;
+    }
+  }
+  void extrapolate(Real (&solution)[Unknowns]) const {
+    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
+  }
+};

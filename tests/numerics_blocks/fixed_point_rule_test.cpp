@@ -1,0 +1,114 @@
+// When an iteration stops that ends in nothing but rounding: never before, and never much after.
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+template <class Blocks>
+class FixedPointRule : public ::testing::Test {
+ protected:
+  using Number = typename Blocks::Scalar;
+  using Answer = typename Blocks::Answer;
+
+  // The iteration at which a rule of one component stops that is shown these increments, in units
+  // of rounding of a solution 1; 0 if it never does.
+  template <int Cycle, class Increment>
+  static int stop(const Increment& increment, Answer expected = Answer::done) {
+    typename Blocks::template FixedPoint<1, Cycle> rule;
+    for (int iteration = 1; iteration <= 1000; ++iteration) {
+      const Number moved[1] = {Number(increment(iteration)) * Blocks::unit};
+      const Number length[1] = {1};
+      const Answer verdict = rule(moved, length, Number(1), iteration);
+      if (verdict == Answer::go_on) continue;
+      EXPECT_EQ(verdict, expected) << iteration;
+      return iteration;
+    }
+    return 0;
+  }
+};
+TYPED_TEST_SUITE(FixedPointRule, EveryScalar);
+
+// After the first two iterations, which are the least ever of their kind, nothing decreases.
+TYPED_TEST(FixedPointRule, TheLargerItIsTheLongerItMustStandStill) {
+  const auto constant = [](double units) { return [units](int) { return units; }; };
+  EXPECT_EQ(this->template stop<2>(constant(60)), 4);
+  EXPECT_EQ(this->template stop<2>(constant(500)), 5);
+  EXPECT_EQ(this->template stop<2>(constant(4000)), 6);
+  EXPECT_EQ(this->template stop<1>(constant(60)), 3);
+  EXPECT_EQ(this->template stop<1>(constant(500)), 4);
+  EXPECT_EQ(this->template stop<1>(constant(4000)), 5);
+}
+
+TYPED_TEST(FixedPointRule, WhatStandsStillFarFromRoundingFails) {
+  using Verdict = typename TypeParam::Answer;
+  EXPECT_EQ(this->template stop<2>([](int) { return 5000.0; }, Verdict::failed), 500);
+  EXPECT_EQ(this->template stop<1>([](int) { return 5000.0; }, Verdict::failed), 500);
+}
+
+// One iteration without progress is luck: 3000, 1500, 1500, 750, 750, ...
+TYPED_TEST(FixedPointRule, OneStallIsNoEnd) {
+  const auto halting = [](int i) { return 3000.0 / (1 << (i / 2)); };
+  EXPECT_GT(this->template stop<1>(halting), 20);
+}
+
+// q far ahead of p: even iterations move by 10 units of rounding, odd ones are still on their way.
+TYPED_TEST(FixedPointRule, EvenAndOddIterationsAreTwoSequences) {
+  const auto two = [](int i) { return i % 2 == 0 ? 10.0 : 4000.0 / (1 << (i / 2)); };
+  EXPECT_GT(this->template stop<2>(two), 16);
+}
+
+// A component that moves by less than an eighth of its rounding decreases for ever by chance.
+TYPED_TEST(FixedPointRule, WhatFlickersBelowRoundingDoesNotCount) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::template FixedPoint<2, 2> rule;
+  Verdict verdict = Verdict::go_on;
+  int iteration = 0;
+  while (verdict == Verdict::go_on) {
+    ++iteration;
+    const Real moved[2] = {4 * TypeParam::unit, TypeParam::unit / Real(9 + iteration)};
+    const Real length[2] = {1, 1};
+    verdict = rule(moved, length, Real(2), iteration);
+  }
+  EXPECT_EQ(verdict, Verdict::done);
+  EXPECT_EQ(iteration, 4);
+}
+
+// The sign of an increment is none of its business.
+TYPED_TEST(FixedPointRule, AnAlternatingIterationGoesToItsEnd) {
+  const auto sign = [](int i) { return (i % 2 == 0 ? 1 : -1) * 4000.0 / (1 << (i < 20 ? i : 20)); };
+  EXPECT_GT(this->template stop<1>(sign), 14);
+}
+
+TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
+  using Verdict = typename TypeParam::Answer;
+  EXPECT_EQ(this->template stop<2>([](int) { return 0.0; }), 1);
+  const double infinite = 1e308 * 10;
+  EXPECT_EQ(this->template stop<2>([&](int) { return infinite; }, Verdict::failed), 1);
+  EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
+}
+
+// x -> r x + (1 - r) from 0 in the scalar itself.  The error left is that of rounding, a unit or
+// two of x and of the product, summed over the 1/(1 - |r|) iterations that remember it.
+TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToItsRounding) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  for (const double ratio : {0.5, -0.5, 0.75, -0.75}) {
+    typename TypeParam::template FixedPoint<1, 2> rule;
+    Real x = 0;
+    Verdict verdict = Verdict::go_on;
+    for (int iteration = 1; verdict == Verdict::go_on; ++iteration) {
+      const Real next = Real(ratio) * x + Real(1 - ratio);
+      const Real moved[1] = {next - x};
+      x = next;
+      const Real length[1] = {TypeParam::absolute(x)};
+      verdict = rule(moved, length, length[0], iteration);
+    }
+    EXPECT_EQ(verdict, Verdict::done) << ratio;
+    const Real error = TypeParam::absolute(x - 1) / TypeParam::unit;
+    EXPECT_LE(static_cast<double>(error), 2 / (1 - (ratio < 0 ? -ratio : ratio))) << ratio;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test

@@ -1,0 +1,195 @@
+// Linear systems: what is solved to rounding, and what is refused.
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+template <class Blocks>
+class Matrices : public ::testing::Test {
+ protected:
+  using Number = typename Blocks::Scalar;
+
+  // Fills the matrix with the entries and solves for a known solution x_i = i - 2, from its image,
+  // which is exact.  Returns the largest error in units of rounding, -1 if it was refused.
+  template <int Size, class Matrix>
+  static double error(Matrix& matrix, const Number (&entry)[Size][Size]) {
+    Number vector[Size] = {};
+    matrix.clear();
+    for (int i = 0; i < Size; ++i) {
+      for (int j = 0; j < Size; ++j) {
+        if (entry[i][j] != 0) matrix.put(i, j, entry[i][j]);
+        vector[i] += entry[i][j] * Number(j - 2);
+      }
+    }
+    if (!matrix.factorise()) return -1;
+    matrix.solve(vector);
+    Number worst = 0;
+    for (int i = 0; i < Size; ++i) {
+      const Number off = Blocks::absolute(vector[i] - Number(i - 2));
+      if (!(off <= worst)) worst = off;
+    }
+    return static_cast<double>(worst / Blocks::unit);
+  }
+
+  // Random, nothing below the `width`-th diagonal or above it, and zeros on the diagonal.
+  template <int Size>
+  static void fill(Number (&entry)[Size][Size], int width, Numbers& numbers) {
+    for (int i = 0; i < Size; ++i) {
+      for (int j = 0; j < Size; ++j) {
+        const bool inside = i - j <= width && j - i <= width && i != j;
+        entry[i][j] = inside ? Number(numbers.next()) : Number(0);
+      }
+    }
+  }
+};
+TYPED_TEST_SUITE(Matrices, EveryScalar);
+
+// Backward stable elimination errs by some n^2 units of rounding times the condition, which is
+// below 100 in the random ones here: 4000 units is generous, and an elimination without pivoting,
+// which meets the zeros of the diagonal, has no bound.
+TYPED_TEST(Matrices, ADenseSystemWithAZeroDiagonalIsSolved) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  typename TypeParam::template Dense<6> matrix;
+  for (int run = 0; run < 20; ++run) {
+    Real entry[6][6];
+    this->fill(entry, 6, numbers);
+    const double error = this->template error<6>(matrix, entry);
+    EXPECT_GE(error, 0);
+    EXPECT_LT(error, 4000) << run;
+  }
+}
+
+// By hand: x = (2, 1) + O(pivot).  Without an exchange of rows 1 - 1/pivot swallows the 1 of row 2.
+TYPED_TEST(Matrices, ASmallPivotCostsNoDigits) {
+  using Real = typename TypeParam::Scalar;
+  const Real pivot = TypeParam::unit * TypeParam::unit;
+  typename TypeParam::template Dense<2> dense;
+  typename TypeParam::template Band<2, 1> band;
+  Real x[2] = {1, 3};
+  Real y[2] = {1, 3};
+  const Real entry[2][2] = {{pivot, 1}, {1, 1}};
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      dense.put(i, j, entry[i][j]);
+      band.put(i, j, entry[i][j]);
+    }
+  }
+  ASSERT_TRUE(dense.factorise());
+  ASSERT_TRUE(band.factorise());
+  dense.solve(x);
+  band.solve(y);
+  for (const Real* solution : {x, y}) {
+    EXPECT_LE(static_cast<double>(TypeParam::absolute(solution[0] - 2) / TypeParam::unit), 4);
+    EXPECT_LE(static_cast<double>(TypeParam::absolute(solution[1] - 1) / TypeParam::unit), 4);
+  }
+}
+
+// Rows that have been exchanged once and again: a cyclic shift.
+TYPED_TEST(Matrices, APermutationIsSolvedExactly) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template Dense<5> matrix;
+  Real entry[5][5] = {};
+  for (int i = 0; i < 5; ++i) entry[i][(i + 2) % 5] = Real(1 + i % 2);
+  EXPECT_EQ(this->template error<5>(matrix, entry), 0);
+}
+
+TYPED_TEST(Matrices, ABandWithAZeroDiagonalIsSolvedAsAFullMatrixIs) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  typename TypeParam::template Band<8, 1> narrow;
+  typename TypeParam::template Band<8, 3> wide;
+  for (int run = 0; run < 20; ++run) {
+    Real entry[8][8];
+    this->fill(entry, 1, numbers);
+    EXPECT_GE(this->template error<8>(narrow, entry), 0);
+    EXPECT_LT(this->template error<8>(narrow, entry), 200000) << run;
+    this->fill(entry, 3, numbers);
+    EXPECT_GE(this->template error<8>(wide, entry), 0);
+    EXPECT_LT(this->template error<8>(wide, entry), 4000) << run;
+  }
+}
+
+TYPED_TEST(Matrices, OneFactorisationServesManyRightSides) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template Dense<3> matrix;
+  const Real entry[3][3] = {{0, 2, 1}, {4, 0, -1}, {1, 1, 8}};
+  ASSERT_GE(this->template error<3>(matrix, entry), 0);
+  Real inverse[3][3];
+  matrix.clear();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) matrix.put(i, j, entry[i][j]);
+  }
+  ASSERT_TRUE(TypeParam::inverse(matrix, inverse));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      Real sum = i == j ? -1 : 0;
+      for (int k = 0; k < 3; ++k) sum += entry[i][k] * inverse[k][j];
+      EXPECT_LE(static_cast<double>(TypeParam::absolute(sum) / TypeParam::unit), 16);
+    }
+  }
+}
+
+TYPED_TEST(Matrices, ASingularOneIsRefused) {
+  using Real = typename TypeParam::Scalar;
+  const Real entry[3][3] = {{1, 2, 0}, {2, 4, 0}, {0, 0, 1}};
+  typename TypeParam::template Dense<3> dense;
+  typename TypeParam::template Band<3, 1> band;
+  typename TypeParam::template Diagonal<3> diagonal;
+  EXPECT_EQ(this->template error<3>(dense, entry), -1);
+  EXPECT_EQ(this->template error<3>(band, entry), -1);
+  const Real hole[3][3] = {{1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+  EXPECT_EQ(this->template error<3>(diagonal, hole), -1);
+  // So is the last row alone, where nothing is left to exchange with.
+  const Real last[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  EXPECT_EQ(this->template error<3>(dense, last), -1);
+  EXPECT_EQ(this->template error<3>(band, last), -1);
+  EXPECT_EQ(this->template error<3>(diagonal, last), -1);
+  Real inverse[3][3];
+  dense.clear();
+  EXPECT_FALSE(TypeParam::inverse(dense, inverse));
+}
+
+TYPED_TEST(Matrices, OneThatIsNotANumberIsRefused) {
+  using Real = typename TypeParam::Scalar;
+  const Real infinite = TypeParam::most * TypeParam::most;
+  typename TypeParam::template Dense<2> dense;
+  typename TypeParam::template Band<2, 1> band;
+  typename TypeParam::template Diagonal<2> diagonal;
+  const Real entry[2][2] = {{infinite - infinite, 0}, {0, 1}};
+  EXPECT_EQ(this->template error<2>(dense, entry), -1);
+  EXPECT_EQ(this->template error<2>(band, entry), -1);
+  EXPECT_EQ(this->template error<2>(diagonal, entry), -1);
+}
+
+TYPED_TEST(Matrices, ADiagonalIsDividedBy) {
+  using Real = typename TypeParam::Scalar;
+  const Real entry[4][4] = {{2, 0, 0, 0}, {0, -4, 0, 0}, {0, 0, 8, 0}, {0, 0, 0, 1}};
+  typename TypeParam::template Diagonal<4> matrix;
+  EXPECT_EQ(this->template error<4>(matrix, entry), 0);
+}
+
+// A ring of 8 folded flat has its neighbours within two places: 0, 7, 1, 6, 2, 5, 3, 4.
+struct Folded {
+  static int row(int i) { return 2 * i < 8 ? 2 * i : 2 * (7 - i) + 1; }
+};
+
+TYPED_TEST(Matrices, ARingIsABandInAnotherOrder) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  typename TypeParam::template Reordered<typename TypeParam::template Band<8, 2>, Folded> ring;
+  for (int run = 0; run < 20; ++run) {
+    Real entry[8][8] = {};
+    for (int i = 0; i < 8; ++i) {
+      entry[i][i] = 3;
+      entry[i][(i + 1) % 8] = Real(numbers.next());
+      entry[(i + 1) % 8][i] = Real(numbers.next());
+    }
+    const double error = this->template error<8>(ring, entry);
+    EXPECT_GE(error, 0);
+    EXPECT_LT(error, 100) << run;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
