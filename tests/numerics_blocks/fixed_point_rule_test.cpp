@@ -88,8 +88,8 @@ TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
 }
 
-// x -> r x + (1 - r) from 0 in the scalar itself.  The error left is that of rounding, a unit or two
-// of x and of the product, summed over the 1/(1 - |r|) iterations that remember it.
+// x -> r x + (1 - r) from 0 in the scalar itself.  The error left is that of rounding, a unit or
+// two of x and of the product, summed over the 1/(1 - |r|) iterations that remember it.
 TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToItsRounding) {
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;

@@ -44,9 +44,9 @@ class Matrices : public ::testing::Test {
 };
 TYPED_TEST_SUITE(Matrices, EveryScalar);
 
-// Backward stable elimination errs by some n^2 units of rounding times the condition, which is below
-// 100 in the random ones here: 4000 units is generous, and an elimination without pivoting, which
-// meets the zeros of the diagonal, has no bound.
+// Backward stable elimination errs by some n^2 units of rounding times the condition, which is
+// below 100 in the random ones here: 4000 units is generous, and an elimination without pivoting,
+// which meets the zeros of the diagonal, has no bound.
 TYPED_TEST(Matrices, ADenseSystemWithAZeroDiagonalIsSolved) {
   using Real = typename TypeParam::Scalar;
   Numbers numbers;
