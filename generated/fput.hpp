@@ -167,7 +167,7 @@ struct History {
 
 // H(q, p).
 inline Real energy(const Parameters& par, const State& z) {
-  Real sum = 0;
+  Real sum = 0.0;
   for (int i = 1; i <= 32; ++i) {
     const Real p_i = z.p[i - 1];
     sum += 0.5 * (p_i * p_i);
@@ -190,7 +190,7 @@ inline Real energy(const Parameters& par, const State& z) {
 
 // dq[i] = dH/dq_i.
 inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
-  for (int i = 0; i < n; ++i) dq[i] = 0;
+  for (int i = 0; i < n; ++i) dq[i] = 0.0;
   for (int i = 1; i <= 31; ++i) {
     const Real q_i_plus_1 = q[i];
     const Real q_i = q[i - 1];
@@ -207,7 +207,7 @@ inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
 
 // dp[i] = dH/dp_i.
 inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
-  for (int i = 0; i < n; ++i) dp[i] = 0;
+  for (int i = 0; i < n; ++i) dp[i] = 0.0;
   for (int i = 1; i <= 32; ++i) {
     const Real p_i = p[i - 1];
     dp[i - 1] += p_i;

@@ -36,7 +36,8 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
 
 void CppContext::write_routine(CodeWriter& out, std::string_view name) {
   const Routine* routine = code.routine(name);
-  if (routine != nullptr) print(out, *routine, {scalar, options.builtins}, used);
+  if (routine != nullptr)
+    print(out, *routine, {scalar, options.builtins, arrays() ? n() : 0}, used);
 }
 
 CppExpression CppContext::expression(Names& names) {

@@ -11,23 +11,6 @@
 
 namespace hamgen {
 
-namespace {
-
-// f = (H_p, -H_q) from grad H = (H_q, H_p).
-void write_vector_field(CodeWriter& out, CppContext& context) {
-  if (!context.arrays()) return context.write_routine(out, "vector_field");
-  out.line("// J grad H at a state (q, p).");
-  out.lines(R"(inline void vector_field(const Parameters& par, const Real (&x)[dimension],
-                         Real (&f)[dimension]) {
-  gradient(par, x, x + n, f + n, f);
-  for (int i = 0; i < n; ++i) f[n + i] = -f[n + i];
-}
-
-)");
-}
-
-}  // namespace
-
 void write_flat_state(CodeWriter& out, const CppContext& context) {
   out.line("// The state as one array.");
   out.open("inline void read(const State& z, Real (&x)[dimension])");
@@ -70,7 +53,7 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   }
   out.line(fmt::format("inline constexpr int dimension = {};", 2 * context.n()));
   out.line();
-  write_vector_field(out, context);
+  context.write_routine(out, "vector_field");
   if (implicit) {
     out.lines(cpp_numerics("two_sum"));
     write_flat_state(out, context);

@@ -42,6 +42,10 @@ class RoutinePrinter {
 
   void print() {
     for (const std::string& line : routine_.remark) out_.remark("// ", line);
+    if (std::ranges::find(routine_.arguments, "Put", &Argument::record) !=
+        routine_.arguments.end()) {
+      out_.line("template <class Put>");
+    }
     out_.open(signature());
     if (!routine_.result.object.empty()) {
       out_.line(routine_.result.type + " " + routine_.result.object + ";");
@@ -80,12 +84,17 @@ class RoutinePrinter {
                           value.substr(negative ? 1 : 0)));
   }
   void operator()(const For& loop) { print_inside(head(loop.range), loop.body); }
+  void operator()(const Scope& scope) {
+    out_.open("");
+    print(scope.body);
+    out_.close();
+  }
   void operator()(const If& branch) {
     print_inside(fmt::format("if ({}{})", branch.set ? "" : "!", text(branch.flag)), branch.then);
   }
   void operator()(const Call& call) {
     std::vector<std::string> arguments;
-    for (const Place& place : call.arguments) arguments.push_back(text(place));
+    for (const Place& place : call.arguments) arguments.push_back(given(place));
     out_.line(fmt::format("{}({});", call.routine, joined(arguments, ", ")));
   }
   void operator()(const Matrix& matrix) {
@@ -100,8 +109,8 @@ class RoutinePrinter {
   }
   void operator()(const Put& put) {
     const std::string value = cpp_(put.value);
-    out_.line(
-        fmt::format("{}.put({}, {}, {});", put.matrix, text(put.row), text(put.column), value));
+    out_.line(fmt::format("{}{}({}, {}, {});", put.matrix, is_put(put.matrix) ? "" : ".put",
+                          text(put.row), text(put.column), value));
   }
   void operator()(const SetFlag& set) {
     out_.line(fmt::format("{} = {};", text(set.flag), set.value));
@@ -295,13 +304,16 @@ class RoutinePrinter {
     if (end.ranges.empty()) out_.line("const Real length = " + sum + ";");
   }
 
-  [[nodiscard]] static std::string head(const KernelRange& range) {
+  [[nodiscard]] std::string head(const KernelRange& range) const {
     // From 0 on as C++ has it.
     const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
-    return counts ? fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
-                                range.upper.constant + 1)
-                  : fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index,
-                                text(range.lower), text(range.upper));
+    if (counts) {
+      const long count = range.upper.constant + 1;
+      return fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
+                         count == dialect_.n ? "n" : std::to_string(count));
+    }
+    return fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index, text(range.lower),
+                       text(range.upper));
   }
 
   // What an unknown is rounded with.
@@ -338,7 +350,20 @@ class RoutinePrinter {
     if (a.constant < 0) text += fmt::format(" - {}", -a.constant);
     return text;
   }
+  // Is it what takes the entries of a matrix?
+  [[nodiscard]] bool is_put(const std::string& object) const {
+    return std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
+      return argument.name == object && argument.record == "Put";
+    });
+  }
+
+  // An argument of a call: of an element, the array from there on.
+  [[nodiscard]] static std::string given(const Place& place) {
+    if (place.indices.empty()) return text(place);
+    return text(Place{place.object, place.field}) + " + " + text(place.indices.front());
+  }
   [[nodiscard]] static std::string text(const Place& place) {
+    if (place.object.empty()) return "Real(" + text(place.indices.front()) + ")";
     std::string result = place.object + (place.field.empty() ? "" : "." + place.field);
     for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
     return result;
@@ -351,7 +376,10 @@ class RoutinePrinter {
     if (argument.sizes.empty() && argument.record.empty()) {
       return name.empty() ? "Real" : "Real " + name;
     }
-    if (argument.sizes.empty()) return constant + type + "&" + (name.empty() ? "" : " " + name);
+    const std::string named = name.empty() ? "" : " " + name;
+    if (argument.record == "Put") return "Put" + named;
+    if (argument.decays) return constant + "Real*" + named;
+    if (argument.sizes.empty()) return constant + type + "&" + named;
     std::string text = constant + type + " (&" + name + ")";
     for (const int size : argument.sizes) text += fmt::format("[{}]", size);
     return text;

@@ -14,6 +14,7 @@ namespace hamgen {
 struct Dialect {
   const ScalarType& scalar;
   bool builtins = false;  // functions of the compiler instead of <cmath>
+  int n = 0;              // degrees of freedom, where the text has a constant of that name
 };
 
 // What was used, for the lines before the routines.

@@ -139,7 +139,8 @@ Real CompiledExpression<Real>::operator()(const Frame<Real>& frame) const {
         *++top = step.number;
         break;
       case Operation::symbol:
-        *++top = frame.at(step.address);
+        *++top = step.address.object == kIndex ? Real(frame.offset(step.address))
+                                               : frame.at(step.address);
         break;
       case Operation::negate:
         *top = -*top;

@@ -10,7 +10,9 @@
 
 namespace hamgen {
 
-// The address of a number: objects[object][offset + sum of factor * indices[index]].
+// The address of a number: objects[object][offset + sum of factor * indices[index]].  Of no object
+// that place itself is the number.
+inline constexpr int kIndex = -1;
 struct Address {
   int object = 0;
   long offset = 0;
@@ -22,12 +24,15 @@ template <class Real>
 struct Frame {
   std::vector<Real*> objects;
   std::vector<long> indices;
-  [[nodiscard]] Real& at(const Address& address) const {
+  [[nodiscard]] long offset(const Address& address) const {
     long offset = address.offset;
     for (const auto& [index, factor] : address.factors) {
       offset += factor * indices[static_cast<std::size_t>(index)];
     }
-    return objects[static_cast<std::size_t>(address.object)][offset];
+    return offset;
+  }
+  [[nodiscard]] Real& at(const Address& address) const {
+    return objects[static_cast<std::size_t>(address.object)][offset(address)];
   }
 };
 

@@ -142,6 +142,9 @@ class Machine<Real>::Compiler {
       return true;
     };
   }
+  Step operator()(const Scope& scope) {
+    return [this, body = steps(scope.body)] { return run_all(body); };
+  }
   Step operator()(const If& branch) {
     return [this, branch, target = index_of(branch.flag.object), body = steps(branch.then)] {
       return object(target).flags.at(branch.flag.field) != branch.set || run_all(body);
@@ -397,6 +400,11 @@ class Machine<Real>::Compiler {
   [[nodiscard]] int size_of(const Place& place) const { return sizes_of(place).front(); }
 
   Address address(const Place& place) {
+    if (place.object.empty()) {
+      Address index = index_address(place.indices.front());
+      index.object = kIndex;
+      return index;
+    }
     Address result{index_of(place.object), 0, {}};
     const Shape& shape = m_.shapes_[static_cast<std::size_t>(result.object)];
     if (!place.field.empty()) result.offset = offset_of(*shape.record, place.field);

@@ -48,6 +48,7 @@ struct Reader {
     mention(sum.value, found);
   }
   void operator()(const For& loop) const { mention(loop.body, found); }
+  void operator()(const Scope& scope) const { mention(scope.body, found); }
   void operator()(const If& branch) const {
     found.objects.insert(branch.flag.object);
     mention(branch.then, found);
@@ -83,6 +84,7 @@ void mention(const Body& body, Mentions& found) {
 
 std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* loop = std::get_if<For>(&instruction.value)) return {&loop->body};
+  if (const auto* scope = std::get_if<Scope>(&instruction.value)) return {&scope->body};
   if (const auto* branch = std::get_if<If>(&instruction.value)) return {&branch->then};
   if (const auto* iterate = std::get_if<Iterate>(&instruction.value)) return {&iterate->body};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};

@@ -35,7 +35,8 @@ struct Record {
   bool operator==(const Record&) const = default;
 };
 
-// An object of a routine, a field of it, or an element: z.q[i - 1], matrix[0][1].
+// An object of a routine, a field of it, or an element: z.q[i - 1], matrix[0][1].  Without object
+// the index itself is the number.
 struct Place {
   std::string object;
   std::string field = {};
@@ -91,6 +92,10 @@ struct SetFlag {
 };
 struct For {
   KernelRange range;  // both ends are taken
+  Body body;
+};
+// Locals that end with it.
+struct Scope {
   Body body;
 };
 // Runs its body where the flag is set, or where it is not.
@@ -152,18 +157,20 @@ struct Return {
 };
 
 struct Instruction {
-  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Put, SetFlag, For, If, Call, Factorise,
-               SolveFactorised, Invert, Iterate, Sweep, Return>
+  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Put, SetFlag, For, Scope, If, Call,
+               Factorise, SolveFactorised, Invert, Iterate, Sweep, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
 };
 
-// A record by reference, an array of numbers, or a number.
+// A record by reference, an array of numbers, or a number.  The record "Put" takes what Put gives
+// it: put(row, column, value).
 struct Argument {
   std::string name;
   std::string record = {};
   std::vector<int> sizes = {};
   bool changes = false;
+  bool decays = false;  // an array that is given by its first element
 };
 
 // What a routine returns: nothing, a number, or a record of this name that it fills in.

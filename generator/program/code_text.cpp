@@ -62,6 +62,10 @@ class Printer {
                      to_text(loop.range.upper)));
     inside(loop.body);
   }
+  void operator()(const Scope& scope) {
+    line("scope:");
+    inside(scope.body);
+  }
   void operator()(const If& branch) {
     line(fmt::format("if {}{}:", branch.set ? "" : "not ", to_text(branch.flag)));
     inside(branch.then);

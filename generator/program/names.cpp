@@ -88,8 +88,7 @@ constexpr std::string_view kOurs[] = {"std",
 
 // rule_0, matrix_1: what the emitted functions number themselves.
 bool is_numbered(std::string_view name) {
-  constexpr std::string_view kStems[] = {"rule_",    "vector_",  "matrix_",
-                                         "product_", "inverse_", "entry_"};
+  constexpr std::string_view kStems[] = {"rule_", "vector_", "matrix_", "product_", "inverse_"};
   return std::ranges::any_of(kStems, [&](std::string_view stem) {
     return name.starts_with(stem) && name.size() > stem.size() &&
            std::ranges::all_of(name.substr(stem.size()),
@@ -205,7 +204,11 @@ const std::string& Names::local(const std::string& symbol) {
   }
   if (source.starts_with("1/det")) source = "inverse_det" + source.substr(5);
   if (renewed) suffix += "_new";
+  const bool element = source.find('[') != std::string::npos;  // "q[2*i+1]": q_2_times_i_plus_1
   for (const char c : source) {
+    if (element && (c == '+' || c == '-' || c == '*')) {
+      text += c == '+' ? "_plus" : c == '-' ? "_minus" : "_times";
+    }
     const bool letter = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     if (letter) {
       text += c;

@@ -6,6 +6,7 @@
 
 #include "generator/program/coefficients.hpp"
 #include "generator/program/function_routines.hpp"
+#include "generator/program/kernel_routines.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
@@ -59,6 +60,31 @@ Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
                             .type = solves[s]->simplified ? "NewtonRule<1>" : "NewtonRule<2>"});
   }
   return start;
+}
+
+// The functions of the state of a system in loops.
+void add_kernel_functions(StepCode& code, const Environment& environment, const Program& program) {
+  const SolvePlan& plan = program.plan;
+  const Mechanics& mechanics = plan.equations.mechanics;
+  const ArrayPlan& arrays = *plan.arrays;
+  code.routines.push_back(kernel_energy(environment, mechanics));
+  if (mechanics.is_separable()) {
+    code.routines.push_back(
+        kernel_gradient(environment, mechanics, "potential_gradient", Part::potential));
+    code.routines.push_back(
+        kernel_gradient(environment, mechanics, "kinetic_gradient", Part::kinetic));
+    code.routines.push_back(both_gradients(environment));
+  } else {
+    code.routines.push_back(kernel_gradient(environment, mechanics, "gradient", Part::all));
+  }
+  if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
+    code.routines.push_back(array_vector_field(environment));
+  }
+  if (arrays.reduced && !arrays.mass)
+    code.routines.push_back(kernel_masses(environment, mechanics));
+  const bool potential = arrays.matrix && arrays.reduced;
+  code.routines.push_back(
+      kernel_hessian(environment, mechanics, potential ? Part::potential : Part::all));
 }
 
 // The functions of the state of a system that is written out.
@@ -175,7 +201,11 @@ StepCode step_code(const Program& program) {
   for (const Quantity& parameter : environment.parameters) {
     code.parameters.push_back(parameter.name);
   }
-  if (!arrays) add_functions(code, environment, program);
+  if (arrays) {
+    add_kernel_functions(code, environment, program);
+  } else {
+    add_functions(code, environment, program);
+  }
   if (!equations.mechanics.invariants.empty()) {
     code.routines.push_back(invariants(environment, program));
   }

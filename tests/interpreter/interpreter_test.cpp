@@ -99,5 +99,57 @@ INSTANTIATE_TEST_SUITE_P(Sample, Compiled,
                                          Case{"product", {.scheme = "rk4"}},
                                          Case{"morse", {.order = 4}}));
 
+// What the interpreter cannot run yet.
+bool is_interpreted(const StepCode& code) { return code.routine("solve") != nullptr; }
+
+// Both do the same operations, from the same state and carry: what differs is rounding.  A solved
+// step is off by its rounding errors times the norm of the inverse of its matrix, which no scene
+// here makes large.
+TEST(EveryScheme, OfEveryModelIsTheSameStepInDoubleAndInQuad) {
+  double worst = 0;
+  std::string where;
+  int steps = 0;
+  for (const auto& entry :
+       fs::directory_iterator(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians")) {
+    const SourceText source = read_source(entry.path().string());
+    for (const Scheme& scheme : all_schemes()) {
+      const Request request{.scheme = scheme.name};
+      StepCode code;
+      try {
+        code = make_step_code(source, request);
+      } catch (const UsageError&) {
+        continue;  // the scheme needs what this H does not have
+      }
+      if (!is_interpreted(code)) continue;
+      const Model model = read_request(source, request);
+      const Start start = start_of(model, model.scenes.front(), code);
+      Interpreter<double> run(code, start.parameters, start.h, start.state);
+      Interpreter<Quad> exact(code, as<Quad>(start.parameters), Quad(start.h),
+                              as<Quad>(start.state));
+      for (int step = 0; step < 8; ++step) {
+        exact.reset(as<Quad>(run.state()), as<Quad>(run.carry()));
+        ASSERT_TRUE(run.step().converged) << entry.path().stem() << " " << scheme.name;
+        ASSERT_TRUE(exact.step().converged) << entry.path().stem() << " " << scheme.name;
+        double size = 0;
+        for (const double x : run.state()) size = std::max(size, std::abs(x));
+        for (std::size_t i = 0; i < run.state().size(); ++i) {
+          const Quad error =
+              (Quad(run.state()[i]) - exact.state()[i]) + (Quad(run.carry()[i]) - exact.carry()[i]);
+          const double units = std::abs(static_cast<double>(error)) / (size * 0x1p-52);
+          if (units > worst) {
+            worst = units;
+            where = fmt::format("{} {} step {}", entry.path().stem().string(), scheme.name, step);
+          }
+        }
+        ++steps;
+      }
+    }
+  }
+  EXPECT_LE(worst, 64) << where;
+  EXPECT_GT(steps, 1000);
+  RecordProperty("worst_in_units_of_rounding", fmt::format("{:.3g}", worst));
+  RecordProperty("where", where);
+}
+
 }  // namespace
 }  // namespace hamgen

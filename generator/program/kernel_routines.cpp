@@ -1,0 +1,283 @@
+#include "generator/program/kernel_routines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/program/lower.hpp"
+#include "generator/program/names.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// A loop's index: the user's name, unless the functions here use it themselves.
+std::string loop_index(const std::string& name) {
+  constexpr const char* kTaken[] = {"par", "q", "p", "z", "sum", "dq", "dp", "put", "n"};
+  return std::ranges::find(kTaken, name) != std::end(kTaken) ? name + "_index" : identifier(name);
+}
+
+AffineIndex renamed(const AffineIndex& index) {
+  AffineIndex result{index.constant, {}};
+  for (const auto& [name, factor] : index.factors) result.factors[loop_index(name)] = factor;
+  return result;
+}
+
+class KernelRoutine {
+ public:
+  KernelRoutine(const Environment& environment, const Mechanics& mechanics, Part part)
+      : mechanics_(mechanics), n_(environment.degrees_of_freedom), part_(part) {
+    routine_.arguments.push_back(parameters_argument());
+    environment.bind_parameters(routine_);
+  }
+
+  Routine energy() {
+    routine_.name = "energy";
+    routine_.remark = {"H(q, p)."};
+    routine_.result = {.type = "Real"};
+    routine_.arguments.push_back(state_argument("z"));
+    state_ = "z";
+    const std::string sum = "(sum)";
+    routine_.body.push_back({Let{sum, Expression(0), true}});
+    add_kernels([&](const Kernel& kernel, Body& body) {
+      for (const Expression& value : load(kernel, {kernel.value}, body)) {
+        body.push_back({Accumulate{sum, value}});
+      }
+    });
+    routine_.body.push_back({Return{.value = Expression::symbol(sum, kRankOfTemporary)}});
+    return std::move(routine_);
+  }
+
+  Routine gradient(std::string name) {
+    routine_.name = std::move(name);
+    routine_.remark = {part_ == Part::potential ? "dq[i] = dH/dq_i."
+                       : part_ == Part::kinetic ? "dp[i] = dH/dp_i."
+                                                : "dq[i] = dH/dq_i, dp[i] = dH/dp_i."};
+    add_state();
+    add_target("dq", part_ != Part::kinetic);
+    add_target("dp", part_ != Part::potential);
+    add_kernels([&](const Kernel& kernel, Body& body) {
+      std::vector<Expression> values;
+      std::vector<const Slot*> slots;
+      for (std::size_t i = 0; i < kernel.slots.size(); ++i) {
+        if (kernel.gradient[i].is_zero()) continue;
+        values.push_back(kernel.gradient[i]);
+        slots.push_back(&kernel.slots[i]);
+      }
+      const std::vector<Expression> results = load(kernel, values, body);
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        body.push_back({Accumulate{slope_of(*slots[i]), results[i]}});
+      }
+    });
+    return std::move(routine_);
+  }
+
+  Routine masses() {
+    routine_.name = "masses";
+    routine_.remark = {"dp[i] = d2H/dp_i^2, which is constant."};
+    add_target("dp", true);
+    add_kernels([&](const Kernel& kernel, Body& body) {
+      std::vector<Expression> values;
+      std::vector<std::string> targets;
+      for (const auto& [slots, value] : kernel.hessian) {
+        values.push_back(value);
+        targets.push_back(slope_of(kernel.slots[slots.first]));
+      }
+      const std::vector<Expression> results = load(kernel, values, body);
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        body.push_back({Accumulate{targets[i], results[i]}});
+      }
+    });
+    return std::move(routine_);
+  }
+
+  Routine hessian() {
+    routine_.name = "hessian";
+    routine_.remark = {
+        "put(row, column, value) for the second derivatives, repeated entries to be added."};
+    add_state();
+    routine_.arguments.push_back({.name = "put", .record = "Put"});
+    add_kernels([&](const Kernel& kernel, Body& body) {
+      std::vector<Expression> values;
+      for (const auto& [slots, value] : kernel.hessian) values.push_back(value);
+      const std::vector<Expression> results = load(kernel, values, body);
+      std::size_t k = 0;
+      int named = 0;
+      for (const auto& [slots, value] : kernel.hessian) {
+        Expression entry = results[k++];
+        const AffineIndex row = renamed(kernel.slots[slots.first].position);
+        const AffineIndex column = renamed(kernel.slots[slots.second].position);
+        const bool twice = slots.first != slots.second;
+        if (twice && !is_trivial(entry)) {
+          const std::string symbol = fmt::format("entry_{}", ++named);
+          body.push_back({Let{symbol, entry}});
+          entry = Expression::symbol(symbol, kRankOfTemporary);
+        }
+        body.push_back({Put{"put", row, column, entry}});
+        if (twice) body.push_back({Put{"put", column, row, entry}});
+      }
+    });
+    return std::move(routine_);
+  }
+
+ private:
+  // The arrays of the state that the part reads.
+  void add_state() {
+    if (part_ != Part::kinetic) {
+      routine_.arguments.push_back({.name = "q", .sizes = {n_}, .decays = true});
+    }
+    if (part_ != Part::potential) {
+      routine_.arguments.push_back({.name = "p", .sizes = {n_}, .decays = true});
+    }
+  }
+
+  // An array that is summed up, zero to begin with.
+  void add_target(const std::string& name, bool wanted) {
+    if (!wanted) return;
+    routine_.arguments.push_back({.name = name, .sizes = {n_}, .changes = true, .decays = true});
+    const std::string element = bind(name + "(i)", {.object = name, .indices = {{0, {{"i", 1}}}}});
+    Body zero{{Assign{element, Expression(0)}}};
+    routine_.body.push_back({For{{"i", {0, {}}, {n_ - 1, {}}}, std::move(zero)}});
+  }
+
+  std::string bind(const std::string& symbol, Place place) {
+    routine_.places.insert_or_assign(symbol, std::move(place));
+    return symbol;
+  }
+
+  [[nodiscard]] AffineIndex position(const Slot& slot) const {
+    AffineIndex result = renamed(slot.position);
+    if (slot.is_momentum) result.constant -= n_;
+    return result;
+  }
+
+  // Where an element of the state stands.
+  [[nodiscard]] Place element(const Slot& slot) const {
+    const char* array = slot.is_momentum ? "p" : "q";
+    if (state_.empty()) return {.object = array, .indices = {position(slot)}};
+    return {.object = state_, .field = array, .indices = {position(slot)}};
+  }
+  std::string slope_of(const Slot& slot) {
+    const char* array = slot.is_momentum ? "dp" : "dq";
+    return bind(fmt::format("{}({})", array, to_text(position(slot))),
+                {.object = array, .indices = {position(slot)}});
+  }
+
+  [[nodiscard]] bool belongs(const Kernel& kernel) const {
+    return part_ == Part::all || uses_momenta(kernel) == (part_ == Part::kinetic);
+  }
+
+  // Loads what the values read and computes them together.
+  std::vector<Expression> load(const Kernel& kernel, const std::vector<Expression>& values,
+                               Body& body) {
+    std::set<std::string> used;
+    for (const Expression& value : values) collect_symbols(value, used);
+    Substitution indices;
+    for (const KernelRange& range : kernel.ranges) {
+      const std::string index = loop_index(range.index);
+      const std::string symbol = "index(" + index + ")";
+      bind(symbol, {.object = {}, .indices = {{0, {{index, 1}}}}});
+      indices.emplace(range.index, Expression::symbol(symbol, kRankOfParameter));
+    }
+    for (const ParameterSlot& slot : kernel.parameters) {
+      bind(slot.symbol, {.object = "par",
+                         .field = member_identifier(slot.parameter),
+                         .indices = {renamed(slot.position)}});
+    }
+    const Evaluation evaluation = evaluate_together(substitute(values, indices));
+    for (const Slot& slot : kernel.slots) {
+      if (!used.contains(slot.symbol)) continue;
+      const Place place = element(slot);
+      const std::string source = bind("at " + to_text(place), place);
+      body.push_back({Let{slot.symbol, Expression::symbol(source, kRankOfTemporary)}});
+    }
+    append(body, evaluation.statements);
+    return evaluation.results;
+  }
+
+  // Loops first, then single instances, each in a scope of its own if there are several.
+  template <class Add>
+  void add_kernels(const Add& add) {
+    std::vector<Body> single;
+    for (const Kernel& kernel : mechanics_.kernels) {
+      if (!belongs(kernel)) continue;
+      Body body;
+      add(kernel, body);
+      if (body.empty()) continue;
+      if (kernel.ranges.empty()) {
+        single.push_back(std::move(body));
+        continue;
+      }
+      for (auto range = kernel.ranges.rbegin(); range != kernel.ranges.rend(); ++range) {
+        Body outer{{For{{loop_index(range->index), renamed(range->lower), renamed(range->upper)},
+                        std::move(body)}}};
+        body = std::move(outer);
+      }
+      routine_.body.push_back(std::move(body.front()));
+    }
+    for (Body& body : single) {
+      if (single.size() > 1) {
+        routine_.body.push_back({Scope{std::move(body)}});
+      } else {
+        for (Instruction& instruction : body) routine_.body.push_back(std::move(instruction));
+      }
+    }
+  }
+
+  const Mechanics& mechanics_;
+  int n_;
+  Part part_;
+  std::string state_;  // the record that holds q and p, if they are no arguments
+  Routine routine_;
+};
+
+}  // namespace
+
+Routine kernel_energy(const Environment& environment, const Mechanics& mechanics) {
+  return KernelRoutine(environment, mechanics, Part::all).energy();
+}
+
+Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
+                        std::string name, Part part) {
+  return KernelRoutine(environment, mechanics, part).gradient(std::move(name));
+}
+
+Routine both_gradients(const Environment& environment) {
+  const int n = environment.degrees_of_freedom;
+  Routine routine{.name = "gradient", .remark = {"dq[i] = dH/dq_i, dp[i] = dH/dp_i."}};
+  routine.arguments = {parameters_argument()};
+  for (const char* name : {"q", "p", "dq", "dp"}) {
+    routine.arguments.push_back(
+        {.name = name, .sizes = {n}, .changes = name[0] == 'd', .decays = true});
+  }
+  routine.body.push_back({Call{"potential_gradient", {{"par"}, {"q"}, {"dq"}}}});
+  routine.body.push_back({Call{"kinetic_gradient", {{"par"}, {"p"}, {"dp"}}}});
+  return routine;
+}
+
+Routine array_vector_field(const Environment& environment) {
+  const int n = environment.degrees_of_freedom;
+  Routine routine{.name = "vector_field",
+                  .remark = {"J grad H at a state (q, p)."},
+                  .arguments = {parameters_argument(),
+                                {.name = "x", .sizes = {2 * n}},
+                                {.name = "f", .sizes = {2 * n}, .changes = true}}};
+  const Place second_x{.object = "x", .indices = {{n, {}}}};
+  const Place second_f{.object = "f", .indices = {{n, {}}}};
+  routine.body.push_back({Call{"gradient", {{"par"}, {"x"}, second_x, second_f, {"f"}}}});
+  routine.places["f(n+i)"] = {.object = "f", .indices = {{n, {{"i", 1}}}}};
+  Body turn{{Assign{"f(n+i)", -Expression::symbol("f(n+i)")}}};
+  routine.body.push_back({For{{"i", {0, {}}, {n - 1, {}}}, std::move(turn)}});
+  return routine;
+}
+
+Routine kernel_masses(const Environment& environment, const Mechanics& mechanics) {
+  return KernelRoutine(environment, mechanics, Part::kinetic).masses();
+}
+
+Routine kernel_hessian(const Environment& environment, const Mechanics& mechanics, Part part) {
+  return KernelRoutine(environment, mechanics, part).hessian();
+}
+
+}  // namespace hamgen
