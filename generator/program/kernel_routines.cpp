@@ -110,7 +110,7 @@ class KernelRoutine {
         const AffineIndex column = renamed(kernel.slots[slots.second].position);
         const bool twice = slots.first != slots.second;
         if (twice && !is_trivial(entry)) {
-          const std::string symbol = fmt::format("entry_{}", ++named);
+          const std::string symbol = fmt::format("entry({})", ++named);
           body.push_back({Let{symbol, entry}});
           entry = Expression::symbol(symbol, kRankOfTemporary);
         }

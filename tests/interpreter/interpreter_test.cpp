@@ -145,7 +145,7 @@ TEST(EveryScheme, OfEveryModelIsTheSameStepInDoubleAndInQuad) {
       }
     }
   }
-  EXPECT_LE(worst, 64) << where;
+  EXPECT_LE(worst, 16) << where;
   EXPECT_GT(steps, 1000);
   RecordProperty("worst_in_units_of_rounding", fmt::format("{:.3g}", worst));
   RecordProperty("where", where);
