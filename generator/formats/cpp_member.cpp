@@ -16,9 +16,9 @@ std::string matrix_type(const MemberParts& parts, std::size_t size) {
 
 MemberParts member_parts(const Program& program, const ScalarType& scalar) {
   MemberParts parts;
-  for (const Stage& stage : program.stages) {
-    if (!stage.solve) continue;
-    const Solve& solve = *stage.solve;
+  for (std::size_t s = 0; s < program.stages.size(); ++s) {
+    if (!program.stages[s].solve) continue;
+    const Solve& solve = *program.stages[s].solve;
     if (solve.linear_solver != LinearSolver::written_out) {
       // Eigen does not know quad numbers.
       const bool quad = scalar.digits == 113;
@@ -26,7 +26,10 @@ MemberParts member_parts(const Program& program, const ScalarType& scalar) {
                                                                  : parts.elimination) = true;
       if (solve.constant_matrix) parts.inverse = true;
     }
-    if (solve.kind == BlockKind::newton) parts.newton = true;
+    if (solve.kind == BlockKind::newton) {
+      parts.newton = true;
+      parts.newton_blocks.push_back({s, parts.unknowns.size(), solve.variables.size()});
+    }
     if (solve.simplified) parts.simplified = true;
     if (solve.kind == BlockKind::fixed_point && !solve.sweeps) parts.fixed_point = true;
     if (solve.kind != BlockKind::linear && !solve.sweeps) {

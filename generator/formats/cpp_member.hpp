@@ -5,6 +5,13 @@
 
 namespace hamgen {
 
+// Where a stage solved by Newton's iteration has its unknowns among those of all stages.
+struct NewtonUnknowns {
+  std::size_t stage = 0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
 // What the solves of a program need besides their own text.
 struct MemberParts {
   bool newton = false;
@@ -15,6 +22,7 @@ struct MemberParts {
   bool inverse = false;                    // a matrix is inverted once per run
   bool coefficients = false;               // something depends on h and parameters alone
   std::vector<std::string> unknowns = {};  // of all loops: they have start values
+  std::vector<NewtonUnknowns> newton_blocks = {};
   [[nodiscard]] bool has_start() const { return !unknowns.empty(); }
 };
 [[nodiscard]] MemberParts member_parts(const Program& program, const ScalarType& scalar);

@@ -117,6 +117,10 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
     out.line("report.iterations += wasted;");
     out.close();
     out.line("if (!report.converged) return report;");
+    for (const NewtonUnknowns& block : parts.newton_blocks) {
+      out.line(fmt::format("start_.rule_{}.watch(history_, start_.value, {}, {});", block.stage,
+                           block.first, block.count));
+    }
     out.line("history_.record(start_.value);");
   } else {
     out.line("const StepReport report = " + call + ";");
