@@ -58,16 +58,18 @@ std::string iterated_step(const ArrayPlan& plan) {
         bar_.p[i] = start[n + i];
       }
 )";
-  const std::string record = plan.reduced ? "    if (updated.converged) history_.record(bar_.q);\n"
-                                          : R"(    if (updated.converged) {
-      Real solution[2 * n];
+  const std::string unknowns = plan.reduced ? "bar_.q" : "solution";
+  const std::string watch = newton ? fmt::format("      rule_.watch(history_, {}, 0, {});\n",
+                                                 unknowns, plan.reduced ? "n" : "2 * n")
+                                   : "";
+  const std::string copy = plan.reduced ? "" : R"(      Real solution[2 * n];
       for (int i = 0; i < n; ++i) {
         solution[i] = bar_.q[i];
         solution[n + i] = bar_.p[i];
       }
-      history_.record(solution);
-    }
 )";
+  const std::string record = "    if (updated.converged) {\n" + copy + watch +
+                             fmt::format("      history_.record({});\n    }}\n", unknowns);
   return R"(  StepReport step() {
     StepReport report;
     const bool known = history_.known > 0;

@@ -246,6 +246,10 @@ class StepWriter {
       out_.line("report.iterations += wasted;");
       out_.close();
       out_.line("if (!report.converged) return report;");
+      for (const RuleOfNewton& rule : code_.rules) {
+        out_.line(fmt::format("{0}.{1}.watch({2}, {0}.value, {3}, {4});", start, rule.name, history,
+                              rule.first, rule.count));
+      }
       out_.line(fmt::format("{}.record({}.value);", history, start));
     }
     write_each([&](const std::string& x) {

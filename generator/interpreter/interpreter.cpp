@@ -91,7 +91,13 @@ typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Obj
     report.iterations += wasted;
   }
   if (!report.converged) return report;
-  if (extrapolates) substep.history->record(substep.start.numbers);
+  if (extrapolates) {
+    for (const RuleOfNewton& rule : code_->rules) {
+      substep.start.rules.at(rule.name)->watch(*substep.history, substep.start.numbers, rule.first,
+                                               rule.count);
+    }
+    substep.history->record(substep.start.numbers);
+  }
   for (std::size_t i = 0; i < z.numbers.size(); ++i) {
     NumericsOf<Real>::add(z.numbers[i], carry.numbers[i], dz.numbers[i]);
   }

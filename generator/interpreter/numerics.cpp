@@ -41,6 +41,10 @@ class HistoryOf final : public AnyHistory<Real> {
     history_.extrapolate(all.padded);
     std::copy_n(all.padded, solution.size(), solution.begin());
   }
+  [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first,
+                           int count) const override {
+    return history_.error(degree, Padded<Real, Size>(solution).padded, first, count);
+  }
 
  private:
   typename NumericsOf<Real>::template Past<Size> history_;
@@ -50,6 +54,11 @@ template <class Real, int Power>
 class NewtonRuleOf final : public AnyNewtonRule<Real> {
  public:
   void begin() override { rule_.begin(); }
+  void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
+             int count) override {
+    rule_.motion.move = past.error(0, solution, first, count);
+    rule_.motion.bend = past.error(Power + 1, solution, first, count);
+  }
   Answer operator()(Real size, Real scale, int iteration) override {
     return answer(rule_(size, scale, iteration));
   }

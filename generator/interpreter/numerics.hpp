@@ -55,11 +55,15 @@ struct AnyHistory {
   [[nodiscard]] virtual bool known() const = 0;
   virtual void record(std::span<const Real> solution) = 0;
   virtual void extrapolate(std::span<Real> solution) const = 0;
+  [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first,
+                                   int count) const = 0;
 };
 template <class Real>
 struct AnyNewtonRule {
   virtual ~AnyNewtonRule() = default;
   virtual void begin() = 0;
+  virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
+                     int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration) = 0;
 };
 template <class Real>

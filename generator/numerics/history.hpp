@@ -28,12 +28,9 @@ struct History {
     age = 0;
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {
-      Real error = 0;
-      for (int i = 0; i < Unknowns; ++i) {
-        error += magnitude(solution[i] - predicted[degree][i]);
-      }
-      if (degree == 0 || error < least) {
-        least = error;
+      const Real now = error(degree, solution, 0, Unknowns);
+      if (degree == 0 || now < least) {
+        least = now;
         best = degree;
       }
     }
@@ -43,6 +40,17 @@ struct History {
       ++known;
       age = 15;
     }
+  }
+  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
+  // known, and 0 if none is: summed over `count` unknowns.
+  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
+    if (known == 0) return 0;
+    if (degree >= known) degree = known - 1;
+    Real sum_of_errors = 0;
+    for (int i = first; i < first + count; ++i) {
+      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
+    }
+    return sum_of_errors;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {
     for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];

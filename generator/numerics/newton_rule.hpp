@@ -1,21 +1,44 @@
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
-// Power = 2 with the exact matrix, 1 with an approximate one.  The contraction is measured, kept
-// from step to step and checked at least every 32nd step.  The last increment still enters the
-// solution, so an iteration may stop when the next one would be lost in rounding.  What is cut off
-// is a bias where rounding is a random walk, and in the momenta it counts 1/h times: the factor
-// 2^-20 keeps it below the sum of the rounding errors.
+// Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
+// solution, so an iteration may stop when the next one would be lost in rounding.
+//
+// Note [what one increment leaves]
+// The contraction is measured, kept from step to step and checked at least every 32nd step.  What
+// is cut off is a bias where rounding is a random walk, and in the momenta it counts 1/h times: the
+// factor 2^-20 keeps it below the sum of the rounding errors.
+//
+// But a contraction of 32 steps ago knows nothing of a wall that has come near since, and next to
+// rounding none can be measured.  The motion itself shows how curved the equations are where it is:
+// in a step the solution moves by `move`, its second difference is h^2 times a force, and so
+//   bend, its difference of order 2 + Power, is h^2 |force^(Power)| move^Power,
+// while an increment leaves h^2 |force^(Power)| size^Power or less (an approximate matrix is taken
+// to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
+// needs this to be lost in rounding too.  Both are those of the step before, or the increment
+// itself where it is larger than bend, and count 2^10 times: for a force that has grown since, and
+// for an increment across the motion or in unknowns that move less than others.
+struct Motion {
+  Real move = 0;
+  Real bend = 0;
+};
 template <int Power>
 struct NewtonRule {
   Real contraction = largest;
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
+  Motion motion;
 
   static Real power(Real size) { return Power == 2 ? size * size : size; }
   void begin() {
     previous = 0;
     grown = 0;
+  }
+  // The solution of a step, from the unknown `first` on, before the history records it.
+  template <class Past, int Unknowns>
+  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+    motion.move = past.error(0, solution, first, count);
+    motion.bend = past.error(Power + 1, solution, first, count);
   }
   // size, scale: sums over the unknowns, of their increments and of their values.
   Verdict operator()(Real size, Real scale, int iterations) {
@@ -38,8 +61,16 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off) return Verdict::done;
-    if (unchecked < 32 && contraction * power(size) * 1048576 <= round_off) return Verdict::done;
+    const bool looked = previous > 0 || is_straight(size, round_off);
+    if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
+      return Verdict::done;
+    }
     previous = size;
     return iterations < 60 ? Verdict::go_on : Verdict::failed;
+  }
+  // Is bend (size / move)^Power lost in rounding?
+  bool is_straight(Real size, Real round_off) const {
+    const Real bend = motion.bend > size ? motion.bend : size;
+    return bend * power(size) * 1024 <= round_off * power(motion.move);
   }
 };

@@ -112,6 +112,18 @@ void add_functions(StepCode& code, const Environment& environment, const Program
                   "The second derivatives of H at z."));
 }
 
+// The rules that the iterations of solve go by.
+std::vector<RuleOfNewton> rules_of(const Routine& solve) {
+  std::vector<RuleOfNewton> rules;
+  for (const Instruction& instruction : solve.body) {
+    const auto* iterate = std::get_if<Iterate>(&instruction.value);
+    if (iterate == nullptr || iterate->rule != Rule::newton) continue;
+    rules.push_back({iterate->name, iterate->unknowns.front().memory,
+                     static_cast<int>(iterate->unknowns.size())});
+  }
+  return rules;
+}
+
 void add_member(StepCode& code, const Environment& environment, const Program& program) {
   const Coefficients coefficients = coefficients_of(environment, program);
   std::vector<const Solve*> solves;
@@ -132,6 +144,7 @@ void add_member(StepCode& code, const Environment& environment, const Program& p
   }
   if (parts.start) code.records.push_back(start_record(solves, code.unknowns));
   code.routines.push_back(solve_routine(environment, program, parts, coefficients.places));
+  code.rules = rules_of(code.routines.back());
   const bool composed = !program.sequence.substeps.empty();
   if (program.linearisation) {
     code.routines.push_back(tangent_routine(environment, composed ? "substep_tangent" : "tangent",

@@ -10,6 +10,13 @@
 
 namespace hamgen {
 
+// A rule of start, and the unknowns it stops: it watches how these move from step to step.
+struct RuleOfNewton {
+  std::string name;
+  int first = 0;
+  int count = 0;
+};
+
 // A step is
 //
 //   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
@@ -21,6 +28,7 @@ struct StepCode {
   std::vector<Rational> substeps = {1};  // h_i/h
   int unknowns =
       0;  // of the implicit equations, whose solutions are extrapolated from step to step
+  std::vector<RuleOfNewton> rules = {};
   std::vector<Place> changed;  // fields of State that a step may change
   std::vector<std::string>
       parameters;  // in the order of their record; E0 last, if the step uses it

@@ -74,6 +74,18 @@ TYPED_TEST(FixedPointRule, WhatFlickersBelowRoundingDoesNotCount) {
   EXPECT_EQ(iteration, 4);
 }
 
+// 0.99 a time, and 500 times are not enough: what has become small is not what is missing.
+TYPED_TEST(FixedPointRule, ASlowContractionIsNotTakenForItsLimit) {
+  using Verdict = typename TypeParam::Answer;
+  const auto slow = [](int i) {
+    double units = 1e5;
+    for (int k = 0; k < i; ++k) units *= 0.99;
+    return units;
+  };
+  EXPECT_LT(slow(500), 4096);
+  EXPECT_EQ(this->template stop<2>(slow, Verdict::failed), 500);
+}
+
 // The sign of an increment is none of its business.
 TYPED_TEST(FixedPointRule, AnAlternatingIterationGoesToItsEnd) {
   const auto sign = [](int i) { return (i % 2 == 0 ? 1 : -1) * 4000.0 / (1 << (i < 20 ? i : 20)); };
@@ -83,7 +95,7 @@ TYPED_TEST(FixedPointRule, AnAlternatingIterationGoesToItsEnd) {
 TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
   using Verdict = typename TypeParam::Answer;
   EXPECT_EQ(this->template stop<2>([](int) { return 0.0; }), 1);
-  const double infinite = 1e308 * 10;
+  const double infinite = __builtin_inf();
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite; }, Verdict::failed), 1);
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
 }

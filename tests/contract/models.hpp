@@ -1,0 +1,66 @@
+// What is smooth for thousands of steps and then steep: walls that are met seldom.  A rule that has
+// learnt its contraction where nothing happens is wrong there.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace hamgen::contract {
+
+struct SteepModel {
+  const char* name;
+  const char* text;  // after "system NAME"
+};
+
+inline constexpr std::array kSteepModels = {
+    // The force grows by a factor of 1.6 a step, and in the second scene of 2.7.
+    SteepModel{"box", R"(coordinate q
+momentum p
+H = p^2/2 + exp(-50*(q + 1)) + exp(50*(q - 1))
+scene soft { q = 0; p = -1; h = 0.01; steps = 3000 }
+scene fast { q = 0; p = -1; h = 0.02; steps = 3000 }
+)"},
+    // Walls so hard that a prediction may end deep in one of them.
+    SteepModel{"hard_box", R"(coordinate q
+momentum p
+H = p^2/2 + exp(-500*(q + 1)) + exp(500*(q - 1))
+scene fine { q = 0; p = -1; h = 0.002; steps = 3000 }
+scene coarse { q = 0; p = -1; h = 0.01; steps = 2400 }
+)"},
+    // A wall beside a motion that never stops: the box's is hidden behind the other unknown.
+    SteepModel{"wobble", R"(coordinate q, x
+momentum p, u
+H = p^2/2 + exp(-50*(q + 1)) + exp(50*(q - 1)) + u^2/2 + x^2/2 + x^4/4 + x^2*q/100
+scene slow { q = 0; p = -0.3; x = 1; h = 0.01; steps = 3000 }
+scene coarse { q = 0; p = -0.3; x = 1; h = 0.05; steps = 3000 }
+)"},
+    SteepModel{"morse_approach", R"(coordinate q
+momentum p
+H = p^2/2 + (1 - exp(-q))^2
+scene far { q = 30; p = -1.5; h = 0.05; steps = 1500 }
+)"},
+    SteepModel{"lennard_jones", R"(coordinate x, y
+momentum u, v
+H = (u^2 + v^2)/2 + 4*((x^2 + y^2)^(-6) - (x^2 + y^2)^(-3))
+scene fast { x = -60; u = 8; y = 0.3; h = 0.01; steps = 1500 }
+scene slow { x = -6; u = 1; y = 0.3; h = 0.01; steps = 1500 }
+scene head_on { x = -60; u = 8; h = 0.01; steps = 1500 }
+)"},
+    // Steps so long that a fixed point contracts by 0.9, with either sign, and Newton's start is
+    // far.
+    SteepModel{"swing", R"(coordinate q
+momentum p
+H = p^2/2 - cos(q)
+scene below { q = 0.5; h = 1.9; steps = 1000 }
+scene above { q = 3.1; h = 1.9; steps = 1000 }
+scene round { q = 3; p = 1; h = 1.9; steps = 1000 }
+)"},
+    // Sums that stay loops: beads between two walls that meet one another by exponentials.
+    SteepModel{"beads", R"(size N = 32
+coordinate q[1..N] with q[0] = 0, q[N+1] = 0
+momentum p[1..N]
+H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, exp(40*(q[i] - q[i+1] - 1)))
+scene shot { p[1] = 2; p[16] = -3; h = 0.01; steps = 300 }
+)"}};
+
+}  // namespace hamgen::contract
