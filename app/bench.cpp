@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/bench_output.hpp"
-#include "app/bench_run.hpp"
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
-#include "app/terminal.hpp"
+#include "app/output/bench_output.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/bench_run.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 

@@ -6,14 +6,14 @@
 #include <memory>
 #include <sstream>
 
-#include "app/bench_run.hpp"
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
-#include "app/modified_energy.hpp"
-#include "app/report_page.hpp"
-#include "app/scheme_spec.hpp"
-#include "app/terminal.hpp"
+#include "app/output/report_page.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/bench_run.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/modified_energy.hpp"
+#include "app/studies/scheme_spec.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"

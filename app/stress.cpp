@@ -1,5 +1,5 @@
 // hamgen stress: the step far outside comfort, cell by cell.
-#include "app/stress.hpp"
+#include "app/studies/stress.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "app/interrupt.hpp"
-#include "app/plot.hpp"
-#include "app/stress_domain.hpp"
-#include "app/stress_grid.hpp"
-#include "app/stress_references.hpp"
-#include "app/terminal.hpp"
+#include "app/output/plot.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/stress_domain.hpp"
+#include "app/studies/stress_grid.hpp"
+#include "app/studies/stress_references.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/compile.hpp"

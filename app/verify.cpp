@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
-#include "app/measure.hpp"
-#include "app/modified_energy.hpp"
-#include "app/terminal.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/measure.hpp"
+#include "app/studies/modified_energy.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
