@@ -7,6 +7,7 @@
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/bench_output.hpp"
+#include "app/output/draw_picture.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/bench_run.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -27,24 +28,19 @@ void write_files(const BenchOptions& options, const Bench& bench) {
     runtime::atomic_write(path, text);
     if (!options.request.quiet) print_error(fmt::format("{}\n", path.string()));
   };
-  const auto draw = [&](const fs::path& picture, const fs::path& script) {
-    write(script, gnuplot_script(picture_of(bench), picture.string()));
-    const std::string problem = run_gnuplot(script);
-    if (!problem.empty())
-      print_error(
-          fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                      "gnuplot {}\n",
-                      problem, script.string()));
-    else if (!options.request.quiet)
-      print_error(fmt::format("{}\n", picture.string()));
+  const auto draw = [&](const fs::path& picture) {
+    draw_picture({.picture = picture,
+                  .script = fs::path(picture).replace_extension(".gp"),
+                  .text = gnuplot_script(picture_of(bench), picture.string())},
+                 options.request.quiet, &interrupt_flag());
   };
   if (!options.csv.empty()) write(options.csv, csv_text(bench));
-  if (!options.plot.empty()) draw(options.plot, fs::path(options.plot).replace_extension(".gp"));
+  if (!options.plot.empty()) draw(options.plot);
   if (options.output.empty()) return;
   const fs::path directory = options.output;
   write(directory / "bench.csv", csv_text(bench));
   write(directory / "bench.json", json_text(bench));
-  draw(directory / "bench.svg", directory / "bench.gp");
+  draw(directory / "bench.svg");
 }
 
 int bench(const BenchOptions& options) {

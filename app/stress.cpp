@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "app/interrupt.hpp"
-#include "app/output/plot.hpp"
+#include "app/output/draw_picture.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/stress_domain.hpp"
 #include "app/studies/stress_grid.hpp"
@@ -120,16 +120,10 @@ void write_stress_files(const StressOptions& options, const StressMap& map) {
     if (!options.quiet) print_error(fmt::format("{}\n", path.string()));
   };
   const auto draw = [&](const fs::path& picture) {
-    const fs::path script = fs::path(picture).replace_extension(".gp");
-    write(script, stress_script(map, picture.string()));
-    const std::string problem = run_gnuplot(script);
-    if (!problem.empty())
-      print_error(
-          fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                      "gnuplot {}\n",
-                      problem, script.string()));
-    else if (!options.quiet)
-      print_error(fmt::format("{}\n", picture.string()));
+    draw_picture({.picture = picture,
+                  .script = fs::path(picture).replace_extension(".gp"),
+                  .text = stress_script(map, picture.string())},
+                 options.quiet, &interrupt_flag());
   };
   if (!options.csv.empty()) write(options.csv, stress_csv(map));
   if (!options.plot.empty()) draw(options.plot);

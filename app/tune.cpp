@@ -8,7 +8,7 @@
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
-#include "app/output/plot.hpp"
+#include "app/output/draw_picture.hpp"
 #include "app/output/terminal.hpp"
 #include "app/output/tune_report.hpp"
 #include "app/studies/initial_data.hpp"
@@ -323,18 +323,13 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
     if (!options.quiet) print_error(fmt::format("{}\n", csv.string()));
     return;
   }
-  runtime::atomic_write(script, map_script(map, title, picture.string()));
-  const std::string problem = run_gnuplot(script);
-  std::error_code ignored;
-  if (!problem.empty()) fs::remove(picture, ignored);  // what gnuplot began
-  if (!problem.empty())
-    print_error(
-        fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                    "gnuplot {}\n",
-                    problem, script.string()));
-  if (options.quiet) return;
-  print_error(fmt::format("{}\n{}\n", csv.string(), script.string()));
-  if (problem.empty()) print_error(fmt::format("{}\n", picture.string()));
+  if (!options.quiet) print_error(fmt::format("{}\n", csv.string()));
+  if (!draw_picture(
+          {.picture = picture, .script = script, .text = map_script(map, title, picture.string())},
+          options.quiet, &interrupt_flag())) {
+    std::error_code ignored;
+    fs::remove(picture, ignored);  // what gnuplot began
+  }
 }
 
 int run_tune(const TuneOptions& options) {

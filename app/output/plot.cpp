@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "app/interrupt.hpp"
 #include "runtime/process.hpp"
 #include "runtime/tool_error.hpp"
 
@@ -218,10 +217,10 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
   return text + "unset multiplot\nunset output\n";
 }
 
-std::string run_gnuplot(const std::filesystem::path& script) {
+std::string run_gnuplot(const std::filesystem::path& script, StopFlag stop) {
   runtime::ProcessRequest request;
   request.command = {"gnuplot", script.string()};
-  request.stop = &interrupt_flag();
+  request.stop = stop;
   try {
     const runtime::ProcessResult result = runtime::run_process(request);
     if (result.succeeded()) return "";

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
+
 namespace hamgen::app {
 
 struct PlotPoint {
@@ -43,6 +45,6 @@ struct Plot {
 
 // Runs gnuplot on the script file, whose picture is `output`.  Returns an empty text, or why there
 // is no picture (gnuplot is missing or failed): no reason to give up what else was computed.
-[[nodiscard]] std::string run_gnuplot(const std::filesystem::path& script);
+[[nodiscard]] std::string run_gnuplot(const std::filesystem::path& script, StopFlag stop);
 
 }  // namespace hamgen::app
