@@ -9,7 +9,6 @@
 #include "app/command_line.hpp"
 #include "app/output/difference.hpp"
 #include "app/output/terminal.hpp"
-#include "app/studies/modified_energy.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/names.hpp"
 #include "runtime/atomic_file.hpp"

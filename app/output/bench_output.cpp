@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/output/generate_command.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -55,6 +56,13 @@ std::string reference_text(const Bench& bench) {
       reference.from_cache ? ", computed before" : fmt::format(", {:.2g} s", reference.seconds));
 }
 
+// That emits the quickest method; empty if none is good enough.
+std::string answer_command(const Bench& bench) {
+  const std::optional<std::size_t>& row = bench.answer->row;
+  if (!row) return "";
+  return generate_command(bench.path, bench.methods[bench.rows[*row].method].request);
+}
+
 std::string answer_text(const Bench& bench) {
   const BenchAnswer& answer = *bench.answer;
   if (!answer.row)
@@ -67,7 +75,7 @@ std::string answer_text(const Bench& bench) {
       "{} error {:g} is reached soonest by {} with h = {:.10g}: {:.3g} s for a unit "
       "of time\n  {}\n",
       to_text(bench.observed), answer.target, bench.methods[row.method].spec, to_double(row.h),
-      time_of(row).seconds_per_time, answer.command);
+      time_of(row).seconds_per_time, answer_command(bench));
 }
 
 OrderedJson finite(const std::optional<double>& value) {
@@ -104,6 +112,12 @@ std::string csv_number(const std::optional<double>& value) {
 }
 
 }  // namespace
+
+std::string warning_text(const Bench& bench) {
+  if (!bench.reference.state.empty()) return "";
+  return fmt::format("hamgen: warning: no reference solution: {}; state errors are missing\n",
+                     bench.reference.failure);
+}
 
 std::string table_text(const Bench& bench) {
   const std::vector<std::size_t> front = pareto_front(bench.rows, bench.observed);
@@ -198,7 +212,7 @@ std::string json_text(const Bench& bench) {
         {"observe", to_text(bench.observed)},
         {"target", bench.answer->target},
         {"row", bench.answer->row ? OrderedJson(*bench.answer->row) : OrderedJson(nullptr)},
-        {"command", bench.answer->command}};
+        {"command", answer_command(bench)}};
   }
   return result.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }

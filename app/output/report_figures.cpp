@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -113,7 +112,7 @@ Figure energy_over_time(const BenchMethod& method, const SceneValues& scene,
       .initial = initial, .min = initial, .max = initial, .last = initial};
   runtime::RunSummary& run = summary.run;
   while (run.steps_done < *scene.steps && run.status == runtime::Status::done &&
-         !interrupt_flag()) {
+         !is_stopped(method.stop)) {
     const runtime::Report report =
         integrator.advance(std::min(bin, *scene.steps - static_cast<long>(run.steps_done)), true);
     run.status = report.status;
@@ -176,7 +175,7 @@ Figure state_over_time(const SceneValues& scene, const SourceText& source, const
   for (int i = 1; i <= count; ++i) times.push_back(*scene.h * chunk * i);
   const ReferenceRule rule = reference_rule(source, request);
   const auto track = reference_track(rule, initial_values(rule.plugin, scene, *rule.loaded.library),
-                                     times, kTrackSeconds)
+                                     times, kTrackSeconds, request.stop)
                          .states;
   PlotPanel panel{.x_label = "t", .y_label = "|z - z*|", .logarithmic_y = true};
   for (const BenchMethod& method : bench.methods) {

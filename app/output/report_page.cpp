@@ -176,7 +176,8 @@ std::string proof_section(const ReportContent& content) {
 
 // Ht term by term, and a table of how constant it is with more and more of them.
 std::string modified_section(const ReportContent& content) {
-  if (content.modified.is_null()) return "";
+  if (!content.modified) return "";
+  const ModifiedEnergy& modified = *content.modified;
   std::vector<std::string> names = {"E0"};
   for (const Quantity& variable : content.mechanics->variables) names.push_back(variable.name);
   for (const Quantity& parameter : content.mechanics->parameters) names.push_back(parameter.name);
@@ -186,9 +187,8 @@ std::string modified_section(const ReportContent& content) {
       "series in h.</p>\n";
   std::string sum;
   std::string terms;
-  for (const auto& term : content.modified.at("terms")) {
-    const int power = term.at("power");
-    const std::string value = term.at("value");
+  for (const std::size_t power : modified.powers()) {
+    const std::string value = to_text(modified.terms[power]);
     const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
     sum += power == 0 ? std::string("<mi>H</mi>")
                       : fmt::format("<mo>+</mo><msup><mi>h</mi><mn>{}</mn></msup>{}", power, name);
@@ -202,9 +202,10 @@ std::string modified_section(const ReportContent& content) {
                            math_markup(read_expression("modified Hamiltonian", value, names)));
   }
   text += formula(tilde + "<mo>=</mo>" + sum + "<mo>+</mo><mo>…</mo>") + terms;
-  if (!content.modified.contains("variation")) return text;
+  if (!modified.orbit) return text;
   std::vector<double> variations;
-  for (const auto& row : content.modified.at("variation")) variations.push_back(row.at("max"));
+  for (const std::size_t power : modified.powers())
+    variations.push_back(modified.orbit->variations[power]);
   const bool falls =
       variations.size() > 1 &&
       std::ranges::adjacent_find(variations, std::less_equal<>()) == variations.end();
@@ -217,11 +218,10 @@ std::string modified_section(const ReportContent& content) {
       "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div "
       "class='wide'><table>\n<tr><th>terms to</th>"
       "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
-      content.modified.at("steps").get<long>(), number_cell(content.modified.at("h")), finding);
-  for (const auto& row : content.modified.at("variation")) {
-    text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{:.3e}</td></tr>\n",
-                        row.at("power").get<int>(), row.at("max").get<double>());
-  }
+      modified.orbit->steps, number_cell(modified.orbit->h), finding);
+  for (const std::size_t power : modified.powers())
+    text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{:.3e}</td></tr>\n", power,
+                        modified.orbit->variations[power]);
   return text + "</table></div>\n";
 }
 

@@ -1,12 +1,13 @@
 // The web page of `hamgen report`: one file that needs no other.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/output/bench_output.hpp"
 #include "app/output/report_figures.hpp"
+#include "app/studies/modified_energy.hpp"
 #include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen::app {
@@ -23,8 +24,8 @@ struct ReportContent {
   const SceneValues* scene = nullptr;
   const Bench* bench = nullptr;
   Proof proof;
-  Proof linear;                     // the lines of the linear part
-  nlohmann::ordered_json modified;  // of modified_report; null without it
+  Proof linear;  // the lines of the linear part
+  std::optional<ModifiedEnergy> modified;
   OrbitSummary orbit;
   std::vector<ReportPicture> pictures;
   std::string command;  // that emits the header

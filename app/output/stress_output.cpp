@@ -1,4 +1,5 @@
-// A stress map as text, CSV and JSON.
+#include "app/output/stress_output.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/studies/stress.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/studies/stress.hpp"
+#include "app/output/stress_output.hpp"
 
 namespace hamgen::app {
 namespace {

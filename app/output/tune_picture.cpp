@@ -1,11 +1,12 @@
-// The picture of the beta, gamma plane.
+#include "app/output/tune_picture.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "app/studies/tune_map.hpp"
+#include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -73,6 +74,20 @@ bool is_bounded(const EnergyMap& map, const MapPoint& at) {
 }  // namespace
 
 bool is_drawn(double spread) { return std::isfinite(spread) && spread > 0.0; }
+
+std::string map_csv(const EnergyMap& map, const std::string& header) {
+  std::string text = header + "b,c,energy_spread\n";
+  std::size_t i = 0;
+  for (int row = 0; row < map.c.count; ++row) {
+    for (int column = 0; column < map.b.count; ++column, ++i) {
+      const std::string spread =
+          std::isfinite(map.spread[i]) ? runtime::number_text(map.spread[i]) : "";
+      text += fmt::format("{},{},{}\n", runtime::number_text(map.b.at(column)),
+                          runtime::number_text(map.c.at(row)), spread);
+    }
+  }
+  return text;
+}
 
 std::string map_script(const EnergyMap& map, const std::string& title, const std::string& output) {
   const bool svg = output.ends_with(".svg");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/output/generate_command.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -29,16 +30,6 @@ std::string_view form_name(GaugeForm form) {
 
 std::string tune_number(std::optional<double> value) {
   return value ? fmt::format("{:.4g}", *value) : "-";
-}
-
-std::optional<double> measured_spread(const TunedGauge& gauge) {
-  if (!gauge.measured.failure.empty()) return std::nullopt;
-  return gauge.measured.energy_spread;
-}
-
-std::optional<double> measured_error(const TunedGauge& gauge) {
-  if (!gauge.measured.failure.empty()) return std::nullopt;
-  return gauge.measured.energy_error;
 }
 
 std::string stability_text(const StabilityBound& bound) {
@@ -69,19 +60,10 @@ Json tune_json_number(std::optional<double> value) {
 
 }  // namespace
 
-std::optional<double> TuneReport::gain() const {
-  const std::optional<double> before = measured_spread(gauges.front());
-  const std::optional<double> after = measured_spread(gauges.back());
-  if (!before || !after || *after == 0.0) return std::nullopt;
-  return *before / *after;
-}
-
-double TuneReport::rounding() const { return 1e-13 * std::fabs(initial_energy); }
-
 std::string verdict_of(const TuneReport& report) {
   const TunedGauge& midpoint = report.gauges.front();
   const TunedGauge& best = report.gauges.back();
-  if (measured_spread(midpoint).value_or(1.0) <= report.rounding())
+  if (midpoint.measured_spread().value_or(1.0) <= report.rounding())
     return "nothing to tune: the midpoint rule keeps this energy to rounding";
   const std::optional<double> gain = report.gain();
   if (!best.measured.failure.empty()) return "worth nothing here: the tuned run failed";
@@ -117,9 +99,9 @@ std::string tune_text(const TuneReport& report) {
   text += tune_row(report, "energy spread, h^2 term",
                    [](const TunedGauge& gauge) { return tune_number(gauge.predicted_spread); });
   text += tune_row(report, "energy spread, measured",
-                   [](const TunedGauge& gauge) { return tune_number(measured_spread(gauge)); });
+                   [](const TunedGauge& gauge) { return tune_number(gauge.measured_spread()); });
   text += tune_row(report, "energy error, measured",
-                   [](const TunedGauge& gauge) { return tune_number(measured_error(gauge)); });
+                   [](const TunedGauge& gauge) { return tune_number(gauge.measured_error()); });
   text += tune_row(report, "state error at the end",
                    [](const TunedGauge& gauge) { return tune_number(gauge.state_error); });
   text += tune_row(report, "linear part bounded for",
@@ -135,7 +117,7 @@ std::string tune_text(const TuneReport& report) {
                     report.polish_ended ? ""
                                         : ";\n              stopped there, the most that are "
                                           "allowed: not yet at a minimum");
-  return text + fmt::format("  use         {}\n", report.command);
+  return text + fmt::format("  use         {}\n", generate_command(report.path, report.request));
 }
 
 std::string tune_json(const TuneReport& report) {
@@ -146,8 +128,8 @@ std::string tune_json(const TuneReport& report) {
                       {"beta", texts.beta},
                       {"gamma", texts.gamma},
                       {"predicted_energy_spread", tune_json_number(gauge.predicted_spread)},
-                      {"energy_spread", tune_json_number(measured_spread(gauge))},
-                      {"energy_error", tune_json_number(measured_error(gauge))},
+                      {"energy_spread", tune_json_number(gauge.measured_spread())},
+                      {"energy_error", tune_json_number(gauge.measured_error())},
                       {"state_error", tune_json_number(gauge.state_error)},
                       {"stability_known", gauge.stability.known},
                       {"stable_below", tune_json_number(gauge.stability.below)},
@@ -169,7 +151,7 @@ std::string tune_json(const TuneReport& report) {
                      {"worth_while", report.gain().value_or(0.0) >= kWorthTuning},
                      {"evaluations", report.evaluations},
                      {"polish_ended", report.polish_ended},
-                     {"command", report.command}};
+                     {"command", generate_command(report.path, report.request)}};
   return json.dump(2) + "\n";
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "app/studies/processor_time.hpp"
@@ -31,7 +30,7 @@ constexpr long long kStepsAtOnce = 1 << 20;
 double timed_run(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
   runtime::Integrator integrator(method.loaded.library, start);
   const double begin = thread_seconds();
-  for (long long left = steps; left > 0 && !interrupt_flag(); left -= kStepsAtOnce)
+  for (long long left = steps; left > 0 && !is_stopped(method.stop); left -= kStepsAtOnce)
     static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
   return thread_seconds() - begin;
 }
@@ -54,8 +53,8 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 }  // namespace
 
 BenchMethod bench_method(const std::string& spec, const SourceText& source, const Request& request,
-                         const std::string& compiler) {
-  BenchMethod method{.spec = spec, .request = request};
+                         const std::string& compiler, StopFlag stop) {
+  BenchMethod method{.spec = spec, .request = request, .stop = stop};
   try {
     method.plugin = generate_plugin(source, request);
   } catch (const ModelError& error) {
@@ -63,7 +62,7 @@ BenchMethod bench_method(const std::string& spec, const SourceText& source, cons
   } catch (const UsageError& error) {
     method.refusal = first_line(error.what());
   }
-  if (method.refusal.empty()) method.loaded = load_integrator(method.plugin, compiler);
+  if (method.refusal.empty()) method.loaded = load_integrator(method.plugin, compiler, stop);
   return method;
 }
 
@@ -109,7 +108,7 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   runtime::IntegrateOptions options;
   options.steps = row.steps;
   options.every = before.empty() ? 0 : std::max(1L, row.steps / 200);
-  options.stop = &interrupt_flag();
+  options.stop = method.stop;
   options.on_record = [&](const runtime::Record& record) {
     for (std::size_t i = 0; i < before.size(); ++i)
       row.invariant_errors[i] =

@@ -20,12 +20,14 @@ struct BenchMethod {
   Request request;
   PluginSource plugin;
   runtime::LoadedPlugin loaded;
-  std::string refusal;  // why this model has no such integrator; empty if it has
+  std::string refusal;      // why this model has no such integrator; empty if it has
+  StopFlag stop = nullptr;  // ends its runs
 };
 
 // Throws ToolError if the compiler fails; a method that does not suit the model is refused.
 [[nodiscard]] BenchMethod bench_method(const std::string& spec, const SourceText& source,
-                                       const Request& request, const std::string& compiler);
+                                       const Request& request, const std::string& compiler,
+                                       StopFlag stop = nullptr);
 
 struct BenchRow {
   std::size_t method = 0;  // index among the methods

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "app/output/bench_output.hpp"
+#include "app/studies/bench.hpp"
 
 namespace hamgen::app {
 

@@ -1,30 +1,38 @@
 // The whole measurement of `hamgen bench`, for the commands that show it.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
-#include "app/output/bench_output.hpp"
+#include "app/studies/bench.hpp"
+#include "app/studies/progress.hpp"
+#include "app/studies/setting.hpp"
+#include "app/studies/stop.hpp"
 
 namespace hamgen::app {
 
-// Texts as on the command line; empty means the default.
-struct BenchRequest {
-  std::string model;
-  SceneOptions scene;
-  std::string schemes, h, time, target, compiler;
-  std::string observe = "state";
-  std::string rounds = "9";
-  bool quiet = false;
-  std::optional<std::string> scene_h, scene_steps;  // in place of the scene's
-  const char* length = "--time 10";                 // the option for a scene without steps
+struct BenchSpec {
+  std::string spec;  // as typed
+  Request request;
 };
 
-// Loads the methods, computes the reference, measures errors, then times; with progress bars on a
-// terminal unless quiet.  After an interrupt it returns early.  Throws UsageError, ModelError and
-// ToolError.
+struct BenchRequest {
+  Setting setting;
+  SceneValues scene;
+  std::vector<BenchSpec> methods;
+  Rational time;                // of each run
+  std::vector<Rational> steps;  // their sizes, changed a little where they do not divide the time
+  Observed observed = Observed::state;
+  double target = 0.0;  // the error to reach; 0: none
+  long rounds = 9;      // samples of each time
+  std::string compiler;
+  StopFlag stop = nullptr;
+  ProgressSink on_progress;
+};
+
+// Loads the methods, computes the reference, measures errors, then times.  Without a reference the
+// errors of the energy are those that count.  Stopped, it returns early.  Throws UsageError,
+// ModelError and ToolError.
 [[nodiscard]] Bench run_bench(const BenchRequest& request);
 
 }  // namespace hamgen::app

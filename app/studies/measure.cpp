@@ -43,11 +43,11 @@ std::vector<InvariantDefect> invariant_defects(const PluginSource& plugin,
 }  // namespace
 
 Measured measure(const SourceText& source, Request request, const SceneRequest& wanted,
-                 bool symmetric) {
+                 bool symmetric, StopFlag stop) {
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
   const SceneValues scene = complete_scene(plugin.model, wanted, "steps = 1000 in the scene");
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, "");
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, "", stop);
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   Proof proof;
   if (loaded.library->plugin().tangent != nullptr) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 
@@ -26,6 +27,6 @@ struct Measured {
 // The tangent map of the compiled step around the scene, and along at most 10000 steps of the scene
 // the change of every invariant.
 [[nodiscard]] Measured measure(const SourceText& source, Request request,
-                               const SceneRequest& wanted, bool symmetric);
+                               const SceneRequest& wanted, bool symmetric, StopFlag stop);
 
 }  // namespace hamgen::app

@@ -1,31 +1,36 @@
-// What a step conserves instead of H: its modified Hamiltonian, printed and watched.
+// What a step conserves instead of H: its modified Hamiltonian, watched.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "app/command_line.hpp"
+#include "app/studies/stop.hpp"
 #include "generator/language/scene.hpp"
+#include "generator/pipeline.hpp"
 
 namespace hamgen::app {
 
-struct ModifiedOptions {
-  std::string terms;  // K
-  bool latex = false;
+// How constant Ht is along a numerical orbit.
+struct WatchedOrbit {
+  std::string scene;
+  double h = 0.0;
+  long steps = 0;
+  std::vector<double> variations;  // max |Ht - Ht(0)|, by the power of h that Ht goes to
 };
 
-// 1 to 8; throws UsageError naming the option.
-[[nodiscard]] int modified_term_count(const std::string& option, const std::string& text);
+struct ModifiedEnergy {
+  std::vector<Expression> terms;  // of Ht, by the power of h
+  std::optional<WatchedOrbit> orbit;
 
-// The terms of Ht and, for a scene, how constant it is along the numerical orbit with 1, 2, ... of
-// them: as text and as one JSON object.
-struct ModifiedReport {
-  std::string text;
-  nlohmann::ordered_json json;
+  // Those with a term, and 0.
+  [[nodiscard]] std::vector<std::size_t> powers() const;
 };
-[[nodiscard]] ModifiedReport modified_report(const SourceText& source, const Request& request,
-                                             const ModifiedOptions& options,
-                                             const std::optional<SceneValues>& scene);
+
+// The orbit of the scene in quad precision: what is left of the variation is that of the step, not
+// of rounding.  `terms` are those of modified_hamiltonian.
+[[nodiscard]] WatchedOrbit watch_orbit(const SourceText& source, Request request,
+                                       const SceneValues& scene,
+                                       const std::vector<Expression>& terms, StopFlag stop);
 
 }  // namespace hamgen::app

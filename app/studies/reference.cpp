@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "app/studies/processor_time.hpp"
@@ -90,12 +89,12 @@ double largest_difference(const std::vector<runtime::Wide>& x,
 // Both tolerances side by side from time to time, until one of them fails or the time is over.
 ReferenceTrack compute_track(const std::shared_ptr<const runtime::Library>& library,
                              const runtime::InitialValues& start,
-                             const std::vector<Rational>& times, double seconds) {
+                             const std::vector<Rational>& times, double seconds, StopFlag stop) {
   const double begin = thread_seconds();
   std::atomic<bool> late = false;
   runtime::ExtrapolationOptions options{.stop = &late};
   options.on_progress = [&](double) {
-    late = late || thread_seconds() - begin > seconds || interrupt_flag();
+    late = late || thread_seconds() - begin > seconds || is_stopped(stop);
   };
   ReferenceTrack track;
   runtime::InitialValues coarse = start;
@@ -129,7 +128,7 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
   const auto extrapolated = [&](double tolerance, double from, double to) {
     runtime::ExtrapolationOptions options;
     options.tolerance = tolerance;
-    options.stop = &interrupt_flag();
+    options.stop = request.stop;
     if (request.on_progress)
       options.on_progress = [&request, from, to](double part) {
         request.on_progress(from + part * (to - from));
@@ -157,7 +156,7 @@ ReferenceRule reference_rule(const SourceText& source, const ReferenceRequest& r
   quad.sizes = request.sizes;
   quad.fold = request.fold;
   ReferenceRule rule{.plugin = generate_plugin(source, quad)};
-  rule.loaded = load_integrator(rule.plugin, request.compiler);
+  rule.loaded = load_integrator(rule.plugin, request.compiler, request.stop);
   return rule;
 }
 
@@ -188,7 +187,7 @@ ReferenceSolution reference_solution(const SourceText& source, const SceneValues
 }
 
 ReferenceTrack reference_track(const ReferenceRule& rule, const runtime::InitialValues& start,
-                               const std::vector<Rational>& times, double seconds) {
+                               const std::vector<Rational>& times, double seconds, StopFlag stop) {
   const std::string key = reference_key(rule, start, fmt::format("track {:a}", seconds), times);
   const runtime::Cache cache = runtime::open_cache();
   const std::size_t size = start.state.size();
@@ -203,8 +202,8 @@ ReferenceTrack reference_track(const ReferenceRule& rule, const runtime::Initial
     track.missing = text->substr(text->find('#') + 1);
     return track;
   }
-  track = compute_track(rule.loaded.library, start, times, seconds);
-  if (!cache.usable() || interrupt_flag()) return track;
+  track = compute_track(rule.loaded.library, start, times, seconds, stop);
+  if (!cache.usable() || is_stopped(stop)) return track;
   std::vector<runtime::Wide> all;
   for (const auto& state : track.states) all.insert(all.end(), state.begin(), state.end());
   runtime::publish_text(cache, key, text_of(track.errors, all) + "#" + track.missing);

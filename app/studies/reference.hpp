@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 #include "runtime/integrator.hpp"
@@ -16,7 +17,8 @@ namespace hamgen::app {
 struct ReferenceRequest {
   std::map<std::string, long> sizes;
   std::vector<std::string> fold;
-  std::string compiler;                          // empty: the default
+  std::string compiler;  // empty: the default
+  StopFlag stop = nullptr;
   std::function<void(double)> on_progress = {};  // the fraction that is done
 };
 
@@ -56,7 +58,8 @@ struct ReferenceTrack {
 // Cached like a reference solution.
 [[nodiscard]] ReferenceTrack reference_track(const ReferenceRule& rule,
                                              const runtime::InitialValues& start,
-                                             const std::vector<Rational>& times, double seconds);
+                                             const std::vector<Rational>& times, double seconds,
+                                             StopFlag stop);
 
 // Euclidean.
 [[nodiscard]] double distance(const std::vector<runtime::Wide>& x,

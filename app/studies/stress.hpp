@@ -9,6 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/studies/progress.hpp"
+#include "app/studies/setting.hpp"
+#include "app/studies/stop.hpp"
 #include "runtime/integrator.hpp"
 #include "runtime/library.hpp"
 
@@ -53,6 +56,7 @@ struct StressLimits {
   std::chrono::duration<double> time{1.0};             // of a cell
   std::chrono::duration<double> reference_time{10.0};  // of all state errors
   bool defined_everywhere = false;                     // what is not finite is an overflow
+  StopFlag stop = nullptr;
 };
 
 // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what
@@ -97,11 +101,15 @@ struct StressMap {
   }
 };
 
-// A map in characters for the terminal, with its legend and the counts of outcomes.
-[[nodiscard]] std::string stress_text(const StressMap& map);
-[[nodiscard]] std::string stress_csv(const StressMap& map);
-[[nodiscard]] std::string stress_json(const StressMap& map);
-// A gnuplot script: the plane of the axes with a coloured box a cell, and the linear bound over it.
-[[nodiscard]] std::string stress_script(const StressMap& map, const std::string& output);
+struct StressRequest {
+  Setting setting;               // alpha, beta, gamma are the axes' names where these vary them
+  std::vector<StressAxis> axes;  // one or two
+  StressLimits limits;
+  ProgressSink on_progress;
+};
+
+// Compiles the integrator and runs all cells, on two threads.  Stopped, it returns early.  Throws
+// UsageError, ModelError where no cell is defined, and ToolError.
+[[nodiscard]] StressMap stress_map(const StressRequest& request);
 
 }  // namespace hamgen::app

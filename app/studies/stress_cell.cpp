@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/processor_time.hpp"
 #include "app/studies/stress.hpp"
@@ -146,7 +145,7 @@ std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::
       cell.outcome = StressOutcome::escaped;
       break;
     }
-    if (thread_seconds() - begin > limits.time.count() || interrupt_flag()) {
+    if (thread_seconds() - begin > limits.time.count() || is_stopped(limits.stop)) {
       cell.outcome = StressOutcome::out_of_time;
       break;
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "app/studies/initial_data.hpp"
@@ -14,96 +13,6 @@
 
 namespace hamgen::app {
 namespace {
-
-constexpr long kMostCells = 100'000;
-
-double constant_of(const std::string& option, const std::string& text) {
-  const std::string what = option + " " + text;
-  return to_double(evaluate_constant(read_expression(what, text, {}), make_source(what, text), {}));
-}
-
-// "k=1:1e6:7" or "h=1e-4:1e3"; h counts in units of the scene's.
-StressAxis axis_of(const std::string& text) {
-  const auto [name, range] = split_assignment("--vary", text);
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= range.size();) {
-    const std::size_t end = std::min(range.find(':', begin), range.size());
-    parts.push_back(range.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  const std::string option = "--vary " + text;
-  if (parts.size() < 2 || parts.size() > 3)
-    throw UsageError(
-        fmt::format("{}: not a range\nhelp: write --vary {}=LOW:HIGH or "
-                    "--vary {}=LOW:HIGH:COUNT",
-                    option, name, name));
-  const double low = constant_of(option, parts[0]);
-  const double high = constant_of(option, parts[1]);
-  if (!(low < high)) throw UsageError(fmt::format("{}: the range is empty", option));
-  if (name == "h" && !(low > 0.0))
-    throw UsageError(fmt::format("{}: a step is more than 0 times the scene's", option));
-  StressAxis axis{.label = name, .logarithmic = low > 0.0 && high / low >= 20.0};
-  const double span = axis.logarithmic ? std::log10(high / low) : high - low;
-  const long count = parts.size() == 3  ? integer_value(option, parts[2], 2)
-                     : axis.logarithmic ? std::lround(4.0 * span) + 1
-                                        : 21;
-  if (count > 1000) throw UsageError(fmt::format("{}: more than 1000 values", option));
-  for (long i = 0; i < count; ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(count - 1);
-    axis.values.push_back(i == 0             ? low
-                          : i + 1 == count   ? high
-                          : axis.logarithmic ? low * std::pow(10.0, part * span)
-                                             : low + part * span);
-  }
-  return axis;
-}
-
-std::vector<StressAxis> axes_of(const StressOptions& options) {
-  std::vector<StressAxis> axes;
-  for (const std::string& text : options.vary) axes.push_back(axis_of(text));
-  const bool has_h = std::ranges::any_of(axes, [](const auto& axis) { return axis.label == "h"; });
-  if (axes.size() < 2 && !has_h) axes.insert(axes.begin(), axis_of("h=1e-4:1e3"));
-  if (axes.size() > 2)
-    throw UsageError("--vary: a map has two axes\nhelp: fix the others with --set, --h, --beta");
-  if (axes.size() == 2 && axes[0].label == axes[1].label)
-    throw UsageError(fmt::format("--vary {}: given twice", axes[0].label));
-  const auto cells =
-      static_cast<long>(axes[0].values.size() * (axes.size() > 1 ? axes[1].values.size() : 1));
-  if (cells > kMostCells)
-    throw UsageError(fmt::format("--vary: {} cells; at most {} can be run", cells, kMostCells));
-  return axes;
-}
-
-bool mentions_word(const std::string& text, const std::string& word) {
-  const auto is_letter = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
-  };
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) {
-    const bool begins = at == 0 || !is_letter(text[at - 1]);
-    const std::size_t end = at + word.size();
-    if (begins && (end == text.size() || !is_letter(text[end]))) return true;
-  }
-  return false;
-}
-
-// The axis alpha varies --alpha itself, if no expression mentions it.
-MethodOptions with_run_time_members(MethodOptions method, const std::vector<StressAxis>& axes) {
-  const std::string texts = method.alpha + "," + method.beta + "," + method.gamma;
-  for (const auto& [name, value] :
-       {std::pair{"alpha", &method.alpha}, std::pair{"beta", &method.beta},
-        std::pair{"gamma", &method.gamma}}) {
-    const bool varied = std::ranges::any_of(
-        axes, [name = std::string(name)](const auto& axis) { return axis.label == name; });
-    if (!varied || mentions_word(texts, name)) continue;
-    if (!value->empty())
-      throw UsageError(
-          fmt::format("--vary {0} and --{0} {1}: both choose {0}\nhelp: leave one out, "
-                      "or use {0} in the expression",
-                      name, *value));
-    *value = name;
-  }
-  return method;
-}
 
 // alpha, beta or gamma as one number; empty for a list or an expression in E0.
 std::optional<double> member_number(const std::string& text, double fallback,
@@ -120,20 +29,10 @@ std::optional<double> member_number(const std::string& text, double fallback,
 
 }  // namespace
 
-StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(axes_of(options)) {
-  options_.method = with_run_time_members(options.method, axes_);
-  const SourceText source = read_model_source(options_.method);
-  Request request = request_of(options_.method);
-  set_ = split_sizes(read_model(source), options_.scene.set);
-  request.sizes = set_.sizes;
-  if (request.gauge == "locally-exact") {
-    const Model model = read_request(source, request);
-    SceneRequest base = scene_request(options_.scene, set_.rest);
-    base.h = options_.h;
-    base.steps = options_.steps;
-    take_gauge_at(complete_scene(model, base), model, request);
-  }
-  plugin_ = generate_plugin(source, request);
+StressGrid::StressGrid(const StressRequest& asked) : setting_(asked.setting), axes_(asked.axes) {
+  if (setting_.request.gauge == "locally-exact")
+    take_gauge_at(complete_scene(setting_.model, setting_.scene), setting_.model, setting_.request);
+  plugin_ = generate_plugin(setting_.source, setting_.request);
   const std::vector<std::string> known = element_names(plugin_.model.parameters);
   for (const StressAxis& axis : axes_) {
     if (axis.label == "h" || axis.label == "scale") continue;
@@ -142,19 +41,17 @@ StressGrid::StressGrid(const StressOptions& options) : options_(options), axes_(
     throw UsageError(fmt::format(
         "--vary {}: no parameter of {}{}\nhelp: besides parameters there are h, scale (of the "
         "initial state), alpha, beta and gamma",
-        axis.label, options.method.model, near.empty() ? "" : "; did you mean '" + near + "'?"));
+        axis.label, setting_.source.path, near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  loaded_ = load_integrator(plugin_, "");
+  loaded_ = load_integrator(plugin_, "", asked.limits.stop);
   const std::vector<Scene>& scenes = plugin_.model.scenes;
-  scene_name_ = !options_.scene.scene.empty() ? options_.scene.scene
+  scene_name_ = !setting_.scene.scene.empty() ? setting_.scene.scene
                 : scenes.empty()              ? ""
                                               : scenes.front().name;
 }
 
 SceneValues StressGrid::scene_at(const std::vector<double>& at) const {
-  SceneRequest request = scene_request(options_.scene, set_.rest);
-  request.h = options_.h;
-  request.steps = options_.steps;
+  SceneRequest request = setting_.scene;
   double factor = 1.0;
   double scale = 1.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -201,7 +98,7 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
                 .first;
   }
   if (!found->second) return std::nullopt;
-  const MethodOptions& method = options_.method;
+  const Request& method = setting_.request;
   double alpha = 0.5;
   if (method.scheme == "symplectic-euler-a") alpha = 0.0;
   if (method.scheme == "symplectic-euler-b") alpha = 1.0;
@@ -225,7 +122,7 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
 
 std::vector<std::array<double, 2>> StressGrid::linear_bound() {
   if (axes_.size() < 2) return {};
-  const MethodOptions& chosen = options_.method;
+  const Request& chosen = setting_.request;
   const bool is_midpoint = (chosen.scheme.empty() || chosen.scheme == "implicit-midpoint") &&
                            (chosen.alpha + chosen.beta + chosen.gamma).empty();
   if (is_midpoint) return {};  // bounded for every h omega

@@ -1,4 +1,4 @@
-// The cells of a stress grid: axes as the user names them, and a run's initial values at any place.
+// The cells of a stress grid: a run's initial values at any place.
 #pragma once
 
 #include <map>
@@ -6,31 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
 #include "app/studies/stress.hpp"
 #include "generator/language/scene.hpp"
 #include "runtime/load_plugin.hpp"
 
 namespace hamgen::app {
 
-struct StressOptions {
-  MethodOptions method;
-  SceneOptions scene;
-  std::vector<std::string> vary;
-  std::optional<std::string> h;
-  std::string steps = "1000";
-  std::string seconds = "1";
-  std::string reference_seconds = "10";
-  std::string output, csv, plot;
-  bool json = false;
-  bool quiet = false;
-};
-
 class StressGrid {
  public:
-  // Reads --vary, compiles the integrator.  alpha, beta or gamma among the axes become run-time
-  // parameters, unless the method's expressions use them already.
-  explicit StressGrid(const StressOptions& options);
+  // Compiles the integrator; an axis is h, scale or a run-time parameter.
+  explicit StressGrid(const StressRequest& request);
 
   [[nodiscard]] const std::vector<StressAxis>& axes() const { return axes_; }
   [[nodiscard]] const PluginSource& plugin() const { return plugin_; }
@@ -42,7 +27,7 @@ class StressGrid {
   [[nodiscard]] SceneValues scene_at(const std::vector<double>& at) const;
   // Throws ModelError likewise, and if H or its gradient is not defined at the initial state.
   [[nodiscard]] runtime::InitialValues start_at(const std::vector<double>& at) const;
-  [[nodiscard]] const std::map<std::string, long>& sizes() const { return set_.sizes; }
+  [[nodiscard]] const std::map<std::string, long>& sizes() const { return setting_.request.sizes; }
 
   // h omega of the fastest linear oscillation and its margin, see
   // generator/verify/linear_stability.hpp; empty where there is no oscillation, or the method is no
@@ -56,8 +41,7 @@ class StressGrid {
   [[nodiscard]] std::vector<std::array<double, 2>> linear_bound();
 
  private:
-  StressOptions options_;
-  SizesAndRest set_;
+  Setting setting_;
   PluginSource plugin_;
   runtime::LoadedPlugin loaded_;
   std::string scene_name_;

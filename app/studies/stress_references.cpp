@@ -24,13 +24,15 @@ double length(const std::vector<runtime::Wide>& x) {
 }  // namespace
 
 StressReferences::StressReferences(const StressGrid& grid, const StressMap& map,
-                                   const StressLimits& limits) {
+                                   const StressLimits& limits)
+    : stop_(limits.stop) {
   if (!(limits.reference_time.count() > 0.0)) {
     method_ = "not asked for";
     return;
   }
   try {
-    rule_ = reference_rule(grid.plugin().model.source, {.sizes = grid.sizes()});
+    rule_ =
+        reference_rule(grid.plugin().model.source, {.sizes = grid.sizes(), .stop = limits.stop});
   } catch (const runtime::ToolError& error) {
     method_ = "none: " + error.failure().message;
     return;
@@ -69,7 +71,7 @@ void StressReferences::compute(std::size_t i) {
   Orbit& orbit = orbits_[i];
   try {
     const auto start = initial_values(rule_->plugin, orbit.scene, *rule_->loaded.library);
-    orbit.track = reference_track(*rule_, start, orbit.times, seconds_);
+    orbit.track = reference_track(*rule_, start, orbit.times, seconds_, stop_);
   } catch (const ModelError&) {
     orbit.track.missing = "H is not defined at the initial state";
   }

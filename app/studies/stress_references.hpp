@@ -39,6 +39,7 @@ class StressReferences {
     Rational time;
   };
 
+  StopFlag stop_;
   std::string method_;
   std::optional<ReferenceRule> rule_;
   double seconds_ = 0.0;  // an orbit

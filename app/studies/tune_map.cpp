@@ -1,7 +1,5 @@
 #include "app/studies/tune_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -11,21 +9,19 @@
 #include <mutex>
 #include <thread>
 
-#include "app/interrupt.hpp"
-#include "runtime/csv_writer.hpp"
-
 namespace hamgen::app {
 namespace {
 
 // Applies `function` to 0 .. count-1 on all processors; the caller's thread looks on.
-void for_all_cells(std::size_t count, const std::function<void(std::size_t)>& function,
+void for_all_cells(std::size_t count, StopFlag stop,
+                   const std::function<void(std::size_t)>& function,
                    const std::function<void(std::size_t)>& on_progress) {
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> done{0};
   std::exception_ptr failure;
   std::mutex mutex;
   const auto work = [&] {
-    for (std::size_t i = next++; i < count && !interrupt_flag(); i = next++) {
+    for (std::size_t i = next++; i < count && !is_stopped(stop); i = next++) {
       try {
         function(i);
       } catch (...) {
@@ -40,7 +36,7 @@ void for_all_cells(std::size_t count, const std::function<void(std::size_t)>& fu
     std::vector<std::jthread> threads;
     const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
     for (unsigned i = 0; i < processors; ++i) threads.emplace_back(work);
-    while (done < count && next < count && !interrupt_flag()) {
+    while (done < count && next < count && !is_stopped(stop)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       on_progress(done);
     }
@@ -52,13 +48,14 @@ void for_all_cells(std::size_t count, const std::function<void(std::size_t)>& fu
 }  // namespace
 
 EnergyMap energy_map(const GaugedIntegrator& integrator, const MapAxis& b, const MapAxis& c,
-                     double h, long steps, const std::function<void(std::size_t)>& on_progress) {
+                     double h, long steps, StopFlag stop,
+                     const std::function<void(std::size_t)>& on_progress) {
   const auto width = static_cast<std::size_t>(b.count);
   const std::size_t cells = width * static_cast<std::size_t>(c.count);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   EnergyMap map{.b = b, .c = c, .spread = std::vector<double>(cells, kNone)};
   for_all_cells(
-      cells,
+      cells, stop,
       [&](std::size_t i) {
         const std::vector<double> pair = {b.at(static_cast<int>(i % width)),
                                           c.at(static_cast<int>(i / width))};
@@ -70,20 +67,6 @@ EnergyMap energy_map(const GaugedIntegrator& integrator, const MapAxis& b, const
         on_progress(done);
       });
   return map;
-}
-
-std::string map_csv(const EnergyMap& map, const std::string& header) {
-  std::string text = header + "b,c,energy_spread\n";
-  std::size_t i = 0;
-  for (int row = 0; row < map.c.count; ++row) {
-    for (int column = 0; column < map.b.count; ++column, ++i) {
-      const std::string spread =
-          std::isfinite(map.spread[i]) ? runtime::number_text(map.spread[i]) : "";
-      text += fmt::format("{},{},{}\n", runtime::number_text(map.b.at(column)),
-                          runtime::number_text(map.c.at(row)), spread);
-    }
-  }
-  return text;
 }
 
 }  // namespace hamgen::app

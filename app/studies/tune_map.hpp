@@ -3,9 +3,9 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
 #include "app/studies/tune_measure.hpp"
 
 namespace hamgen::app {
@@ -34,17 +34,7 @@ struct EnergyMap {
 
 // In parallel, one thread a processor.  on_progress gets the cells done, from the caller's thread.
 [[nodiscard]] EnergyMap energy_map(const GaugedIntegrator& integrator, const MapAxis& b,
-                                   const MapAxis& c, double h, long steps,
+                                   const MapAxis& c, double h, long steps, StopFlag stop,
                                    const std::function<void(std::size_t)>& on_progress);
-
-// Is there a colour for this spread: on a scale of logarithms?
-[[nodiscard]] bool is_drawn(double spread);
-
-// b, c and spread, one cell a row; an empty spread where the run failed.
-[[nodiscard]] std::string map_csv(const EnergyMap& map, const std::string& header);
-// A gnuplot script with its data that draws the logarithm of the spread, with marks at the midpoint
-// rule, the fitted pair and the best cell, and lines where the linear part may become unbounded.
-[[nodiscard]] std::string map_script(const EnergyMap& map, const std::string& title,
-                                     const std::string& output);
 
 }  // namespace hamgen::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -14,7 +13,8 @@ namespace hamgen::app {
 
 GaugedIntegrator::GaugedIntegrator(const SourceText& source, const Request& base,
                                    const GaugeShape& shape, const SceneRequest& scene,
-                                   const std::string& compiler) {
+                                   const std::string& compiler, StopFlag stop)
+    : stop_(stop) {
   Request request = base;
   for (std::size_t k = 0; k < shape.size(); ++k)
     request.scheme_parameters.push_back(fmt::format("tuned_{}", k + 1));
@@ -22,7 +22,7 @@ GaugedIntegrator::GaugedIntegrator(const SourceText& source, const Request& base
   request.beta = texts.beta;
   request.gamma = texts.gamma;
   const PluginSource plugin = generate_plugin(source, request);
-  library_ = load_integrator(plugin, compiler).library;
+  library_ = load_integrator(plugin, compiler, stop).library;
   start_ = initial_values(plugin, complete_scene(plugin.model, scene), *library_);
   for (const std::string& name : request.scheme_parameters) {
     const auto found = std::ranges::find(plugin.parameter_names, name);
@@ -40,7 +40,7 @@ Measurement GaugedIntegrator::measure(const std::vector<double>& coefficients, d
   runtime::Integrator integrator(library_, start);
   runtime::IntegrateOptions options;
   options.steps = steps;
-  options.stop = &interrupt_flag();
+  options.stop = stop_;
   const runtime::RunSummary summary = runtime::integrate(integrator, options);
   Measurement result;
   if (summary.status != runtime::Status::done || !summary.energy) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
 #include "app/studies/tune_gauge.hpp"
 #include "generator/language/scene.hpp"
 #include "runtime/integrator.hpp"
@@ -24,13 +25,14 @@ class GaugedIntegrator {
  public:
   // `base` has sizes, folded parameters and the scalar.
   GaugedIntegrator(const SourceText& source, const Request& base, const GaugeShape& shape,
-                   const SceneRequest& scene, const std::string& compiler);
+                   const SceneRequest& scene, const std::string& compiler, StopFlag stop);
 
   // From the scene's initial state; safe to call from several threads at once.
   [[nodiscard]] Measurement measure(const std::vector<double>& coefficients, double h,
                                     long steps) const;
 
  private:
+  StopFlag stop_;
   std::shared_ptr<const runtime::Library> library_;
   runtime::InitialValues start_;
   std::vector<std::size_t> places_;  // of the coefficients among the parameters

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/interrupt.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "generator/language/read_model.hpp"
@@ -75,7 +74,7 @@ Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
   method.sizes = request.method.sizes;
   const PluginSource plugin = generate_plugin(source, method);
   const std::shared_ptr<const runtime::Library> library =
-      load_integrator(plugin, request.compiler).library;
+      load_integrator(plugin, request.compiler, request.stop).library;
   runtime::InitialValues at = initial_values(plugin, scene, *library);
   const std::vector<double> parameters = rounded(at.parameters);
   Orbit orbit;
@@ -83,7 +82,7 @@ Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
   runtime::ExtrapolationOptions options;
   options.tolerance = 1e-18;  // below the rounding of the doubles that are fitted
   options.first_parts = 1;
-  options.stop = &interrupt_flag();
+  options.stop = request.stop;
   const runtime::Wide distance = wide(request.time / request.samples);
   for (long i = 0; i < request.samples; ++i) {
     orbit.points.push_back(point_at(*library, parameters, rounded(at.state)));

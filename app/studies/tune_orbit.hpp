@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/stop.hpp"
 #include "app/studies/tune_gauge.hpp"
 #include "generator/language/scene.hpp"
 #include "runtime/least_squares.hpp"
@@ -29,6 +30,7 @@ struct OrbitRequest {
   Rational time;
   long samples = 0;
   std::string compiler;
+  StopFlag stop = nullptr;
   std::function<void(double)> on_progress = {};  // the fraction that is done
 };
 

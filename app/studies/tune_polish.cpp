@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 
-#include "app/interrupt.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
@@ -16,6 +15,7 @@ struct PolishProblem {
   const std::vector<double>& centre;
   const std::vector<double>& steps;
   nlopt_opt optimiser;
+  StopFlag stop;
   int evaluations = 0;
 
   // In units of the steps: one tolerance fits all coefficients.
@@ -28,7 +28,7 @@ struct PolishProblem {
 
 double polish_value(unsigned, const double* x, double*, void* data) {
   PolishProblem& problem = *static_cast<PolishProblem*>(data);
-  if (interrupt_flag()) nlopt_force_stop(problem.optimiser);
+  if (is_stopped(problem.stop)) nlopt_force_stop(problem.optimiser);
   ++problem.evaluations;
   const double value = problem.function(problem.coefficients(x));
   return std::isfinite(value) ? value : 1e300;
@@ -38,7 +38,7 @@ double polish_value(unsigned, const double* x, double*, void* data) {
 
 Polished polish(const std::function<double(const std::vector<double>&)>& function,
                 const std::vector<double>& start, const std::vector<double>& steps,
-                int most_evaluations) {
+                int most_evaluations, StopFlag stop) {
   // Where the simplex is this small, in units of the steps, nothing is left to find.
   constexpr double kSmall = 1e-7;
   Polished best{.coefficients = start, .value = function(start), .evaluations = 1};
@@ -46,9 +46,9 @@ Polished polish(const std::function<double(const std::vector<double>&)>& functio
       nlopt_create(NLOPT_LN_NELDERMEAD, static_cast<unsigned>(start.size())), &nlopt_destroy);
   if (!optimiser) internal_error("NLopt knows no Nelder-Mead");
   double size = 1.0;
-  while (best.evaluations < most_evaluations && !interrupt_flag()) {
+  while (best.evaluations < most_evaluations && !is_stopped(stop)) {
     const std::vector<double> centre = best.coefficients;
-    PolishProblem problem{function, centre, steps, optimiser.get()};
+    PolishProblem problem{function, centre, steps, optimiser.get(), stop};
     nlopt_set_min_objective(optimiser.get(), polish_value, &problem);
     nlopt_set_maxeval(optimiser.get(), most_evaluations - best.evaluations);
     nlopt_set_xtol_abs1(optimiser.get(), kSmall);

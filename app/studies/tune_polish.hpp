@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "app/studies/stop.hpp"
+
 namespace hamgen::app {
 
 struct Polished {
@@ -18,6 +20,6 @@ struct Polished {
 // finite counts as very large.
 [[nodiscard]] Polished polish(const std::function<double(const std::vector<double>&)>& function,
                               const std::vector<double>& start, const std::vector<double>& steps,
-                              int most_evaluations);
+                              int most_evaluations, StopFlag stop);
 
 }  // namespace hamgen::app
