@@ -1,10 +1,8 @@
 #include "app/output/math_markup.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <cctype>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/model.hpp"
@@ -12,185 +10,146 @@
 namespace hamgen::app {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kGreek = {{
-    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"}, {"delta", "δ"}, {"eps", "ε"},
-    {"epsilon", "ε"}, {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},
-    {"kappa", "κ"},   {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},    {"xi", "ξ"},
-    {"pi", "π"},      {"rho", "ρ"},    {"sigma", "σ"}, {"tau", "τ"},   {"phi", "φ"},
-    {"chi", "χ"},     {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"}, {"Delta", "Δ"},
-    {"Omega", "Ω"},   {"Phi", "Φ"},
-}};
+MathFormula formula_of(const NodePtr& node);
 
-// How tightly an expression holds together, as in the language's own notation.
-enum class Tightness { sum, product, sign, power, atom };
-
-Tightness tightness(const Node& node) {
-  if (std::holds_alternative<NegateNode>(node.value)) return Tightness::sign;
-  if (std::holds_alternative<SumNode>(node.value)) return Tightness::product;
-  if (const auto* number = std::get_if<NumberNode>(&node.value))
-    return number->value < 0 ? Tightness::sign : Tightness::atom;
-  const auto* binary = std::get_if<BinaryNode>(&node.value);
-  if (binary == nullptr) return Tightness::atom;
-  switch (binary->operation) {
-    case BinaryOperator::add:
-    case BinaryOperator::subtract:
-      return Tightness::sum;
-    case BinaryOperator::multiply:
-      return Tightness::product;
-    case BinaryOperator::divide:
-      return Tightness::power;  // a fraction's bar holds it together
-    case BinaryOperator::power:
-      return Tightness::power;
-  }
-  internal_error("unknown operator");
+MathFormula formula_of(const NumberNode& number) {
+  return math_number(to_text(std::make_shared<const Node>(Node{.value = number})));
 }
 
-std::string parenthesised(const std::string& markup) {
-  return "<mrow><mo>(</mo>" + markup + "<mo>)</mo></mrow>";
+MathFormula formula_of(const NameNode& name) {
+  return name.subscript ? with_subscript(name.name, formula_of(name.subscript))
+                        : math_symbol(name.name);
 }
 
-std::string at_least_as_tight(Tightness level, const NodePtr& node) {
-  const std::string markup = math_markup(node);
-  return tightness(*node) >= level ? markup : parenthesised(markup);
-}
+MathFormula formula_of(const NegateNode& negate) { return negated(formula_of(negate.operand)); }
 
-std::string markup_of(const NumberNode& number) {
-  const std::string text = to_text(std::make_shared<const Node>(Node{.value = number}));
-  return text.starts_with('-') ? "<mo>−</mo><mn>" + text.substr(1) + "</mn>"
-                               : "<mn>" + text + "</mn>";
-}
-
-std::string markup_of(const NameNode& name) {
-  const std::string letter = math_name(name.name);
-  return name.subscript ? fmt::format("<msub><mrow>{}</mrow><mrow>{}</mrow></msub>", letter,
-                                      math_markup(name.subscript))
-                        : letter;
-}
-
-std::string markup_of(const NegateNode& negate) {
-  return "<mo>−</mo>" + at_least_as_tight(Tightness::power, negate.operand);
-}
-
-bool is_plain_number(const NodePtr& node) {
-  return std::holds_alternative<NumberNode>(node->value);
-}
-
-std::string fraction(const NodePtr& above, const NodePtr& below, bool inline_form) {
-  if (inline_form)
-    return fmt::format("<mrow>{}<mo>/</mo>{}</mrow>", math_markup(above), math_markup(below));
-  return fmt::format("<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>", math_markup(above),
-                     math_markup(below));
-}
-
-// Functions that have a notation of their own keep it under a power.
-bool has_own_notation(const std::string& function) {
-  return function == "sqrt" || function == "abs" || function == "exp";
-}
-
-std::string power(const BinaryNode& binary) {
-  const auto* divided = std::get_if<BinaryNode>(&binary.right->value);
-  const bool slash = divided != nullptr && divided->operation == BinaryOperator::divide &&
-                     is_plain_number(divided->left) && is_plain_number(divided->right);
-  const std::string exponent =
-      slash ? fraction(divided->left, divided->right, true) : math_markup(binary.right);
-  const auto* call = std::get_if<CallNode>(&binary.left->value);
-  if (call != nullptr && !has_own_notation(call->function) && call->arguments.size() == 1)
-    return fmt::format("<msup><mi>{}</mi><mrow>{}</mrow></msup><mo>&#x2061;</mo>{}", call->function,
-                       exponent, parenthesised(math_markup(call->arguments.front())));
-  const bool bare = tightness(*binary.left) == Tightness::atom && call == nullptr;
-  const std::string base = math_markup(binary.left);
-  constexpr std::string_view subscripted = "<msub>";
-  if (bare && base.starts_with(subscripted)) {
-    // The power stands above the subscript, not after it.
-    const std::string inside =
-        base.substr(subscripted.size(), base.size() - 2 * subscripted.size() - 1);
-    return fmt::format("<msubsup>{}<mrow>{}</mrow></msubsup>", inside, exponent);
-  }
-  return fmt::format("<msup><mrow>{}</mrow><mrow>{}</mrow></msup>",
-                     bare ? base : parenthesised(base), exponent);
-}
-
-std::string markup_of(const BinaryNode& binary) {
-  const auto after = [&binary](Tightness level) {
-    return tightness(*binary.right) == Tightness::sign ? parenthesised(math_markup(binary.right))
-                                                       : at_least_as_tight(level, binary.right);
-  };
+MathFormula formula_of(const BinaryNode& binary) {
+  const MathFormula left = formula_of(binary.left);
+  const MathFormula right = formula_of(binary.right);
   switch (binary.operation) {
     case BinaryOperator::add:
-      return math_markup(binary.left) + "<mo>+</mo>" + after(Tightness::product);
+      return sum_of(left, right);
     case BinaryOperator::subtract:
-      return math_markup(binary.left) + "<mo>−</mo>" + after(Tightness::product);
+      return difference_of(left, right);
     case BinaryOperator::multiply:
-      return at_least_as_tight(Tightness::product, binary.left) +
-             (is_plain_number(binary.right) ? "<mo>·</mo>"
-                                            : "<mo>&#x2062;</mo><mspace width='0.12em'/>") +
-             after(Tightness::power);
+      return product_of(left, right);
     case BinaryOperator::divide:
-      return fraction(binary.left, binary.right, false);
+      return quotient_of(left, right);
     case BinaryOperator::power:
-      return power(binary);
+      return power_of(left, right);
   }
   internal_error("unknown operator");
 }
 
-std::string markup_of(const CallNode& call) {
-  std::string list;
-  for (const NodePtr& argument : call.arguments)
-    list += (list.empty() ? "" : "<mo>,</mo>") + math_markup(argument);
-  if (call.function == "sqrt") return "<msqrt><mrow>" + list + "</mrow></msqrt>";
-  if (call.function == "abs") return "<mrow><mo>|</mo>" + list + "<mo>|</mo></mrow>";
-  if (call.function == "exp") return "<msup><mi>e</mi><mrow>" + list + "</mrow></msup>";
-  return fmt::format("<mi>{}</mi><mo>&#x2061;</mo>{}", call.function, parenthesised(list));
+MathFormula formula_of(const CallNode& call) {
+  std::vector<MathFormula> arguments;
+  for (const NodePtr& argument : call.arguments) arguments.push_back(formula_of(argument));
+  return call_of(call.function, arguments);
 }
 
-std::string markup_of(const SumNode& sum) {
-  std::string text;
+MathFormula formula_of(const SumNode& sum) {
+  std::vector<MathRange> ranges;
   for (const SumRange& range : sum.ranges)
-    text +=
-        fmt::format("<munderover><mo>∑</mo><mrow>{}<mo>=</mo>{}</mrow><mrow>{}</mrow></munderover>",
-                    math_name(range.index), math_markup(range.lower), math_markup(range.upper));
-  return "<mrow>" + text + at_least_as_tight(Tightness::product, sum.body) + "</mrow>";
+    ranges.push_back({range.index, formula_of(range.lower), formula_of(range.upper)});
+  return sum_over(ranges, formula_of(sum.body));
+}
+
+MathFormula formula_of(const NodePtr& node) {
+  return std::visit([](const auto& each) { return formula_of(each); }, node->value);
+}
+
+MathFormula formula_of(const Expression& e);
+
+// A literal, with the digits the language would give it.
+MathFormula integer(const Integer& value) { return formula_of(NumberNode{.value = value}); }
+
+// -1/2 is (-1)/2: a sign binds more tightly than a fraction's bar.
+MathFormula formula_of(const Rational& value) {
+  const MathFormula size = integer(abs(value.get_num()));
+  const MathFormula above = value < 0 ? negated(size) : size;
+  return value.get_den() == 1 ? above : quotient_of(above, integer(value.get_den()));
+}
+
+MathFormula formula_of_power(const Expression& base, const Rational& exponent) {
+  if (exponent == 1) return formula_of(base);
+  if (exponent == Rational(1, 2)) return call_of("sqrt", {formula_of(base)});
+  return power_of(formula_of(base), formula_of(exponent));
+}
+
+bool is_reciprocal(const Expression& e) {
+  return e.kind() == Kind::power && e.operands()[1].is_number() && e.operands()[1].number() < 0;
+}
+
+// Integers first, above and below the bar; the sign belongs to the first factor above.
+MathFormula formula_of_product(const Expression& e) {
+  const auto [coefficient, rest] = e.split_coefficient();
+  const Rational size = abs(coefficient);
+  std::vector<MathFormula> over;
+  std::vector<MathFormula> under;
+  if (size.get_num() != 1) over.push_back(integer(size.get_num()));
+  if (size.get_den() != 1) under.push_back(integer(size.get_den()));
+  for (const Expression& factor :
+       rest.kind() == Kind::product ? rest.operands() : std::span(&rest, 1)) {
+    if (factor.is_number()) continue;
+    if (is_reciprocal(factor))
+      under.push_back(formula_of_power(factor.operands()[0], -factor.operands()[1].number()));
+    else
+      over.push_back(formula_of(factor));
+  }
+  if (over.empty()) over.push_back(integer(1));
+  MathFormula result = coefficient < 0 ? negated(over.front()) : over.front();
+  for (const MathFormula& factor : std::span(over).subspan(1)) result = product_of(result, factor);
+  for (const MathFormula& factor : under) result = quotient_of(result, factor);
+  return result;
+}
+
+MathFormula formula_of_sum(std::span<const Expression> terms) {
+  MathFormula result = formula_of(terms.front());
+  for (const Expression& term : terms.subspan(1)) {
+    result = term.split_coefficient().first < 0 ? difference_of(result, formula_of(-term))
+                                                : sum_of(result, formula_of(term));
+  }
+  return result;
+}
+
+// "q[3]" has the subscript 3.
+MathFormula formula_of_symbol(const std::string& name) {
+  const std::size_t bracket = name.find('[');
+  if (bracket == std::string::npos) return math_symbol(name);
+  return with_subscript(name.substr(0, bracket),
+                        math_number(name.substr(bracket + 1, name.size() - bracket - 2)));
+}
+
+MathFormula formula_of(const Expression& e) {
+  switch (e.kind()) {
+    case Kind::number:
+      return formula_of(e.number());
+    case Kind::symbol:
+      return formula_of_symbol(e.name());
+    case Kind::function: {
+      std::vector<MathFormula> arguments;
+      for (const Expression& argument : e.operands()) arguments.push_back(formula_of(argument));
+      return call_of(e.name(), arguments);
+    }
+    case Kind::power:
+      if (is_reciprocal(e)) return formula_of_product(e);
+      if (e.operands()[1].is_number())
+        return formula_of_power(e.operands()[0], e.operands()[1].number());
+      return power_of(formula_of(e.operands()[0]), formula_of(e.operands()[1]));
+    case Kind::product:
+      return formula_of_product(e);
+    case Kind::sum:
+      return formula_of_sum(e.operands());
+  }
+  internal_error("unknown kind of expression");
 }
 
 }  // namespace
 
-std::string math_name(std::string_view name) {
-  const std::size_t end = name.find_last_not_of("0123456789") + 1;
-  const std::string_view letters = name.substr(0, end);
-  std::string shown(letters);
-  for (const auto& [word, letter] : kGreek) {
-    if (letters == word) shown = letter;
-  }
-  const std::string italic = fmt::format("<mi>{}</mi>", html_text(shown));
-  if (end == name.size() || end == 0) return italic;
-  return fmt::format("<msub>{}<mn>{}</mn></msub>", italic, name.substr(end));
-}
+std::string math_markup(const NodePtr& node) { return formula_of(node).markup; }
 
-std::string math_markup(const NodePtr& node) {
-  return std::visit([](const auto& each) { return markup_of(each); }, node->value);
-}
+std::string math_markup(const Expression& expression) { return formula_of(expression).markup; }
 
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
+std::string math_name(std::string_view name) { return math_symbol(name).markup; }
 
 }  // namespace hamgen::app

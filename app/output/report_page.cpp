@@ -7,7 +7,6 @@
 
 #include "app/output/math_markup.hpp"
 #include "app/output/report_style.hpp"
-#include "generator/language/read_model.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -55,11 +54,6 @@ std::string primed(const std::string& name) {
   return "<msubsup>" + markup.substr(subscripted.size(), length) + "<mo>′</mo></msubsup>";
 }
 
-// An expression of a later stage in the notation of formulas.
-std::string expression_markup(const Expression& expression, const std::vector<std::string>& names) {
-  return math_markup(read_expression("equation", to_text(expression), names));
-}
-
 // The comment above the model: what the system is, and its source.
 std::string introduction(const Model& model) {
   std::string text;
@@ -79,15 +73,12 @@ std::string equations_of_motion(const Mechanics& mechanics) {
         "written out here.</p>\n",
         mechanics.degrees_of_freedom);
   }
-  std::vector<std::string> names;
-  for (const Quantity& variable : mechanics.variables) names.push_back(variable.name);
-  for (const Quantity& parameter : mechanics.parameters) names.push_back(parameter.name);
   const auto n = static_cast<std::size_t>(mechanics.degrees_of_freedom);
   std::string text;
   for (std::size_t i = 0; i < std::min(2 * n, kMostEquations); ++i) {
     const Expression right = i < n ? mechanics.gradient[n + i] : -mechanics.gradient[i - n];
-    text += formula(fmt::format("{}<mo>=</mo>{}", primed(mechanics.variables[i].name),
-                                expression_markup(right, names)));
+    text += formula(
+        fmt::format("{}<mo>=</mo>{}", primed(mechanics.variables[i].name), math_markup(right)));
   }
   if (2 * n > kMostEquations)
     text += fmt::format("<p class='note'>and {} more.</p>\n", 2 * n - kMostEquations);
@@ -178,9 +169,6 @@ std::string proof_section(const ReportContent& content) {
 std::string modified_section(const ReportContent& content) {
   if (!content.modified) return "";
   const ModifiedEnergy& modified = *content.modified;
-  std::vector<std::string> names = {"E0"};
-  for (const Quantity& variable : content.mechanics->variables) names.push_back(variable.name);
-  for (const Quantity& parameter : content.mechanics->parameters) names.push_back(parameter.name);
   const std::string tilde = "<mover><mi>H</mi><mo>~</mo></mover>";
   std::string text =
       "<h2>The modified Hamiltonian</h2>\n<p>What the step conserves instead of H, as a formal "
@@ -188,18 +176,17 @@ std::string modified_section(const ReportContent& content) {
   std::string sum;
   std::string terms;
   for (const std::size_t power : modified.powers()) {
-    const std::string value = to_text(modified.terms[power]);
+    const std::size_t length = to_text(modified.terms[power]).size();
     const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
     sum += power == 0 ? std::string("<mi>H</mi>")
                       : fmt::format("<mo>+</mo><msup><mi>h</mi><mn>{}</mn></msup>{}", power, name);
     if (power == 0) continue;
-    terms += value.size() > kLongestFormula
+    terms += length > kLongestFormula
                  ? fmt::format(
                        "<p class='note'>{} has {} characters: hamgen verify --terms prints "
                        "it.</p>\n",
-                       inline_formula(name), value.size())
-                 : formula(name + "<mo>=</mo>" +
-                           math_markup(read_expression("modified Hamiltonian", value, names)));
+                       inline_formula(name), length)
+                 : formula(name + "<mo>=</mo>" + math_markup(modified.terms[power]));
   }
   text += formula(tilde + "<mo>=</mo>" + sum + "<mo>+</mo><mo>…</mo>") + terms;
   if (!modified.orbit) return text;
