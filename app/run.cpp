@@ -89,12 +89,11 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 }
 
 // Writes the emitted header if asked to; returns where it is, or how to see it.
-std::string keep_header(const SourceText& source, const Request& request,
+std::string keep_header(const PluginSource& plugin, const Request& request,
                         const RunOptions& options) {
   if (options.keep.empty()) return "print it with: " + request.command;
-  const OutputFile header = generate(source, request).at(0);
-  const std::filesystem::path path = std::filesystem::path(options.keep) / header.path;
-  runtime::atomic_write(path, header.text);
+  const std::filesystem::path path = std::filesystem::path(options.keep) / plugin.header.path;
+  runtime::atomic_write(path, plugin.header.text);
   return path.string();
 }
 
@@ -152,7 +151,8 @@ int run(const RunOptions& options) {
   report.path = options.method.model;
   report.scene = &scene;
   const Clock::time_point begin = Clock::now();
-  const PluginSource plugin = generate_plugin(source, request);
+  const PluginSource plugin = generate_plugin(
+      source, request, options.keep.empty() ? HeaderProof::left_out : HeaderProof::included);
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
@@ -165,7 +165,7 @@ int run(const RunOptions& options) {
   }
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   report.start = &start;
-  report.header = keep_header(source, request, options);
+  report.header = keep_header(plugin, request, options);
 
   std::optional<TrajectoryTable> table;
   if (!options.output.empty())

@@ -322,9 +322,9 @@ std::string code_section(const ReportContent& content) {
     for (const std::string& item : plugin.left_out) text += "<li>" + html_text(item) + "</li>\n";
     text += "</ul>\n";
   }
-  text += "<pre>" + html_text(head_comment(plugin.header_text)) + "</pre>\n";
+  text += "<pre>" + html_text(head_comment(plugin.header.text)) + "</pre>\n";
   return text + "<details><summary>The whole header</summary><pre>" +
-         html_text(plugin.header_text) + "</pre></details>\n";
+         html_text(plugin.header.text) + "</pre></details>\n";
 }
 
 }  // namespace
