@@ -65,12 +65,24 @@ Rational run_length(const BenchOptions& options, const BenchRequest& request) {
   return time;
 }
 
+// alpha by its own name is a parameter of the step, which the scene of a comparison does not have.
+void require_numbers(const std::string& spec, const Request& method, const Setting& setting) {
+  const Model model = read_request(setting.source, method);
+  if (model.parameters.size() == setting.model.parameters.size()) return;
+  const std::string& name = model.parameters[setting.model.parameters.size()].name;
+  throw UsageError(
+      fmt::format("--schemes {}: {} has no value\nhelp: write a number, or an "
+                  "expression in h and the parameters",
+                  spec, name));
+}
+
 std::vector<BenchSpec> methods_of(const BenchOptions& options, const BenchRequest& request) {
   const Setting& setting = request.setting;
   std::vector<BenchSpec> methods;
   for (const std::string& spec : options.schemes.empty() ? default_specs(derive(setting.model))
                                                          : split_specs(options.schemes)) {
     Request method = request_of_spec(spec, setting.request);
+    require_numbers(spec, method, setting);
     take_gauge_at(request.scene, setting.model, method);
     methods.push_back({.spec = spec, .request = std::move(method)});
   }
