@@ -4,57 +4,53 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/bench_output.hpp"
-#include "app/bench_run.hpp"
-#include "app/command_line.hpp"
+#include "app/bench_options.hpp"
 #include "app/interrupt.hpp"
-#include "app/terminal.hpp"
+#include "app/output/bench_output.hpp"
+#include "app/output/draw_picture.hpp"
+#include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
 namespace {
 
-struct BenchOptions {
-  BenchRequest request;
+struct BenchCommand {
+  BenchOptions bench;
   std::string output, csv, plot;
   bool json = false;
 };
 
-void write_files(const BenchOptions& options, const Bench& bench) {
+void write_files(const BenchCommand& options, const Bench& bench) {
   namespace fs = std::filesystem;
   const auto write = [&options](const fs::path& path, const std::string& text) {
     runtime::atomic_write(path, text);
-    if (!options.request.quiet) print_error(fmt::format("{}\n", path.string()));
+    if (!options.bench.quiet) print_error(fmt::format("{}\n", path.string()));
   };
-  const auto draw = [&](const fs::path& picture, const fs::path& script) {
-    write(script, gnuplot_script(picture_of(bench), picture.string()));
-    const std::string problem = run_gnuplot(script);
-    if (!problem.empty())
-      print_error(
-          fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                      "gnuplot {}\n",
-                      problem, script.string()));
-    else if (!options.request.quiet)
-      print_error(fmt::format("{}\n", picture.string()));
+  const auto draw = [&](const fs::path& picture) {
+    draw_picture({.picture = picture,
+                  .script = fs::path(picture).replace_extension(".gp"),
+                  .text = gnuplot_script(picture_of(bench), picture.string())},
+                 options.bench.quiet, &interrupt_flag());
   };
   if (!options.csv.empty()) write(options.csv, csv_text(bench));
-  if (!options.plot.empty()) draw(options.plot, fs::path(options.plot).replace_extension(".gp"));
+  if (!options.plot.empty()) draw(options.plot);
   if (options.output.empty()) return;
   const fs::path directory = options.output;
   write(directory / "bench.csv", csv_text(bench));
   write(directory / "bench.json", json_text(bench));
-  draw(directory / "bench.svg", directory / "bench.gp");
+  draw(directory / "bench.svg");
 }
 
-int bench(const BenchOptions& options) {
+int bench(const BenchCommand& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
-  const Bench result = run_bench(options.request);
+  const Bench result = run_bench(read_bench(options.bench));
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
     return interrupted;
   }
+  print_error(warning_text(result));
   print(options.json ? json_text(result) : table_text(result));
   write_files(options, result);
   return result.answer && !result.answer->row ? numerical_failure : done;
@@ -63,27 +59,26 @@ int bench(const BenchOptions& options) {
 }  // namespace
 
 Command add_bench(CLI::App& app) {
-  const auto options = std::make_shared<BenchOptions>();
+  const auto options = std::make_shared<BenchCommand>();
   CLI::App* parser =
       app.add_subcommand("bench", "measures error against run time, method by method");
-  parser->add_option("MODEL", options->request.model, "a .ham file")->required();
-  add_scene_options(*parser, options->request.scene);
+  parser->add_option("MODEL", options->bench.model, "a .ham file")->required();
+  add_scene_options(*parser, options->bench.scene);
   parser
-      ->add_option("--schemes", options->request.schemes,
+      ->add_option("--schemes", options->bench.schemes,
                    "names, with options: gauss-4,alpha=1/2:beta=-h/9")
       ->type_name("A,B,...");
-  parser->add_option("--h", options->request.h, "step sizes; default: around the scene's")
+  parser->add_option("--h", options->bench.h, "step sizes; default: around the scene's")
       ->type_name("H1,H2,...");
   parser
-      ->add_option("--time", options->request.time,
+      ->add_option("--time", options->bench.time,
                    "of each run; default: 2000 steps of the scene's h")
       ->type_name("T");
-  parser->add_option("--target", options->request.target, "which method reaches this error soonest")
+  parser->add_option("--target", options->bench.target, "which method reaches this error soonest")
       ->type_name("ERROR");
-  parser
-      ->add_option("--observe", options->request.observe, "the error that counts: state or energy")
+  parser->add_option("--observe", options->bench.observe, "the error that counts: state or energy")
       ->type_name("WHAT");
-  parser->add_option("--rounds", options->request.rounds, "samples of each time; default 9")
+  parser->add_option("--rounds", options->bench.rounds, "samples of each time; default 9")
       ->type_name("N");
   parser->add_option("-o,--output", options->output, "write bench.csv, .json, .gp and .svg there")
       ->type_name("DIRECTORY");
@@ -91,9 +86,8 @@ Command add_bench(CLI::App& app) {
   parser->add_option("--plot", options->plot, "a picture, .svg or .png, and its script .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "the table as JSON on standard output");
-  parser->add_flag("--quiet", options->request.quiet, "no progress, no names of files");
-  parser
-      ->add_option("--compiler", options->request.compiler, "default: $CXX, else g++, else clang++")
+  parser->add_flag("--quiet", options->bench.quiet, "no progress, no names of files");
+  parser->add_option("--compiler", options->bench.compiler, "default: $CXX, else g++, else clang++")
       ->type_name("PROGRAM");
   return {parser, [options] { return bench(*options); }};
 }

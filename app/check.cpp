@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
-#include "app/terminal.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/initial_data.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "generator/formats/scalar.hpp"

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/output/generate_command.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "runtime/sha256.hpp"
-#include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -93,14 +93,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME=VALUE,...");
 }
 
-void add_step_option(CLI::App& command, std::optional<std::string>& h) {
-  command.add_option("--h", h, "step size; default: the scene's")->type_name("H");
-}
-
-SceneRequest scene_request(const SceneOptions& options, std::vector<Assignment> set) {
-  return {.scene = options.scene,
-          .set = std::move(set),
-          .initial = all_assignments("--initial", options.initial)};
+void add_step_option(CLI::App& command, SceneOptions& options) {
+  command.add_option("--h", options.h, "step size; default: the scene's")->type_name("H");
 }
 
 CLI::Option* add_repeated(CLI::App& command, const std::string& name,
@@ -148,6 +142,17 @@ long integer_value(const std::string& what, const std::string& text, long least)
   return value->get_num().get_si();
 }
 
+Rational constant_option(const std::string& option, const std::string& text) {
+  const std::string what = option + " " + text;
+  return evaluate_constant(read_expression(what, text, {}), make_source(what, text), {});
+}
+
+int modified_term_count(const std::string& option, const std::string& text) {
+  const long count = integer_value(option + " " + text, text, 1);
+  if (count > 8) throw UsageError(fmt::format("{} {}: at most 8 terms", option, text));
+  return static_cast<int>(count);
+}
+
 SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set) {
   std::vector<Assignment> assignments;
   for (const std::string& text : set) assignments.push_back(split_assignment("--set", text));
@@ -185,6 +190,22 @@ Request request_of(const MethodOptions& options) {
   return request;
 }
 
+Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
+  Setting setting;
+  setting.source = read_source(method.model);
+  setting.request = request_of(method);
+  SizesAndRest set;
+  if (!scene.set.empty()) set = split_sizes(read_model(setting.source), scene.set);
+  setting.request.sizes = set.sizes;
+  setting.model = read_request(setting.source, setting.request);
+  setting.scene.scene = scene.scene;
+  setting.scene.set = std::move(set.rest);
+  setting.scene.initial = all_assignments("--initial", scene.initial);
+  setting.scene.h = scene.h;
+  setting.scene.steps = scene.steps;
+  return setting;
+}
+
 Request request_with_sizes(const MethodOptions& options, const SourceText& source) {
   Request request = request_of(options);
   if (options.set.empty()) return request;
@@ -197,38 +218,6 @@ Request request_with_sizes(const MethodOptions& options, const SourceText& sourc
                     split.rest.front().first, split.rest.front().second, source.path));
   request.sizes = split.sizes;
   return request;
-}
-
-std::string generate_command(const std::string& model, const Request& request) {
-  std::vector<std::string> words = {"hamgen", "generate", model};
-  // A value that begins with '-' would read as an option after a blank.
-  const auto add = [&words](const std::string& option, const std::string& value) {
-    if (value.empty()) return;
-    if (value.front() == '-') {
-      words.push_back(option + "=" + value);
-    } else {
-      words.push_back(option);
-      words.push_back(value);
-    }
-  };
-  add("--scheme", request.scheme);
-  add("--alpha", request.alpha);
-  add("--beta", request.beta);
-  add("--gamma", request.gamma);
-  if (request.order > 0) add("--order", std::to_string(request.order));
-  add("--gauge", request.gauge);
-  for (const auto& [name, value] : request.reference)
-    add("--reference", fmt::format("{}={}", name, value));
-  add("--solver", request.solver);
-  add("--scalar", request.scalar);
-  for (const std::string& name : request.fold) add("--fold", name);
-  for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
-  if (request.format != "cpp-header") add("--format", request.format);  // the default
-  add("--namespace", request.name_space);
-  add("--require", request.require);
-  if (request.tangent) words.emplace_back("--tangent");
-  if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
-  return runtime::command_text(words);
 }
 
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/language/scene.hpp"
+#include "app/studies/setting.hpp"
 #include "generator/pipeline.hpp"
 
 namespace hamgen::app {
@@ -59,18 +59,17 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& name,
 
 using Assignment = std::pair<std::string, std::string>;
 
-// Which initial values are meant; the texts are kept as typed.
+// Which run is meant; the texts are kept as typed.
 struct SceneOptions {
   std::string scene;
   std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
+  std::optional<std::string> h, steps;    // in place of the scene's
 };
 
 // Adds --scene, --set and --initial.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 // Adds --h of one step size.
-void add_step_option(CLI::App& command, std::optional<std::string>& h);
-// The request for the scene's values, with `set` those of --set that are no sizes.
-[[nodiscard]] SceneRequest scene_request(const SceneOptions& options, std::vector<Assignment> set);
+void add_step_option(CLI::App& command, SceneOptions& options);
 
 // "eps=0.1" into its two sides, blanks at the ends dropped; throws UsageError naming the option.
 [[nodiscard]] Assignment split_assignment(std::string_view option, std::string_view text);
@@ -82,6 +81,11 @@ void add_step_option(CLI::App& command, std::optional<std::string>& h);
 // `what`, the option and its value as typed.
 [[nodiscard]] long integer_value(const std::string& what, const std::string& text, long least);
 
+// The number of a constant expression such as "2*pi"; throws ModelError that quotes the option.
+[[nodiscard]] Rational constant_option(const std::string& option, const std::string& text);
+// 1 to 8 terms of the modified Hamiltonian; throws UsageError naming the option.
+[[nodiscard]] int modified_term_count(const std::string& option, const std::string& text);
+
 // --set of sizes goes into the request, the rest is handed back in the order given.
 struct SizesAndRest {
   std::map<std::string, long> sizes;
@@ -91,12 +95,12 @@ struct SizesAndRest {
 
 // The request without sizes.  Throws UsageError where the options contradict each other.
 [[nodiscard]] Request request_of(const MethodOptions& options);
+// Everything a run is read from.  Throws UsageError and ModelError, not for what the scene lacks.
+[[nodiscard]] Setting read_setting(const MethodOptions& method, const SceneOptions& scene);
 // The request of a command that knows no run-time values: --set is for sizes only.
 [[nodiscard]] Request request_with_sizes(const MethodOptions& options, const SourceText& source);
-// The `hamgen generate` command that emits this request's files: paths as typed, a fixed order of
-// options, no output directory.
-[[nodiscard]] std::string generate_command(const std::string& model, const Request& request);
-// That command and the digest of the model's text: what an emitted header says of its origin.
+// The `hamgen generate` command and the digest of the model's text: what an emitted header says of
+// its origin.
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request);
 
 // Help that fits one screen: one line an option.

@@ -7,7 +7,7 @@
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
-#include "app/terminal.hpp"
+#include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/tool_error.hpp"
 

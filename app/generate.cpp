@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "app/command_line.hpp"
-#include "app/difference.hpp"
-#include "app/modified_energy.hpp"
-#include "app/terminal.hpp"
+#include "app/output/difference.hpp"
+#include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 

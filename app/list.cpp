@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
-#include "app/json_document.hpp"
-#include "app/terminal.hpp"
+#include "app/output/json_document.hpp"
+#include "app/output/terminal.hpp"
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"

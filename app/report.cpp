@@ -6,14 +6,13 @@
 #include <memory>
 #include <sstream>
 
-#include "app/bench_run.hpp"
+#include "app/bench_options.hpp"
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
-#include "app/modified_energy.hpp"
-#include "app/report_page.hpp"
-#include "app/scheme_spec.hpp"
-#include "app/terminal.hpp"
+#include "app/output/report_page.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/modified_energy.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -25,7 +24,6 @@ namespace {
 struct ReportOptions {
   MethodOptions method;
   SceneOptions scene;
-  std::optional<std::string> h, steps;
   std::string output, schemes, compiler;
   std::string rounds = "5";
   bool quiet = false;
@@ -39,10 +37,10 @@ ReportPicture draw_figure(const Figure& figure, const std::filesystem::path& dir
   const std::filesystem::path png = directory / (figure.name + ".png");
   const std::filesystem::path script = directory / (figure.name + ".gp");
   runtime::atomic_write(script, gnuplot_script(figure.plot, png.string()));
-  problem = run_gnuplot(script);
+  problem = run_gnuplot(script, &interrupt_flag());
   if (!problem.empty()) return picture;
   runtime::atomic_write(script, gnuplot_script(figure.plot, svg.string()));
-  problem = run_gnuplot(script);
+  problem = run_gnuplot(script, &interrupt_flag());
   if (problem.empty()) picture.svg = runtime::read_file(svg);
   return picture;
 }
@@ -64,27 +62,31 @@ std::vector<ReportPicture> draw_all(const std::vector<Figure>& figures,
 
 BenchMethod chosen_method(const ReportOptions& options, const SourceText& source,
                           const Request& request) {
-  BenchMethod method = bench_method(options.method.scheme, source, request, options.compiler);
+  BenchMethod method =
+      bench_method(options.method.scheme, source, request, options.compiler, &interrupt_flag());
   if (!method.refusal.empty())
     throw UsageError(fmt::format("{}: {}", options.method.model, method.refusal));
   return method;
 }
 
-// Of a member with few degrees of freedom; null where there is none, or its terms are too long.
-nlohmann::ordered_json modified_hamiltonian_of(const SourceText& source, const Request& request,
-                                               SceneValues scene) {
+// Of a member with few degrees of freedom; empty where there is none, or its terms are too long.
+std::optional<ModifiedEnergy> modified_energy_of(const SourceText& source, const Request& request,
+                                                 SceneValues scene) {
   constexpr long most_degrees_of_freedom = 4;
   constexpr long most_steps = 20'000;
-  if (degrees_of_freedom(read_request(source, request)) > most_degrees_of_freedom) return nullptr;
+  if (degrees_of_freedom(read_request(source, request)) > most_degrees_of_freedom) return {};
   scene.steps = std::min(*scene.steps, most_steps);
-  for (const char* terms : {"3", "2"}) {
+  for (const int count : {3, 2}) {
     try {
-      return modified_report(source, request, {.terms = terms}, scene).json;
+      ModifiedEnergy modified;
+      modified.terms = modified_hamiltonian(source, request, count);
+      modified.orbit = watch_orbit(source, request, scene, modified.terms, &interrupt_flag());
+      return modified;
     } catch (const UsageError&) {
       continue;  // no member, or too long
     }
   }
-  return nullptr;
+  return {};
 }
 
 Proof linear_part(const SourceText& source, const Request& request, const SceneValues& scene) {
@@ -96,31 +98,28 @@ Proof linear_part(const SourceText& source, const Request& request, const SceneV
 }
 
 int report(const ReportOptions& options) {
-  const SourceText source = read_source(options.method.model);
-  SizesAndRest set = split_sizes(read_model(source), options.scene.set);
-  Request request = request_of(options.method);
-  request.sizes = set.sizes;
-  const Model model = read_model(source, set.sizes);
-  SceneRequest wanted = scene_request(options.scene, std::move(set.rest));
-  wanted.h = options.h;
-  wanted.steps = options.steps;
-  const SceneValues scene = complete_scene(model, wanted);
+  Setting setting = read_setting(options.method, options.scene);
+  const SourceText& source = setting.source;
+  const Model& model = setting.model;
+  Request& request = setting.request;
+  const SceneValues scene = complete_scene(model, setting.scene);
   take_gauge_at(scene, model, request);
   record_origin(options.method, source, request);
   const BenchMethod method = chosen_method(options, source, request);
-  const Mechanics mechanics = derive(model);
+  // With all parameters by their names, folded ones too.
+  const Mechanics mechanics = derive(read_model(source, request.sizes));
 
-  const Bench bench = run_bench({.model = options.method.model,
-                                 .scene = options.scene,
-                                 .schemes = options.schemes,
-                                 .compiler = options.compiler,
-                                 .rounds = options.rounds,
-                                 .quiet = options.quiet,
-                                 .scene_h = options.h,
-                                 .scene_steps = options.steps,
-                                 .length = "--steps 1000"});
+  const Bench bench = run_bench(read_bench({.model = options.method.model,
+                                            .scene = options.scene,
+                                            .schemes = options.schemes,
+                                            .compiler = options.compiler,
+                                            .rounds = options.rounds,
+                                            .quiet = options.quiet,
+                                            .length = "--steps 1000"}));
   if (interrupt_flag()) return interrupted;
-  const ReferenceRequest reference{.sizes = request.sizes, .compiler = options.compiler};
+  print_error(warning_text(bench));
+  const ReferenceRequest reference{
+      .sizes = request.sizes, .compiler = options.compiler, .stop = &interrupt_flag()};
   ReportFigures drawn = report_figures(method, scene, source, bench, reference);
   if (interrupt_flag()) return interrupted;
 
@@ -132,7 +131,7 @@ int report(const ReportOptions& options) {
                               .bench = &bench,
                               .proof = verify_step(source, request),
                               .linear = linear_part(source, request, scene),
-                              .modified = modified_hamiltonian_of(source, request, scene),
+                              .modified = modified_energy_of(source, request, scene),
                               .orbit = drawn.orbit,
                               .pictures = draw_all(drawn.figures, directory),
                               .command = request.command};
@@ -149,8 +148,8 @@ Command add_report(CLI::App& app) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* parser = app.add_subcommand("report", "writes a page about a model and a method");
   add_scene_options(*parser, options->scene);
-  add_step_option(*parser, options->h);
-  parser->add_option("--steps", options->steps, "number of steps; default: the scene's")
+  add_step_option(*parser, options->scene);
+  parser->add_option("--steps", options->scene.steps, "number of steps; default: the scene's")
       ->type_name("N");
   parser
       ->add_option("-o,--output", options->output,

@@ -8,15 +8,13 @@
 #include <optional>
 
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
 #include "app/interrupt.hpp"
-#include "app/load_integrator.hpp"
-#include "app/modified_energy.hpp"
-#include "app/run_report.hpp"
-#include "app/terminal.hpp"
-#include "app/trajectory_table.hpp"
+#include "app/output/run_report.hpp"
+#include "app/output/terminal.hpp"
+#include "app/output/trajectory_table.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/load_integrator.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/language/read_model.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/load_plugin.hpp"
 #include "runtime/progress.hpp"
@@ -31,7 +29,6 @@ struct RunOptions {
   MethodOptions method;
   std::string compiler;
   SceneOptions scene;
-  std::optional<std::string> h, steps;
   std::string every;
   std::string watch_modified;
   std::string output;
@@ -92,12 +89,11 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 }
 
 // Writes the emitted header if asked to; returns where it is, or how to see it.
-std::string keep_header(const SourceText& source, const Request& request,
+std::string keep_header(const PluginSource& plugin, const Request& request,
                         const RunOptions& options) {
   if (options.keep.empty()) return "print it with: " + request.command;
-  const OutputFile header = generate(source, request).at(0);
-  const std::filesystem::path path = std::filesystem::path(options.keep) / header.path;
-  runtime::atomic_write(path, header.text);
+  const std::filesystem::path path = std::filesystem::path(options.keep) / plugin.header.path;
+  runtime::atomic_write(path, plugin.header.text);
   return path.string();
 }
 
@@ -133,20 +129,16 @@ int run(const RunOptions& options) {
     throw UsageError(
         "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
         "FILE.csv");
-  const SourceText source = read_source(options.method.model);
   std::error_code missing;
   if (std::filesystem::equivalent(options.output, options.method.model, missing))
     throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",
                                  options.output));
-  Request request = request_of(options.method);
-  SizesAndRest set = split_sizes(read_model(source), options.scene.set);
-  request.sizes = set.sizes;
-  const Model model = read_request(source, request);
+  Setting setting = read_setting(options.method, options.scene);
+  const SourceText& source = setting.source;
+  const Model& model = setting.model;
+  Request& request = setting.request;
   if (!model.warnings.empty() && !options.quiet) print_error(render(model.warnings, source));
-  SceneRequest wanted = scene_request(options.scene, std::move(set.rest));
-  wanted.h = options.h;
-  wanted.steps = options.steps;
-  const SceneValues scene = complete_scene(model, wanted);
+  const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
   if (!options.watch_modified.empty()) {
@@ -159,11 +151,12 @@ int run(const RunOptions& options) {
   report.path = options.method.model;
   report.scene = &scene;
   const Clock::time_point begin = Clock::now();
-  const PluginSource plugin = generate_plugin(source, request);
+  const PluginSource plugin = generate_plugin(
+      source, request, options.keep.empty() ? HeaderProof::left_out : HeaderProof::included);
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler);
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler, &interrupt_flag());
   report.from_cache = loaded.from_cache;
   report.compile_seconds = loaded.compile_seconds;
   if (!options.quiet) {
@@ -172,7 +165,7 @@ int run(const RunOptions& options) {
   }
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   report.start = &start;
-  report.header = keep_header(source, request, options);
+  report.header = keep_header(plugin, request, options);
 
   std::optional<TrajectoryTable> table;
   if (!options.output.empty())
@@ -207,8 +200,8 @@ Command add_run(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
-  add_step_option(*parser, options->h);
-  parser->add_option("--steps", options->steps, "their number; default: the scene's")
+  add_step_option(*parser, options->scene);
+  parser->add_option("--steps", options->scene.steps, "their number; default: the scene's")
       ->type_name("N");
   parser
       ->add_option("--every", options->every, "record every K-th step; default: the scene's, or 1")

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "app/command_line.hpp"
-#include "app/terminal.hpp"
+#include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {

@@ -1,117 +1,33 @@
 // hamgen stress: the step far outside comfort, cell by cell.
-#include "app/stress.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <thread>
 
+#include "app/command_line.hpp"
 #include "app/interrupt.hpp"
-#include "app/load_integrator.hpp"
-#include "app/plot.hpp"
-#include "app/stress_domain.hpp"
-#include "app/stress_grid.hpp"
-#include "app/stress_references.hpp"
-#include "app/terminal.hpp"
+#include "app/output/draw_picture.hpp"
+#include "app/output/progress_bars.hpp"
+#include "app/output/stress_output.hpp"
+#include "app/output/terminal.hpp"
+#include "app/stress_axes.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
-#include "runtime/compile.hpp"
-#include "runtime/compiler.hpp"
-#include "runtime/progress.hpp"
 
 namespace hamgen::app {
 namespace {
 
-constexpr unsigned kThreads = 2;
-
-StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
-  StressMap map{.model = grid.plugin().model.name,
-                .scene = grid.scene_name(),
-                .method = grid.plugin().scheme_name,
-                .axes = grid.axes(),
-                .steps = limits.steps,
-                .compiler = fmt::format("{} {}", runtime::compiler_version(chosen_compiler("")),
-                                        fmt::join(runtime::compile_flags({}, {}), " "))};
-  map.cells.resize(map.columns() * map.rows());
-  return map;
-}
-
-// work(0), work(1), ... on two threads; the calling one draws the bar.
-void run_all(const std::string& label, std::size_t count, bool quiet,
-             const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<std::size_t> finished = 0;
-  static_cast<void>(interrupt_flag());  // its handler is installed before there are threads
-  std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < kThreads; ++i) {
-    threads.emplace_back([&] {
-      for (std::size_t k = next++; k < count && !interrupt_flag(); k = next++) {
-        work(k);
-        ++finished;
-      }
-    });
-  }
-  runtime::ProgressBar bar(label);
-  const auto begin = std::chrono::steady_clock::now();
-  while (finished < count && !interrupt_flag()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    if (quiet) continue;
-    bar.update(
-        {.steps_done = static_cast<long long>(finished.load()),
-         .steps = static_cast<long long>(count),
-         .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-         .show_rate = false});
-  }
-  bar.remove();
-}
-
-void run_cells(StressGrid& grid, const StressLimits& limits, StressMap& map, bool quiet) {
-  std::vector<runtime::InitialValues> starts(map.cells.size());
-  std::size_t undefined = 0;
-  // In a map of nothing but these the model or the command is wrong: the caller's exception.
-  const auto is_undefined = [&](StressCell& cell, const std::string& reason) {
-    if (++undefined == map.cells.size()) return false;
-    cell.outcome = StressOutcome::undefined;
-    cell.bounded = false;
-    cell.reason = reason;
-    cell.state_missing = to_text(cell.outcome);
-    return true;
-  };
-  for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    StressCell& cell = map.cells[i];
-    const std::vector<double> at = map.place(i);
-    std::ranges::copy(at, cell.at.begin());
-    try {
-      starts[i] = grid.start_at(at);
-    } catch (const ModelError& error) {
-      if (!is_undefined(cell, error.diagnostics().front().message)) throw;
-      continue;
-    } catch (const UsageError& error) {  // a pole of the gauge, a value beyond the scalar's range
-      const std::string text = error.what();
-      if (!is_undefined(cell, text.substr(0, text.find('\n')))) throw;
-      continue;
-    }
-    cell.h = starts[i].h.hi;
-    if (const auto linear = grid.linear_at(at)) {
-      cell.h_omega = linear->h_omega;
-      cell.linear_bounded = linear->margin > 0.0;
-    }
-  }
-  StressReferences references(grid, map, limits);
-  run_all(map.model + ", references", references.count(), quiet,
-          [&](std::size_t i) { references.compute(i); });
-  map.references = references.method();
-  run_all(map.model, map.cells.size(), quiet, [&](std::size_t i) {
-    StressCell& cell = map.cells[i];
-    if (cell.outcome == StressOutcome::undefined) return;
-    const auto state = run_stress_cell(grid.library(), starts[i], limits, cell);
-    references.compare(i, starts[i].state, state, cell);
-  });
-}
+struct StressOptions {
+  MethodOptions method;
+  SceneOptions scene;
+  std::vector<std::string> vary;
+  std::string seconds = "1";
+  std::string reference_seconds = "10";
+  std::string output, csv, plot;
+  bool json = false;
+  bool quiet = false;
+};
 
 void write_stress_files(const StressOptions& options, const StressMap& map) {
   namespace fs = std::filesystem;
@@ -120,16 +36,10 @@ void write_stress_files(const StressOptions& options, const StressMap& map) {
     if (!options.quiet) print_error(fmt::format("{}\n", path.string()));
   };
   const auto draw = [&](const fs::path& picture) {
-    const fs::path script = fs::path(picture).replace_extension(".gp");
-    write(script, stress_script(map, picture.string()));
-    const std::string problem = run_gnuplot(script);
-    if (!problem.empty())
-      print_error(
-          fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                      "gnuplot {}\n",
-                      problem, script.string()));
-    else if (!options.quiet)
-      print_error(fmt::format("{}\n", picture.string()));
+    draw_picture({.picture = picture,
+                  .script = fs::path(picture).replace_extension(".gp"),
+                  .text = stress_script(map, picture.string())},
+                 options.quiet, &interrupt_flag());
   };
   if (!options.csv.empty()) write(options.csv, stress_csv(map));
   if (!options.plot.empty()) draw(options.plot);
@@ -140,24 +50,31 @@ void write_stress_files(const StressOptions& options, const StressMap& map) {
   if (options.plot.empty()) draw(directory / "stress.svg");
 }
 
-int run_stress(const StressOptions& options) {
-  if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
-    throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+StressLimits read_limits(const StressOptions& options) {
   StressLimits limits;
-  limits.steps = integer_value("--steps " + options.steps, options.steps, 1);
+  limits.steps = integer_value("--steps " + *options.scene.steps, *options.scene.steps, 1);
   limits.time = std::chrono::duration<double>(
       static_cast<double>(integer_value("--seconds " + options.seconds, options.seconds, 1)));
   limits.reference_time = std::chrono::duration<double>(static_cast<double>(integer_value(
       "--reference-seconds " + options.reference_seconds, options.reference_seconds, 0)));
-  StressGrid grid(options);
-  limits.defined_everywhere = is_defined_everywhere(grid.plugin().model);
-  StressMap map = empty_map(grid, limits);
-  run_cells(grid, limits, map, options.quiet);
+  limits.stop = &interrupt_flag();
+  return limits;
+}
+
+int run_stress(const StressOptions& options) {
+  if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
+    throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  StressRequest request;
+  request.limits = read_limits(options);
+  request.on_progress = progress_bars(options.quiet);
+  request.axes = read_axes(options.vary);
+  request.setting =
+      read_setting(with_run_time_members(options.method, request.axes), options.scene);
+  const StressMap map = stress_map(request);
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
     return interrupted;
   }
-  map.linear_bound = grid.linear_bound();
   print(options.json ? stress_json(map) : stress_text(map));
   write_stress_files(options, map);
   return done;
@@ -167,14 +84,15 @@ int run_stress(const StressOptions& options) {
 
 Command add_stress(CLI::App& app) {
   const auto options = std::make_shared<StressOptions>();
+  options->scene.steps = "1000";
   CLI::App* parser =
       app.add_subcommand("stress", "maps where a step stays bounded, cell by cell of a grid");
   add_scene_options(*parser, options->scene);
-  add_step_option(*parser, options->h);
+  add_step_option(*parser, options->scene);
   add_repeated(*parser, "--vary", options->vary,
                "an axis: a parameter, h, scale, alpha, beta, gamma; twice at most")
       ->type_name("NAME=LOW:HIGH[:COUNT]");
-  parser->add_option("--steps", options->steps, "of each cell; default 1000")->type_name("N");
+  parser->add_option("--steps", options->scene.steps, "of each cell; default 1000")->type_name("N");
   parser->add_option("--seconds", options->seconds, "for each cell at most; default 1")
       ->type_name("N");
   parser

@@ -4,11 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.hpp"
-#include "app/initial_data.hpp"
-#include "app/json_document.hpp"
-#include "app/measure.hpp"
-#include "app/modified_energy.hpp"
-#include "app/terminal.hpp"
+#include "app/interrupt.hpp"
+#include "app/output/json_document.hpp"
+#include "app/output/modified_output.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/measure.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
@@ -16,7 +17,8 @@ namespace {
 
 struct VerifyOptions {
   MethodOptions method;
-  ModifiedOptions modified;  // no terms: nothing is asked for
+  std::string terms;  // K of the modified Hamiltonian; empty: nothing is asked for
+  bool latex = false;
   // Where the step is measured and the linear part is taken; empty: the first, and the model's.
   std::string scene;
   std::string h;
@@ -85,6 +87,21 @@ void add_beside(Proof& proof, const Finding& measured) {
   proof.insert(last.base(), measured);  // at the end if nothing is said of it
 }
 
+// Without a scene by name only the terms.
+ModifiedEnergy modified_energy(const SourceText& source, const Request& request,
+                               const VerifyOptions& options) {
+  std::optional<SceneValues> scene;
+  if (!options.scene.empty())
+    scene = complete_scene(read_request(source, request), scene_request(options),
+                           "steps = 1000 in the scene");
+  const int count = modified_term_count("--terms", options.terms);
+  ModifiedEnergy modified;
+  modified.terms = modified_hamiltonian(source, request, count);
+  if (scene)
+    modified.orbit = watch_orbit(source, request, *scene, modified.terms, &interrupt_flag());
+  return modified;
+}
+
 int verify(const VerifyOptions& options) {
   const SourceText source = read_source(options.method.model);
   Request request = request_with_sizes(options.method, source);
@@ -95,7 +112,8 @@ int verify(const VerifyOptions& options) {
     const bool symmetric = std::ranges::any_of(proof, [](const Finding& f) {
       return f.property == "symmetric" && f.verdict == Verdict::proved;
     });
-    Measured measured = measure(source, request, scene_request(options), symmetric);
+    Measured measured =
+        measure(source, request, scene_request(options), symmetric, &interrupt_flag());
     std::ranges::move(measured.proof, std::back_inserter(proof));
     for (const InvariantDefect& defect : measured.invariants) add_beside(proof, finding(defect));
     defects = std::move(measured.invariants);
@@ -119,14 +137,10 @@ int verify(const VerifyOptions& options) {
   }
   for (const LinearPoint& point : linear) rows.push_back(json_of(point));
   std::string text = to_text(proof);
-  if (!options.modified.terms.empty()) {
-    std::optional<SceneValues> scene;  // without one by name only the terms are printed
-    if (!options.scene.empty())
-      scene = complete_scene(read_request(source, request), scene_request(options),
-                             "steps = 1000 in the scene");
-    const ModifiedReport report = modified_report(source, request, options.modified, scene);
-    rows.push_back(report.json);
-    text += report.text;
+  if (!options.terms.empty()) {
+    const ModifiedEnergy modified = modified_energy(source, request, options);
+    rows.push_back(modified_json(modified, options.latex));
+    text += modified_text(modified, options.latex);
   }
   print(options.json ? json_document(rows) : text);
   require(proof, options.required);
@@ -137,18 +151,17 @@ int verify(const VerifyOptions& options) {
 
 Command add_verify(CLI::App& app) {
   const auto options = std::make_shared<VerifyOptions>();
-  ModifiedOptions& modified = options->modified;
   CLI::App* parser = app.add_subcommand(
       "verify", "proves what it can of the step by algebra: symplectic, symmetric, invariants");
   add_method_options(*parser, options->method);
   add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
       ->type_name("SIZE=N");
-  parser->add_option("--terms", modified.terms, "print K terms of the modified Hamiltonian")
+  parser->add_option("--terms", options->terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
   parser->add_option("--scene", options->scene, "measure along this scene's orbit")
       ->type_name("NAME");
   parser->add_option("--h", options->h, "with this step; default: the scene's")->type_name("H");
-  parser->add_flag("--latex", modified.latex, "print it as LaTeX");
+  parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser
       ->add_option("--require", options->required,

@@ -232,6 +232,16 @@ Proof prove(const Stages& stages) {
   return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian);
 }
 
+// What the first lines of a header say of the step.
+void add_proof(const Stages& stages, const Request& request, CppOptions& options) {
+  const Proof proof = prove(stages);
+  require(proof, request.require);
+  require_emitted(proof);
+  options.proved = properties_with(proof, Verdict::proved);
+  options.tested = properties_with(proof, Verdict::tested);
+  options.refuted = properties_with(proof, Verdict::refuted);
+}
+
 // What `write` emits.  A constant the scalar has no number for comes out of H, combined from its
 // numbers, unless the request has numbers of its own.
 template <typename Write>
@@ -250,6 +260,11 @@ std::string written(const Model& model, const Request& request, Write write) {
 
 std::string header_text(const Stages& stages, const CppOptions& options, const Request& request) {
   return written(stages.model, request, [&] { return cpp_header(stages.program, options); });
+}
+
+OutputFile header_file(const SourceText& source, const Stages& stages, const CppOptions& options,
+                       const Request& request) {
+  return {stem(source.path) + ".hpp", header_text(stages, options, request)};
 }
 
 std::string plugin_text(const Stages& stages, const CppOptions& options, const Request& request) {
@@ -271,15 +286,10 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  const Proof proof = prove(stages);
-  require(proof, request.require);
-  require_emitted(proof);
-  options.proved = properties_with(proof, Verdict::proved);
-  options.tested = properties_with(proof, Verdict::tested);
-  options.refuted = properties_with(proof, Verdict::refuted);
+  add_proof(stages, request, options);
   const std::string format = request.format.empty() ? "cpp-header" : request.format;
   const std::string name = stem(source.path);
-  if (format == "cpp-header") return {{name + ".hpp", header_text(stages, options, request)}};
+  if (format == "cpp-header") return {header_file(source, stages, options, request)};
   if (format == "cpp-plugin")
     return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
   if (format == "cmake-package")
@@ -338,12 +348,13 @@ StepCode make_step_code(const SourceText& source, const Request& request) {
   return step_code(run_stages(source, request).program);
 }
 
-PluginSource generate_plugin(const SourceText& source, const Request& request) {
+PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
   Stages stages = run_stages(source, request);
-  const CppOptions options = cpp_options(source, stages.program, request);
+  CppOptions options = cpp_options(source, stages.program, request);
   PluginSource plugin;
   plugin.text = plugin_text(stages, options, request);
-  plugin.header_text = header_text(stages, options, request);
+  if (proof == HeaderProof::included) add_proof(stages, request, options);
+  plugin.header = header_file(source, stages, options, request);
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
     plugin.scheme_name = stages.equations.scheme.description;

@@ -83,7 +83,7 @@ void check_step(const SourceText& source, const Request& request);
 struct PluginSource {
   Model model;
   std::string text;                          // one translation unit, self-contained
-  std::string header_text;                   // the same mathematics as a header for the user
+  OutputFile header;                         // the same mathematics as a header for the user
   std::string scheme_name;                   // "implicit-midpoint", "alpha = 3/10, ..."
   int order = 1;                             // of the method
   std::string solver;                        // "Newton of size 1, ..." one line
@@ -96,6 +96,10 @@ struct PluginSource {
   bool needs_eigen = false;
   bool needs_quadmath = false;
 };
-[[nodiscard]] PluginSource generate_plugin(const SourceText& source, const Request& request);
+// The header as generate() emits it, with what is proved in its first lines, or without: a proof
+// can take longer than all else.
+enum class HeaderProof { left_out, included };
+[[nodiscard]] PluginSource generate_plugin(const SourceText& source, const Request& request,
+                                           HeaderProof proof = HeaderProof::left_out);
 
 }  // namespace hamgen

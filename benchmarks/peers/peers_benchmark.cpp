@@ -9,10 +9,10 @@
 #include <map>
 #include <optional>
 
-#include "app/bench_measure.hpp"
-#include "app/initial_data.hpp"
-#include "app/processor_time.hpp"
-#include "app/scheme_spec.hpp"
+#include "app/studies/bench_measure.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/processor_time.hpp"
+#include "app/studies/scheme_spec.hpp"
 #include "benchmarks/peers/peer.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/bench_run.hpp"
+#include "app/bench_options.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 using app::Bench;
 using app::BenchMethod;
-using app::BenchRequest;
+using app::BenchOptions;
 using app::BenchRow;
 
 // The cost of a step of each method; of all others 1.
@@ -28,9 +28,10 @@ app::RunClock clock_of(const Costs& costs) {
   };
 }
 
-Bench bench(BenchRequest request, const Costs& costs = {}) {
-  request.rounds = "1";
-  request.quiet = true;
+Bench bench(BenchOptions options, const Costs& costs = {}) {
+  options.rounds = "1";
+  options.quiet = true;
+  app::BenchRequest request = app::read_bench(options);
   request.clock = clock_of(costs);
   return app::run_bench(request);
 }
@@ -43,7 +44,7 @@ const std::string& method_of(const Bench& bench, const BenchRow& row) {
 // The pendulum to t = 10.
 class BenchTarget : public testing::Test {
  protected:
-  BenchRequest request(const std::string& schemes, const std::string& steps,
+  BenchOptions options(const std::string& schemes, const std::string& steps,
                        const std::string& target) const {
     return {.model = model_, .schemes = schemes, .h = steps, .time = "10", .target = target};
   }
@@ -55,13 +56,13 @@ class BenchTarget : public testing::Test {
 
 // Where the largest step is better than asked for, a larger one is tried.
 TEST_F(BenchTarget, ALargerStepIsTriedWhereAllMeetTheTarget) {
-  const Bench result = bench(request("gauss-4", "0.1,0.05", "1e-4"));
+  const Bench result = bench(options("gauss-4", "0.1,0.05", "1e-4"));
   EXPECT_GT(to_double(answer_of(result).h), 0.2);
   EXPECT_LE(answer_of(result).state_error.value(), 1e-4);
 }
 
 TEST_F(BenchTarget, ASmallerStepIsTriedWhereNoneMeetsTheTarget) {
-  const Bench result = bench(request("implicit-midpoint,symplectic-euler-a", "0.2,0.1", "1e-7"));
+  const Bench result = bench(options("implicit-midpoint,symplectic-euler-a", "0.2,0.1", "1e-7"));
   const BenchRow& row = answer_of(result);
   EXPECT_EQ(method_of(result, row), "implicit-midpoint");
   EXPECT_LE(row.state_error.value(), 1e-7);
@@ -69,7 +70,7 @@ TEST_F(BenchTarget, ASmallerStepIsTriedWhereNoneMeetsTheTarget) {
 }
 
 TEST_F(BenchTarget, TheAnswerIsTheMethodThatTheClockFavours) {
-  const BenchRequest both = request("implicit-midpoint,gauss-4", "0.1,0.05", "1e-4");
+  const BenchOptions both = options("implicit-midpoint,gauss-4", "0.1,0.05", "1e-4");
   for (const std::string dear : {"implicit-midpoint", "gauss-4"}) {
     const Bench result = bench(both, {{dear, 1000.0}});
     EXPECT_NE(method_of(result, answer_of(result)), dear);
@@ -78,7 +79,7 @@ TEST_F(BenchTarget, TheAnswerIsTheMethodThatTheClockFavours) {
 
 // The midpoint rule misses 1e-7 with these steps, gauss-4 does not.
 TEST_F(BenchTarget, OnlyAMethodThatCanWinIsTriedFurther) {
-  const BenchRequest both = request("implicit-midpoint,gauss-4", "0.1,0.05", "1e-7");
+  const BenchOptions both = options("implicit-midpoint,gauss-4", "0.1,0.05", "1e-7");
   const auto tried = [&](const Costs& costs) {
     const Bench result = bench(both, costs);
     return std::any_of(result.rows.begin() + 4, result.rows.end(), [&](const BenchRow& row) {
@@ -92,7 +93,7 @@ TEST_F(BenchTarget, OnlyAMethodThatCanWinIsTriedFurther) {
 const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
 
 // The step of the answer for one method.
-double answered_step(const BenchRequest& request) { return to_double(answer_of(bench(request)).h); }
+double answered_step(const BenchOptions& options) { return to_double(answer_of(bench(options)).h); }
 
 // The search ends within 3 % of the border, so that a step 4 % larger misses, where the error is a
 // power of h.  Of the double pendulum it changes its sign near the border: no more is said there
@@ -109,13 +110,13 @@ TEST(BenchTargetOfAModel, TheStepIsNearlyTheLargestOne) {
       {"morse.ham", "blanes-moan-rkn-6", "1e-6", "0.4,0.2,0.1,0.05", 0.2},
       {"double_pendulum.ham", "gauss-8", "1e-9", "0.16,0.08,0.04", 0.08, false}};
   for (const auto& [model, scheme, target, steps, given, is_power] : cases) {
-    BenchRequest request{.model = kModels + model, .schemes = scheme, .h = steps, .target = target};
-    const double h = answered_step(request);
+    BenchOptions options{.model = kModels + model, .schemes = scheme, .h = steps, .target = target};
+    const double h = answered_step(options);
     EXPECT_GT(h, 1.1 * given) << model << ' ' << target;
     if (!is_power) continue;
-    request.h = std::to_string(1.04 * h);
-    request.target.clear();
-    EXPECT_GT(bench(request).rows.at(0).state_error.value(), std::stod(target)) << model << h;
+    options.h = std::to_string(1.04 * h);
+    options.target.clear();
+    EXPECT_GT(bench(options).rows.at(0).state_error.value(), std::stod(target)) << model << h;
   }
 }
 

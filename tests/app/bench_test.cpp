@@ -217,6 +217,7 @@ TEST(Bench, RefusesWhatMakesNoSense) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--schemes", "implicit-midpiont"}, "did you mean 'implicit-midpoint'?"},
       {{"--schemes", "alpha=1/2:delta=1"}, "'delta=1' is none of"},
+      {{"--schemes", "alpha=1/2,beta=alpha*h"}, "--schemes beta=alpha*h: alpha has no value"},
       {{"--observe", "phase"}, "energy and state"},
       {{"--target", "0"}, "not a positive number"},
       {{"--h", "0"}, "h"},

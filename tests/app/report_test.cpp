@@ -65,6 +65,18 @@ TEST(Report, KeepsUserTextOutOfMarkupAndScripts) {
   EXPECT_FALSE(std::filesystem::exists("touched"));
 }
 
+// alpha is a parameter of the step that the model does not have.
+TEST(Report, TakesAParameterOfTheScheme) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  const Result result =
+      report(scratch.write("m.ham", pendulum), directory, {"--alpha", "alpha", "--steps", "100"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(read(directory + "/report.html"),
+                       "<tr><td class='name'><math><mi>α</mi></math></td><td class='number'>0.5"
+                       "</td><td></td><td>of the scheme</td></tr>"));
+}
+
 TEST(Report, TakesStepsThatTheSceneDoesNotHaveAndSaysWhereItWasMeasured) {
   const Scratch scratch;
   const std::string model = scratch.write("m.ham", without_steps);

@@ -1,0 +1,109 @@
+#include "app/bench_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/interrupt.hpp"
+#include "app/output/progress_bars.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/scheme_spec.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/derive.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr long kDefaultSteps = 2000;  // at the scene's h
+
+double target_value(const std::string& text) {
+  if (text.empty()) return 0.0;
+  const double value = to_double(constant_option("--target", text));
+  if (!(value > 0.0)) throw UsageError(fmt::format("--target {}: not a positive number", text));
+  return value;
+}
+
+Observed observed_of(const std::string& text) {
+  if (text == "energy") return Observed::energy;
+  if (text == "state") return Observed::state;
+  throw UsageError(fmt::format("--observe {}: there are energy and state", text));
+}
+
+// The step sizes, and the scene whose values have one of them.
+void read_steps(const BenchOptions& options, BenchRequest& request) {
+  SceneRequest wanted = request.setting.scene;
+  // Given steps and time, the scene needs to have neither.
+  if (!options.time.empty()) wanted.steps = "1";
+  const auto complete = [&] {
+    request.scene = complete_scene(request.setting.model, wanted, options.length);
+  };
+  if (options.h.empty()) {
+    complete();
+    for (int power = 3; power >= -4; --power) {
+      const Rational factor = power >= 0 ? Rational(1L << power) : Rational(1, 1L << -power);
+      request.steps.push_back(*request.scene.h * factor);
+    }
+    return;
+  }
+  for (const std::string& h : split_specs(options.h)) {
+    wanted.h = h;
+    complete();
+    request.steps.push_back(*request.scene.h);
+  }
+  if (!options.time.empty()) return;
+  wanted.h = request.setting.scene.h;  // the scene's own time, whatever steps are compared
+  complete();
+}
+
+Rational run_length(const BenchOptions& options, const BenchRequest& request) {
+  if (options.time.empty()) return *request.scene.h * std::min(*request.scene.steps, kDefaultSteps);
+  const Rational time = constant_option("--time", options.time);
+  if (time == 0) throw UsageError("--time 0: there is nothing to measure");
+  if ((time > 0) != (request.steps.front() > 0))
+    throw UsageError(fmt::format("--time {} and h = {:g} go in opposite directions", options.time,
+                                 to_double(request.steps.front())));
+  return time;
+}
+
+// alpha by its own name is a parameter of the step, which the scene of a comparison does not have.
+void require_numbers(const std::string& spec, const Request& method, const Setting& setting) {
+  const Model model = read_request(setting.source, method);
+  if (model.parameters.size() == setting.model.parameters.size()) return;
+  const std::string& name = model.parameters[setting.model.parameters.size()].name;
+  throw UsageError(
+      fmt::format("--schemes {}: {} has no value\nhelp: write a number, or an "
+                  "expression in h and the parameters",
+                  spec, name));
+}
+
+std::vector<BenchSpec> methods_of(const BenchOptions& options, const BenchRequest& request) {
+  const Setting& setting = request.setting;
+  std::vector<BenchSpec> methods;
+  for (const std::string& spec : options.schemes.empty() ? default_specs(derive(setting.model))
+                                                         : split_specs(options.schemes)) {
+    Request method = request_of_spec(spec, setting.request);
+    require_numbers(spec, method, setting);
+    take_gauge_at(request.scene, setting.model, method);
+    methods.push_back({.spec = spec, .request = std::move(method)});
+  }
+  return methods;
+}
+
+}  // namespace
+
+BenchRequest read_bench(const BenchOptions& options) {
+  BenchRequest request;
+  request.observed = observed_of(options.observe);
+  request.target = target_value(options.target);
+  request.compiler = options.compiler;
+  request.setting = read_setting({.model = options.model}, options.scene);
+  read_steps(options, request);
+  request.time = run_length(options, request);
+  request.methods = methods_of(options, request);
+  request.rounds = integer_value("--rounds " + options.rounds, options.rounds, 1);
+  request.stop = &interrupt_flag();
+  request.on_progress = progress_bars(options.quiet);
+  return request;
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,43 @@
+#include "app/output/generate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "runtime/tool_error.hpp"
+
+namespace hamgen::app {
+
+std::string generate_command(const std::string& model, const Request& request) {
+  std::vector<std::string> words = {"hamgen", "generate", model};
+  // A value that begins with '-' would read as an option after a blank.
+  const auto add = [&words](const std::string& option, const std::string& value) {
+    if (value.empty()) return;
+    if (value.front() == '-') {
+      words.push_back(option + "=" + value);
+    } else {
+      words.push_back(option);
+      words.push_back(value);
+    }
+  };
+  add("--scheme", request.scheme);
+  add("--alpha", request.alpha);
+  add("--beta", request.beta);
+  add("--gamma", request.gamma);
+  if (request.order > 0) add("--order", std::to_string(request.order));
+  add("--gauge", request.gauge);
+  for (const auto& [name, value] : request.reference)
+    add("--reference", fmt::format("{}={}", name, value));
+  add("--solver", request.solver);
+  add("--scalar", request.scalar);
+  for (const std::string& name : request.fold) add("--fold", name);
+  for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
+  if (request.format != "cpp-header") add("--format", request.format);  // the default
+  add("--namespace", request.name_space);
+  add("--require", request.require);
+  if (request.tangent) words.emplace_back("--tangent");
+  if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
+  return runtime::command_text(words);
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,14 @@
+// A modified Hamiltonian as text and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/studies/modified_energy.hpp"
+
+namespace hamgen::app {
+
+[[nodiscard]] std::string modified_text(const ModifiedEnergy& modified, bool latex);
+[[nodiscard]] nlohmann::ordered_json modified_json(const ModifiedEnergy& modified, bool latex);
+
+}  // namespace hamgen::app

@@ -1,0 +1,67 @@
+#include "app/output/trajectory_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/output/terminal.hpp"
+#include "generator/base/quoted_text.hpp"
+
+namespace hamgen::app {
+namespace {
+
+std::vector<std::string> column_names(const Columns& columns) {
+  // Of a model with a variable t of its own, that is the one; the run's clock begins at 0.
+  const bool has_t = std::ranges::find(columns.state, "t") != columns.state.end();
+  std::vector<std::string> names = {"step", has_t ? "elapsed" : "t"};
+  names.insert(names.end(), columns.state.begin(), columns.state.end());
+  if (columns.energy) names.emplace_back(columns.has_time ? "H+p_t" : "H");
+  names.insert(names.end(), columns.invariants.begin(), columns.invariants.end());
+  return names;
+}
+
+std::vector<std::string> comment_texts(const std::vector<std::string>& metadata) {
+  std::vector<std::string> texts;
+  for (const std::string& line : metadata) texts.push_back(comment_text(line));
+  return texts;
+}
+
+}  // namespace
+
+TrajectoryTable::TrajectoryTable(const std::string& target,
+                                 const std::vector<std::string>& metadata, Columns columns)
+    : columns_(std::move(columns)) {
+  const std::vector<std::string> names = column_names(columns_);
+  if (target != "-") {
+    file_ = std::make_unique<runtime::CsvWriter>(target, comment_texts(metadata), names);
+    return;
+  }
+  std::string head;
+  for (const std::string& line : comment_texts(metadata)) head += "# " + line + "\n";
+  print(fmt::format("{}{}\n", head, fmt::join(names, ",")));
+}
+
+void TrajectoryTable::add(const runtime::Record& record) {
+  values_ = {record.time};
+  values_.insert(values_.end(), record.state.begin(), record.state.end());
+  if (columns_.energy) values_.push_back(record.energy);
+  for (const std::size_t place : columns_.places) values_.push_back(record.invariants[place]);
+  ++rows_;
+  if (file_) {
+    file_->write_row(record.step, values_);
+    return;
+  }
+  std::string line = fmt::format("{}", record.step);
+  for (const double value : values_) line += "," + runtime::number_text(value);
+  print_buffered(line + "\n");
+}
+
+void TrajectoryTable::publish(const std::string& remark) {
+  if (file_) {
+    file_->publish(comment_text(remark));
+  } else {
+    print(remark.empty() ? "" : "# " + comment_text(remark) + "\n");
+  }
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,33 @@
+// Methods compared: errors and run times, a row for a method with a step size.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/studies/bench_choice.hpp"
+#include "app/studies/bench_measure.hpp"
+#include "app/studies/reference.hpp"
+#include "runtime/provenance.hpp"
+
+namespace hamgen::app {
+
+struct BenchAnswer {  // to --target
+  double target = 0.0;
+  std::optional<std::size_t> row;  // empty if no row reaches it
+};
+
+struct Bench {
+  std::string model;  // its name
+  std::string path;   // as typed
+  std::string scene;
+  double time = 0.0;
+  Observed observed = Observed::state;
+  std::vector<BenchMethod> methods;
+  std::vector<BenchRow> rows;
+  ReferenceSolution reference;
+  std::optional<BenchAnswer> answer;
+  runtime::Provenance provenance;
+};
+
+}  // namespace hamgen::app

@@ -1,0 +1,141 @@
+#include "app/studies/bench_measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/studies/initial_data.hpp"
+#include "app/studies/load_integrator.hpp"
+#include "app/studies/processor_time.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "runtime/trajectory.hpp"
+
+namespace hamgen::app {
+namespace {
+
+runtime::InitialValues start_of(const BenchMethod& method, const SceneValues& scene,
+                                const BenchRow& row) {
+  SceneValues values = scene;
+  values.h = row.h;
+  values.steps = row.steps;
+  return initial_values(method.plugin, values, *method.loaded.library);
+}
+
+// Without a chance to stop for at most so many steps.
+constexpr long long kStepsAtOnce = 1 << 20;
+
+std::string outcome_of(const runtime::RunSummary& summary) {
+  if (summary.status == runtime::Status::done) return "done";
+  return fmt::format("{} in step {}", runtime::to_text(summary.status), summary.steps_done + 1);
+}
+
+// The sorted samples' value at a fraction of their number, between neighbours linear.
+double quantile(const std::vector<double>& sorted, double fraction) {
+  const double at = fraction * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+BenchMethod bench_method(const std::string& spec, const SourceText& source, const Request& request,
+                         const std::string& compiler, StopFlag stop) {
+  BenchMethod method{.spec = spec, .request = request, .stop = stop};
+  try {
+    method.plugin = generate_plugin(source, request);
+  } catch (const ModelError& error) {
+    method.refusal = first_line(error.what());
+  } catch (const UsageError& error) {
+    method.refusal = first_line(error.what());
+  }
+  if (method.refusal.empty()) method.loaded = load_integrator(method.plugin, compiler, stop);
+  return method;
+}
+
+BenchTime time_of(const BenchRow& row) {
+  if (row.samples.empty()) return {};
+  std::vector<double> sorted = row.samples;
+  std::ranges::sort(sorted);
+  const double median = quantile(sorted, 0.5);
+  const double time = std::fabs(to_double(row.h)) * static_cast<double>(row.steps);
+  return {.seconds_per_time = median / time,
+          .nanoseconds_per_step = 1e9 * median / static_cast<double>(row.steps),
+          .spread = (quantile(sorted, 0.75) - quantile(sorted, 0.25)) / median};
+}
+
+// The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
+double processor_clock(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
+  runtime::Integrator integrator(method.loaded.library, start);
+  const double begin = thread_seconds();
+  for (long long left = steps; left > 0 && !is_stopped(method.stop); left -= kStepsAtOnce)
+    static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
+  return thread_seconds() - begin;
+}
+
+double gradients_per_step(const Method& method, double iterations_per_step) {
+  struct Count {
+    double iterations;
+    double operator()(const Member&) const { return iterations > 0.0 ? iterations : 1.0; }
+    double operator()(const Composition& composition) const {
+      return iterations > 0.0 ? iterations : static_cast<double>(composition.substeps.size());
+    }
+    double operator()(const Splitting& splitting) const {
+      const bool closed = splitting.kicks.size() > splitting.drifts.size();
+      return static_cast<double>(splitting.kicks.size() - (closed ? 1 : 0));
+    }
+    double operator()(const RungeKutta& rule) const {
+      return static_cast<double>(rule.b.size()) * (rule.is_explicit() ? 1.0 : iterations);
+    }
+  };
+  return std::visit(Count{iterations_per_step}, method);
+}
+
+void measure_errors(const BenchMethod& method, const SceneValues& scene,
+                    const ReferenceSolution& reference, BenchRow& row, const RunClock& clock) {
+  if (!method.refusal.empty()) {
+    row.outcome = "refused: " + method.refusal;
+    return;
+  }
+  const runtime::InitialValues start = start_of(method, scene, row);
+  runtime::Integrator integrator(method.loaded.library, start);
+  const std::vector<double> before = integrator.invariants();
+  row.invariant_errors.assign(before.size(), 0.0);
+  runtime::IntegrateOptions options;
+  options.steps = row.steps;
+  options.every = before.empty() ? 0 : std::max(1L, row.steps / 200);
+  options.stop = method.stop;
+  options.on_record = [&](const runtime::Record& record) {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      row.invariant_errors[i] =
+          std::max(row.invariant_errors[i], std::fabs(record.invariants[i] - before[i]));
+  };
+  const runtime::RunSummary summary = runtime::integrate(integrator, options);
+  row.outcome = outcome_of(summary);
+  row.iterations_per_step = summary.iterations_per_step();
+  const Scheme* scheme = find_scheme(method.request.scheme);
+  row.gradients_per_step =
+      gradients_per_step(scheme != nullptr ? scheme->method : Member(), row.iterations_per_step);
+  if (!row.ok()) return;
+  if (summary.energy) {
+    row.energy_error = summary.energy->max_error();
+    row.energy_spread = summary.energy->spread();
+  }
+  if (!reference.state.empty()) row.state_error = distance(integrator.state(), reference.state);
+  row.once = clock(method, start, row.steps);
+  row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
+}
+
+void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,
+                  const RunClock& clock) {
+  const runtime::InitialValues start = start_of(method, scene, row);
+  double total = 0.0;
+  for (long run = 0; run < row.runs_per_sample; ++run) total += clock(method, start, row.steps);
+  row.samples.push_back(total / static_cast<double>(row.runs_per_sample));
+}
+
+}  // namespace hamgen::app

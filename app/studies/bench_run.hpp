@@ -1,0 +1,39 @@
+// The whole measurement of `hamgen bench`, for the commands that show it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/studies/bench.hpp"
+#include "app/studies/progress.hpp"
+#include "app/studies/setting.hpp"
+#include "app/studies/stop.hpp"
+
+namespace hamgen::app {
+
+struct BenchSpec {
+  std::string spec;  // as typed
+  Request request;
+};
+
+struct BenchRequest {
+  Setting setting;
+  SceneValues scene;
+  std::vector<BenchSpec> methods;
+  Rational time;                // of each run
+  std::vector<Rational> steps;  // their sizes, changed a little where they do not divide the time
+  Observed observed = Observed::state;
+  double target = 0.0;  // the error to reach; 0: none
+  long rounds = 9;      // samples of each time
+  std::string compiler;
+  RunClock clock = processor_clock;  // what is chosen by time is chosen by this one
+  StopFlag stop = nullptr;
+  ProgressSink on_progress;
+};
+
+// Loads the methods, computes the reference, measures errors, then times.  Without a reference the
+// errors of the energy are those that count.  Stopped, it returns early.  Throws UsageError,
+// ModelError and ToolError.
+[[nodiscard]] Bench run_bench(const BenchRequest& request);
+
+}  // namespace hamgen::app

@@ -1,0 +1,240 @@
+#include "app/studies/initial_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "generator/algebra/evaluate.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/schemes/read_gauge.hpp"
+#include "runtime/csv_writer.hpp"
+
+namespace hamgen::app {
+namespace {
+
+// A folded parameter has the model's default in the code, whatever the scene or --set says.
+void require_folded_defaults(const Model& model, const SceneValues& scene) {
+  Model without_scenes = model;
+  without_scenes.scenes.clear();
+  const std::vector<Rational> defaults = scene_values(without_scenes, {}).parameters;
+  std::size_t first = 0;
+  for (const Parameter& parameter : model.parameters) {
+    const std::size_t end = first + parameter.values.size();
+    for (std::size_t i = first; i < end; ++i) {
+      if (!parameter.folded || scene.parameters[i] == defaults[i]) continue;
+      throw UsageError(
+          fmt::format("--fold {0}: its default {1} is burnt in, but this run sets it to {2}\n"
+                      "help: leave out --fold {0}, or change the default in {3}",
+                      parameter.name, runtime::number_text(to_double(defaults[i])),
+                      runtime::number_text(to_double(scene.parameters[i])), model.source.path));
+    }
+    first = end;
+  }
+}
+
+// Near a pole of C an error is multiplied by 1/(h w - 2 pi k): by 100 at most, then.
+void require_regular_step(const PluginSource& plugin, const Rational& step) {
+  constexpr double nearest = 0.01 / (2 * std::numbers::pi);
+  const double h = std::abs(to_double(step));
+  for (const double pole : plugin.singular_steps) {
+    const double k = std::round(h / pole);
+    if (k < 1 || std::abs(h / pole - k) >= nearest) continue;
+    throw UsageError(fmt::format(
+        "--h {}: the gauge has a pole at h = {:.10g}, where h w = {:.0f}*2 pi for the frequency "
+        "w = {:.10g} of the linear part\nhelp: take another step, for example --h {:.3g}",
+        runtime::number_text(to_double(step)), k * pole, k, 2 * std::numbers::pi / pole,
+        (k - 0.5) * pole));
+  }
+}
+
+std::string state_text(const std::vector<std::string>& names, const std::vector<double>& state) {
+  constexpr std::size_t largest = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(state.size(), largest); ++i)
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i], runtime::number_text(state[i]));
+  return state.size() > largest ? text + ", ..." : text;
+}
+
+// "dH/dq[2] is not a number".  The sign of a nan means nothing.
+std::string not_finite_text(const std::string& name, double value) {
+  return name + (std::isnan(value) ? " is not a number" : " is infinite");
+}
+
+// Which value is not finite, empty if H and its gradient are finite.
+std::string undefined_component(const runtime::Library& library,
+                                const std::vector<std::string>& names,
+                                const std::vector<double>& parameters,
+                                const std::vector<double>& state) {
+  const double energy = library.energy(parameters, state);
+  if (!std::isfinite(energy)) return not_finite_text("H", energy);
+  const std::vector<double> gradient = library.gradient(parameters, state);
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    if (!std::isfinite(gradient[i])) return not_finite_text("dH/d" + names[i], gradient[i]);
+  }
+  return "";
+}
+
+void require_defined(const Model& model, const SceneValues& scene, const runtime::Library& library,
+                     const runtime::InitialValues& values) {
+  std::vector<std::string> names = element_names(model.coordinates);
+  const std::vector<std::string> momenta = element_names(model.momenta);
+  names.insert(names.end(), momenta.begin(), momenta.end());
+  const std::vector<double> state = rounded(values.state);
+  const std::string component =
+      undefined_component(library, names, rounded(values.parameters), state);
+  if (component.empty()) return;
+  const std::string where = scene.name.empty() ? "" : fmt::format(" of scene '{}'", scene.name);
+  throw ModelError(
+      {{.severity = Severity::error,
+        .span = model.hamiltonian->span,
+        .message = fmt::format("H is not defined at the initial state{}: {}", where, component),
+        .help = fmt::format("the initial state is {}; give another with --initial",
+                            state_text(names, state))}},
+      model.source);
+}
+
+// E0 = H(q0, p0) with the digits of a wide scalar: a plugin tells energies as doubles.
+std::optional<Rational> exact_energy(const Model& model, const SceneValues& scene) {
+  if (degrees_of_freedom(model) > kMostWrittenOut) return std::nullopt;
+  Values values;
+  const auto add = [&values](const std::vector<std::string>& names,
+                             const std::vector<Rational>& numbers) {
+    for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = numbers[i];
+  };
+  add(element_names(model.parameters), scene.parameters);
+  add(element_names(model.coordinates), scene.q);
+  add(element_names(model.momenta), scene.p);
+  return evaluate(written_out_hamiltonian(model), values);
+}
+
+}  // namespace
+
+runtime::Wide wide(const Rational& value) {
+  const TripleDouble parts = to_triple(value);
+  return {.hi = parts.hi, .lo = parts.lo};
+}
+
+std::vector<double> rounded(const std::vector<runtime::Wide>& values) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), &runtime::Wide::hi);
+  return result;
+}
+
+SceneValues complete_scene(const Model& model, const SceneRequest& request, const char* length) {
+  const std::string& path = model.source.path;
+  if (model.scenes.empty() && request.initial.empty() && degrees_of_freedom(model) > 0)
+    throw UsageError(
+        fmt::format("{} has no scene and no --initial is given: no initial state\n"
+                    "help: for example --initial {}=0.1,{}=0 --h 0.01 {}",
+                    path, element_names(model.coordinates).front(),
+                    element_names(model.momenta).front(), length));
+  SceneValues values = scene_values(model, request);
+  const std::string where = values.name.empty() ? path : fmt::format("scene '{}'", values.name);
+  if (!values.h)
+    throw UsageError(
+        fmt::format("{} has no step size\nhelp: give one, for example --h 0.01", where));
+  if (!values.steps)
+    throw UsageError(
+        fmt::format("{} does not say how long\nhelp: give it, for example {}", where, length));
+  return values;
+}
+
+void require_in_range(const Model& model, const SceneValues& scene, const ScalarType& scalar) {
+  const auto require = [&](const std::string& name, const Rational& value) {
+    if (is_in_range(value, scalar)) return;
+    const std::string where = scene.name.empty() ? "" : fmt::format(" of scene '{}'", scene.name);
+    throw UsageError(fmt::format("{}{} is {}\nhelp: {}", name, where,
+                                 out_of_range_message(value, scalar),
+                                 out_of_range_help(value, scalar)));
+  };
+  const auto require_all = [&](const std::vector<std::string>& names,
+                               const std::vector<Rational>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) require(names[i], values[i]);
+  };
+  if (scene.h) require("h", *scene.h);
+  require_all(element_names(model.parameters), scene.parameters);
+  require_all(element_names(model.coordinates), scene.q);
+  require_all(element_names(model.momenta), scene.p);
+}
+
+void take_gauge_at(const SceneValues& scene, const Model& model, Request& request) {
+  if (request.gauge != "locally-exact") return;
+  const Values origin = read_reference(model, {});
+  const auto is_given = [&](const std::string& name) {
+    return std::ranges::any_of(request.reference, [&](const auto& given) {
+      return given.first == name || given.first == name.substr(0, name.find('['));
+    });
+  };
+  std::vector<std::pair<std::string, std::string>> more;
+  const auto add = [&](const std::vector<std::string>& names, const std::vector<Rational>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (is_given(names[i]) || values[i] == origin.at(names[i])) continue;
+      const std::string exact = hamgen::to_text(values[i]);
+      const bool is_short = exact.size() <= 12;
+      more.emplace_back(names[i], is_short ? exact : runtime::number_text(to_double(values[i])));
+    }
+  };
+  add(element_names(model.parameters), scene.parameters);
+  const bool has_point = std::ranges::any_of(request.reference, [&](const auto& given) {
+    const std::string base = given.first.substr(0, given.first.find('['));
+    return std::ranges::find(model.parameters, base, &Parameter::name) == model.parameters.end();
+  });
+  if (!has_point) {
+    add(element_names(model.coordinates), scene.q);
+    add(element_names(model.momenta), scene.p);
+  }
+  request.reference.insert(request.reference.end(), more.begin(), more.end());
+}
+
+runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
+                                      const runtime::Library& library) {
+  const Model& model = plugin.model;
+  require_folded_defaults(model, scene);
+  const auto scalar =
+      std::ranges::find(all_scalars(), library.plugin().scalar_digits, &ScalarType::digits);
+  require_in_range(model, scene, *scalar);
+  require_regular_step(plugin, *scene.h);
+  const std::vector<std::string> names = element_names(model.parameters);
+  const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
+  runtime::InitialValues values;
+  values.h = wide(*scene.h);
+  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
+    for (const Rational& value : *half) values.state.push_back(wide(value));
+  }
+  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i) {
+    const auto found = std::ranges::find(names, plugin.parameter_names[i]);
+    if (found == names.end()) internal_error("a plugin parameter the model does not have");
+    values.parameters.push_back(
+        wide(scene.parameters[static_cast<std::size_t>(found - names.begin())]));
+  }
+  if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
+  require_defined(model, scene, library, values);
+  if (!plugin.needs_energy_parameter) return values;
+  std::optional<Rational> energy;
+  if (scalar->digits > 53) energy = exact_energy(model, scene);
+  values.parameters.back() =
+      energy
+          ? wide(*energy)
+          : runtime::Wide{.hi = library.energy(rounded(values.parameters), rounded(values.state))};
+  return values;
+}
+
+std::vector<std::pair<std::string, double>> parameter_values(const PluginSource& plugin,
+                                                             const SceneValues& scene,
+                                                             const runtime::InitialValues& start) {
+  std::vector<std::pair<std::string, double>> values;
+  std::size_t i = 0;
+  for (const Parameter& parameter : plugin.model.parameters) {
+    for (const std::string& name : element_names(std::vector{parameter})) {
+      const double value = to_double(scene.parameters[i++]);
+      if (!parameter.folded) values.emplace_back(name, value);
+    }
+  }
+  if (plugin.needs_energy_parameter) values.emplace_back("E0", start.parameters.back().hi);
+  return values;
+}
+
+}  // namespace hamgen::app

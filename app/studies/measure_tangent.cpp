@@ -1,0 +1,187 @@
+#include "app/studies/measure_tangent.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace hamgen::app {
+namespace {
+
+// Solving for M leaves some 2n rounding errors in its entries, and M^T J M multiplies and adds two
+// of them: relative to the terms that are added that is far below this for the sizes that are
+// written out.
+constexpr double kRoundOff = 1e-13;
+constexpr int kStates = 100;
+constexpr double kDifference = 1e-5;  // of a component's amplitude: error some 1e-10 on both sides
+
+using Vector = std::vector<double>;
+
+struct Sample {
+  Vector parameters, state;
+};
+
+class TangentMeasurement {
+ public:
+  TangentMeasurement(const runtime::LoadedPlugin& loaded, const runtime::InitialValues& start)
+      : step_(loaded.library->plugin()),
+        start_(start),
+        n_(static_cast<std::size_t>(step_.degrees_of_freedom)),
+        matrix_(4 * n_ * n_),
+        end_(2 * n_) {
+    // Along the orbit, for what the scene starts at zero has a size as well.
+    runtime::Integrator integrator(loaded.library, start);
+    orbit_.push_back(integrator.rounded_state());
+    while (orbit_.size() < 100 && integrator.advance(10, false).status == runtime::Status::done) {
+      orbit_.push_back(integrator.rounded_state());
+    }
+    amplitude_.resize(2 * n_);
+    for (const Vector& z : orbit_) {
+      for (std::size_t i = 0; i < 2 * n_; ++i) {
+        amplitude_[i] = std::max(amplitude_[i], std::abs(z[i]));
+      }
+    }
+    const double most = std::max(*std::ranges::max_element(amplitude_), 1e-300);
+    for (double& a : amplitude_) a = a > 0 ? a : most;
+  }
+
+  void run() {
+    for (int i = 0; i < kStates; ++i) {
+      const Sample z = sample();
+      if (!take_step(z, start_.h.hi)) {
+        ++failed_;
+        continue;
+      }
+      const Vector end = end_;
+      const Vector matrix = matrix_;
+      defect_ = std::max(defect_, symplectic_defect(matrix));
+      if (i % 10 == 0) compare_with_differences(z, matrix);
+      if (take_step({z.parameters, end}, -start_.h.hi)) {
+        for (std::size_t k = 0; k < 2 * n_; ++k) {
+          reversal_ = std::max(reversal_, std::abs(end_[k] - z.state[k]) / amplitude_[k]);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Proof findings(bool symmetric) const {
+    const std::string where = fmt::format(
+        "at {} states and parameters around the scene, h = {:g}{}", kStates, start_.h.hi,
+        failed_ == 0 ? "" : fmt::format(" ({} of them without a step)", failed_));
+    auto within = [&](const std::string& property, double value) {
+      return Finding{
+          property, value <= kRoundOff ? Verdict::tested : Verdict::refuted,
+          fmt::format("at most {:.2e} {}; round-off is below {:.0e}", value, where, kRoundOff)};
+    };
+    Proof proof{within("tangent map symplectic", defect_),
+                {"tangent map of the step", wrong_ ? Verdict::refuted : Verdict::tested,
+                 fmt::format("differs from difference quotients of the step by at most {:.1e}{}",
+                             difference_, wrong_ ? ", which is more than their error" : "")}};
+    if (symmetric) proof.push_back(within("reversal", reversal_));
+    return proof;
+  }
+
+ private:
+  // A state of the orbit and the scene's parameters, each moved by up to a tenth.
+  Sample sample() {
+    std::uniform_real_distribution<double> tenth(-0.1, 0.1);
+    Sample result;
+    for (const runtime::Wide& p : start_.parameters) {
+      result.parameters.push_back(p.hi * (1 + tenth(source_)));
+    }
+    const Vector& z = orbit_[source_() % orbit_.size()];
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      result.state.push_back(z[i] + tenth(source_) * amplitude_[i]);
+    }
+    return result;
+  }
+
+  bool take_step(const Sample& z, double h) {
+    return step_.tangent(z.parameters.data(), h, z.state.data(), end_.data(), matrix_.data()) != 0;
+  }
+
+  // max |(M^T J M - J)_ij| over what its terms can add up to, by the norms of the columns of M: far
+  // from the diagonal its entries may be smaller than the rounding of what made them.  The norms
+  // weigh M_ki by the orbit's sizes in q_k and p_k, so that they do not depend on units.
+  [[nodiscard]] double symplectic_defect(const Vector& m) const {
+    const std::size_t size = 2 * n_;
+    Vector of_q(size);
+    Vector of_p(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t k = 0; k < n_; ++k) {
+        const double weight = std::sqrt(amplitude_[n_ + k] / amplitude_[k]);
+        of_q[i] = std::hypot(of_q[i], weight * m[k * size + i]);
+        of_p[i] = std::hypot(of_p[i], m[(n_ + k) * size + i] / weight);
+      }
+    }
+    double worst = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < size; ++j) {
+        double sum = j == i + n_ ? -1 : (i == j + n_ ? 1 : 0);
+        for (std::size_t k = 0; k < n_; ++k) {
+          sum +=
+              m[k * size + i] * m[(n_ + k) * size + j] - m[(n_ + k) * size + i] * m[k * size + j];
+        }
+        const double most = of_q[i] * of_p[j] + of_p[i] * of_q[j];
+        if (most > 0) worst = std::max(worst, std::abs(sum) / most);
+      }
+    }
+    return worst;
+  }
+
+  // (Z(z + d) - Z(z - d)) / 2d with d and 2d: the error of the first, c d^2, is a third of the
+  // difference of the two; rounding of Z adds some units of its last place over d.
+  void compare_with_differences(const Sample& z, const Vector& matrix) {
+    const std::size_t size = 2 * n_;
+    for (std::size_t j = 0; j < size; ++j) {
+      const double d = kDifference * amplitude_[j];
+      Vector quotient[2];
+      for (const int factor : {1, 2}) {
+        Sample up = z;
+        Sample down = z;
+        up.state[j] += factor * d;
+        down.state[j] -= factor * d;
+        if (!take_step(up, start_.h.hi)) return;
+        const Vector above = end_;
+        if (!take_step(down, start_.h.hi)) return;
+        for (std::size_t i = 0; i < size; ++i) {
+          quotient[factor - 1].push_back((above[i] - end_[i]) / (up.state[j] - down.state[j]));
+        }
+      }
+      for (std::size_t i = 0; i < size; ++i) {
+        const double scale = amplitude_[i] / amplitude_[j];
+        const double error = std::abs(matrix[i * size + j] - quotient[0][i]) / scale;
+        const double rounding = 64 * std::numeric_limits<double>::epsilon() / kDifference;
+        const double bound = std::abs(quotient[1][i] - quotient[0][i]) / scale + rounding;
+        difference_ = std::max(difference_, error);
+        wrong_ = wrong_ || !(error <= bound);
+      }
+    }
+  }
+
+  const hamgen_plugin& step_;
+  const runtime::InitialValues& start_;
+  std::size_t n_;
+  Vector matrix_, end_;  // of the step taken last
+  std::vector<Vector> orbit_;
+  Vector amplitude_;
+  std::mt19937_64 source_{1};
+  int failed_ = 0;
+  double defect_ = 0;
+  double reversal_ = 0;
+  double difference_ = 0;
+  bool wrong_ = false;
+};
+
+}  // namespace
+
+Proof measure_tangent(const runtime::LoadedPlugin& loaded, const runtime::InitialValues& start,
+                      bool symmetric) {
+  TangentMeasurement measurement(loaded, start);
+  measurement.run();
+  return measurement.findings(symmetric);
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,41 @@
+// Integrations with a gauge whose coefficients are run-time parameters.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/studies/stop.hpp"
+#include "app/studies/tune_gauge.hpp"
+#include "generator/language/scene.hpp"
+#include "runtime/integrator.hpp"
+
+namespace hamgen::app {
+
+struct Measurement {
+  std::string failure;               // empty if all steps were done
+  double energy_spread = 0.0;        // max H - min H over all states, the first included
+  double energy_error = 0.0;         // max |H - H(0)|
+  std::vector<runtime::Wide> state;  // the last
+};
+
+// A model compiled with beta = h B, gamma = h G; the same code for all coefficients.
+class GaugedIntegrator {
+ public:
+  // `base` has sizes, folded parameters and the scalar.
+  GaugedIntegrator(const SourceText& source, const Request& base, const GaugeShape& shape,
+                   const SceneRequest& scene, const std::string& compiler, StopFlag stop);
+
+  // From the scene's initial state; safe to call from several threads at once.
+  [[nodiscard]] Measurement measure(const std::vector<double>& coefficients, double h,
+                                    long steps) const;
+
+ private:
+  StopFlag stop_;
+  std::shared_ptr<const runtime::Library> library_;
+  runtime::InitialValues start_;
+  std::vector<std::size_t> places_;  // of the coefficients among the parameters
+};
+
+}  // namespace hamgen::app
