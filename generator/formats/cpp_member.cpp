@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/formats/cpp_refinement.hpp"
 #include "generator/formats/cpp_support.hpp"
 
 namespace hamgen {
@@ -29,10 +30,11 @@ MemberParts member_parts(const Program& program, const ScalarType& scalar) {
     if (solve.kind == BlockKind::newton) parts.newton = true;
     if (solve.simplified) parts.simplified = true;
     if (solve.kind == BlockKind::fixed_point && !solve.sweeps) parts.fixed_point = true;
-    if (solve.kind != BlockKind::linear && !solve.sweeps) {
+    if (!solve.sweeps) {
       for (const LoopVariable& v : solve.variables) parts.unknowns.push_back(v.name);
     }
   }
+  parts.rest = !program.rests.empty();
   parts.coefficients = !program.coefficients.empty() || parts.inverse;
   return parts;
 }
@@ -105,10 +107,14 @@ void write_matrix(CodeWriter& out, const CppExpression& cpp, const std::string& 
 
 void write_support(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
   out.lines(cpp_two_sum() + "\n");
+  if (parts.rest) out.lines(cpp_sum_with_rest() + "\n");
   if ((parts.elimination || parts.eigen) && !parts.inverse)
     out.lines(elimination_text(context, parts) + "\n");
   if (parts.newton) out.lines(cpp_newton_rule(context.scalar, parts.simplified) + "\n");
-  if (parts.fixed_point) out.lines(cpp_fixed_point_rule(context.scalar) + "\n");
+  if (parts.fixed_point) {
+    out.lines(cpp_fixed_point_rule(context.scalar) + "\n");
+    out.lines(cpp_refinement(context.scalar) + "\n");
+  }
   if (parts.has_start()) {
     out.line("// Start values of the implicit equations and what is remembered of their solution.");
     out.open("struct Start");

@@ -13,6 +13,7 @@ struct MemberParts {
   bool elimination = false;                // a linear system is solved by emitted elimination
   bool eigen = false;                      // or by Eigen
   bool inverse = false;                    // a matrix is inverted once per run
+  bool rest = false;                       // increments come with a rest
   bool coefficients = false;               // something depends on h and parameters alone
   std::vector<std::string> unknowns = {};  // of all loops: they have start values
   [[nodiscard]] bool has_start() const { return !unknowns.empty(); }

@@ -15,7 +15,7 @@ std::string solve_call(const MemberParts& parts, const std::string& par, const s
   if (parts.coefficients) text += k + ", ";
   text += h + ", " + z + ", " + carry + ", ";
   if (parts.has_start()) text += start + ", ";
-  return text + "dz)";
+  return text + (parts.rest ? "dz, rest)" : "dz)");
 }
 
 }  // namespace
@@ -38,6 +38,8 @@ void write_advance(CodeWriter& out) {
   out.close();
   out.line();
   out.line("[[nodiscard]] const State& state() const { return z_; }");
+  out.line("// What rounding took from the state: the sum of both is what the steps go on from.");
+  out.line("[[nodiscard]] const State& carry() const { return carry_; }");
 }
 
 void write_member_step(CodeWriter& out, const CppContext& context, const MemberParts& parts) {
@@ -45,13 +47,15 @@ void write_member_step(CodeWriter& out, const CppContext& context, const MemberP
   out.open("[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z)");
   if (parts.coefficients) out.line("const Coefficients k = prepare(par, h);");
   if (parts.has_start()) out.line("Start start;");
-  out.line("State dz;");
+  out.line(parts.rest ? "State dz, rest;" : "State dz;");
   out.line("const StepReport report = " +
            solve_call(parts, "par", "k", "h", "z", "State()", "start") + ";");
   out.line("if (!report.converged) return report;");
   for (int i = 0; i < 2 * context.n(); ++i) {
     if (context.program.increments[static_cast<std::size_t>(i)].is_zero()) continue;
-    out.line(fmt::format("z.{0} += dz.{0};", context.state_field(i)));
+    out.line(
+        fmt::format(fmt::runtime(parts.rest ? "z.{0} += dz.{0} + rest.{0};" : "z.{0} += dz.{0};"),
+                    context.state_field(i)));
   }
   out.line("return report;");
   out.close();
@@ -63,7 +67,6 @@ std::string class_name(StepRole role) {
 }
 
 void write_substep_access(CodeWriter& out, const std::string& reset) {
-  out.line("[[nodiscard]] const State& carry() const { return carry_; }");
   out.line("// Goes on from a state of another substep.");
   out.open("void begin_at(const State& z, const State& carry)");
   out.line("z_ = z;");
@@ -99,7 +102,7 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   out.line();
   out.line("// One step; on failure the state stays as it was.");
   out.open("StepReport step()");
-  out.line("State dz;");
+  out.line(parts.rest ? "State dz, rest;" : "State dz;");
   const std::string call = solve_call(parts, "par_", "k_", "h_", "z_", "carry_", "start_");
   if (parts.has_start()) {
     out.line("start_.known = history_.known > 0;");
@@ -120,7 +123,9 @@ void write_member_propagator(CodeWriter& out, const CppContext& context, const M
   }
   for (int i = 0; i < 2 * context.n(); ++i) {
     if (context.program.increments[static_cast<std::size_t>(i)].is_zero()) continue;
-    out.line(fmt::format("two_sum(z_.{0}, carry_.{0}, dz.{0});", context.state_field(i)));
+    out.line(fmt::format(fmt::runtime(parts.rest ? "add(z_.{0}, carry_.{0}, dz.{0}, rest.{0});"
+                                                 : "two_sum(z_.{0}, carry_.{0}, dz.{0});"),
+                         context.state_field(i)));
   }
   out.line("return report;");
   out.close();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "generator/formats/cpp_member.hpp"
+#include "generator/formats/cpp_refinement.hpp"
 
 namespace hamgen {
 
@@ -19,8 +20,9 @@ class SolveWriter {
   void write(CodeWriter& out) {
     Names names;
     for (const char* local :
-         {"size", "scale", "iteration", "verdict", "progress", "length", "matrix", "increment",
-          "carry", "vector", "regular", "sweep", "part", "i", "j", "rule"}) {
+         {"size",    "scale",  "iteration", "verdict", "progress", "length", "matrix", "increment",
+          "carry",   "vector", "regular",   "sweep",   "part",     "i",      "j",      "rule",
+          "product", "rest",   "more",      "lack",    "gradient", "point"}) {
       names.reserve(local);
     }
     for (const auto& [symbol, text] : coefficient_text_) names.set(symbol, text);
@@ -39,13 +41,16 @@ class SolveWriter {
         for (const Expression& e : {v.cold, v.next, v.correction}) collect_symbols(e, used);
       }
       for (const Expression& e : solve.residual) collect_symbols(e, used);
+      for (const Expression& e : solve.gradient) collect_symbols(e, used);
     }
     for (const Expression& e : context_.program.increments) collect_symbols(e, used);
+    for (const Expression& e : context_.program.rests) collect_symbols(e, used);
     for (int i = 0; i < 2 * context_.n(); ++i) {
       names.set("carry(" + context_.variable_name(i) + ")", "carry." + context_.state_field(i));
     }
     // Loop variables that are started from the state need it for their scale too.
-    out.line("// dz = Z - z for one step from z + carry.");
+    out.line(parts_.rest ? "// dz + rest = Z - z for one step from z + carry; rest is small."
+                         : "// dz = Z - z for one step from z + carry.");
     std::string signature =
         "[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& par, ";
     if (parts_.coefficients) signature += "const Coefficients& k, ";
@@ -55,7 +60,9 @@ class SolveWriter {
     if (parts_.has_start()) signature += "Start& start, ";
     const bool moves = std::ranges::any_of(context_.program.increments,
                                            [](const Expression& e) { return !e.is_zero(); });
-    out.open(signature + (moves ? "State& dz)" : "[[maybe_unused]] State& dz)"));
+    signature += moves ? "State& dz" : "[[maybe_unused]] State& dz";
+    if (parts_.rest) signature += moves ? ", State& rest" : ", [[maybe_unused]] State& rest";
+    out.open(signature + ")");
     out.line("StepReport report;");
     if (parts_.inverse) out.line("if (!k.regular) return report;");
     context_.load_state(out, names, used);
@@ -76,6 +83,10 @@ class SolveWriter {
       if (context_.program.increments[at(i)].is_zero()) continue;
       out.line(fmt::format("dz.{} = {};", context_.state_field(i),
                            cpp(context_.program.increments[at(i)])));
+      if (parts_.rest) {
+        out.line(fmt::format("rest.{} = {};", context_.state_field(i),
+                             cpp(context_.program.rests[at(i)])));
+      }
       size += (size.empty() ? "" : " + ") + fmt::format("dz.{0} * dz.{0}", context_.state_field(i));
     }
     if (!size.empty()) {
@@ -119,10 +130,7 @@ class SolveWriter {
       }
     }
     for (const Expression& e : context_.program.increments) collect_symbols(e, needed);
-    if (solve.kind == BlockKind::linear) {
-      write_linear(out, cpp, names, solve, s);
-      return;
-    }
+    for (const Expression& e : context_.program.rests) collect_symbols(e, needed);
     if (solve.sweeps) {
       write_sweeps(out, cpp, names, solve);
       return;
@@ -183,17 +191,8 @@ class SolveWriter {
     write_statements(out, cpp, names, solve.body, declared);
     std::vector<std::string> corrections;
     if (array) {
-      const std::size_t m = solve.matrix.size();
-      out.line(fmt::format("Real matrix[{0}][{0}] = {{}};", m));
-      write_matrix(out, cpp, "matrix", solve);
-      std::string values;
-      for (const Expression& r : solve.residual) values += (values.empty() ? "" : ", ") + cpp(-r);
-      out.line(fmt::format("Real vector[{}] = {{{}}};", m, values));
-      out.line("const bool regular = eliminate(matrix, vector);");
-      for (std::size_t j = 0; j < m; ++j) {
-        corrections.push_back(names.local(solve.corrections[j]));
-        out.line(fmt::format("{} = vector[{}];", corrections.back(), j));
-      }
+      for (const std::string& c : solve.corrections) corrections.push_back(names.local(c));
+      write_system(out, cpp, solve, s, corrections);
     } else {
       for (const LoopVariable& v : solve.variables) corrections.push_back(cpp(v.correction));
     }
@@ -202,8 +201,8 @@ class SolveWriter {
     out.line(fmt::format("const Real size = {};", size));
     out.line(fmt::format("const Real scale = {};", scale_of(solve, cpp, names)));
     out.line(fmt::format("const Verdict verdict = {}(size, scale, iteration);", rule));
-    out.open(array ? "if (verdict == Verdict::failed || !regular)"
-                   : "if (verdict == Verdict::failed)");
+    out.open(array && !solve.constant_matrix ? "if (verdict == Verdict::failed || !regular)"
+                                             : "if (verdict == Verdict::failed)");
     out.line("report.iterations += iteration;");
     out.line("report.increment = size;");
     out.line("return report;");
@@ -216,6 +215,33 @@ class SolveWriter {
       out.line(fmt::format("{} += {};", names.local(solve.variables[j].name), corrections[j]));
     }
     out.close();
+  }
+
+  // The increments -matrix^-1 residual: by elimination, or with the inverse of a constant matrix.
+  void write_system(CodeWriter& out, const CppExpression& cpp, const Solve& solve, std::size_t s,
+                    const std::vector<std::string>& increments) {
+    const std::size_t m = solve.matrix.size();
+    if (!solve.constant_matrix) {
+      out.line(fmt::format("Real matrix[{0}][{0}] = {{}};", m));
+      write_matrix(out, cpp, "matrix", solve);
+    }
+    std::string values;
+    for (const Expression& r : solve.residual) values += (values.empty() ? "" : ", ") + cpp(-r);
+    out.line(fmt::format("{}Real vector[{}] = {{{}}};", solve.constant_matrix ? "const " : "", m,
+                         values));
+    if (solve.constant_matrix) {
+      out.line(fmt::format("Real product[{}] = {{}};", m));
+      out.open(fmt::format("for (int i = 0; i < {}; ++i)", m));
+      out.line(fmt::format("for (int j = 0; j < {}; ++j) product[i] += k.{}[i][j] * vector[j];", m,
+                           inverse_name(s)));
+      out.close();
+    } else {
+      out.line("const bool regular = eliminate(matrix, vector);");
+    }
+    for (std::size_t j = 0; j < m; ++j) {
+      out.line(fmt::format("{} = {}[{}];", increments[j],
+                           solve.constant_matrix ? "product" : "vector", j));
+    }
   }
 
   void write_fixed_point(CodeWriter& out, const CppExpression& cpp, Names& names,
@@ -241,6 +267,50 @@ class SolveWriter {
     out.line("for (const Real part : increment) report.increment += magnitude(part);");
     out.line("return report;");
     out.close();
+    write_refinement(out, cpp, names, solve, s, declared);
+  }
+
+  // What the equations lack at the rounded solution, solved for as well: see cpp_refinement.hpp.
+  void write_refinement(CodeWriter& out, const CppExpression& cpp, Names& names, const Solve& solve,
+                        std::size_t s, const std::set<std::string>& declared) {
+    const std::size_t m = solve.variables.size();
+    const std::size_t components = solve.gradient.size();
+    const auto list = [](std::size_t count, const auto& item) {
+      std::string text;
+      for (std::size_t j = 0; j < count; ++j) text += (j == 0 ? "" : ", ") + item(j);
+      return text;
+    };
+    out.comment("// ", refinement_remark());
+    out.line(fmt::format("Refinement<{}, {}> refinement_{};", m, components, s));
+    const std::vector<std::string> kept(declared.begin(), declared.end());
+    out.line(fmt::format("Real kept_{}[{}] = {{}};", s, std::max<std::size_t>(kept.size(), 1)));
+    out.open(fmt::format("for (bool more = true; more;)"));
+    write_statements(out, cpp, names, solve.body, declared);
+    out.line(fmt::format("const Real lack[{}] = {{{}}};", m, list(m, [&](std::size_t j) {
+                           const LoopVariable& v = solve.variables[j];
+                           return cpp(v.next - Expression::symbol(v.name));
+                         })));
+    out.line(fmt::format("const Real gradient[{}] = {{{}}};", components,
+                         list(components, [&](std::size_t j) { return cpp(solve.gradient[j]); })));
+    out.open(fmt::format("if (refinement_{}.rounds == 0)", s));
+    for (std::size_t j = 0; j < kept.size(); ++j) {
+      out.line(fmt::format("kept_{}[{}] = {};", s, j, names.local(kept[j])));
+    }
+    out.close();
+    out.line(fmt::format("Real point[{}] = {{{}}};", m, list(m, [&](std::size_t j) {
+                           return names.local(solve.variables[j].name);
+                         })));
+    out.line(fmt::format("more = refinement_{}(point, lack, gradient);", s));
+    for (std::size_t j = 0; j < m; ++j) {
+      out.line(fmt::format("{} = point[{}];", names.local(solve.variables[j].name), j));
+    }
+    out.close();
+    for (std::size_t j = 0; j < kept.size(); ++j) {
+      out.line(fmt::format("{} = kept_{}[{}];", names.local(kept[j]), s, j));
+    }
+    for (std::size_t j = 0; j < components; ++j) {
+      names.set(solve.changes[j], fmt::format("refinement_{}.change[{}]", s, j));
+    }
   }
 
   void write_sweeps(CodeWriter& out, const CppExpression& cpp, Names& names, const Solve& solve) {
@@ -263,38 +333,6 @@ class SolveWriter {
       out.line(fmt::format("const Real {} = {};", names.local(v.name + "*"), names.local(v.name)));
     }
     out.line(fmt::format("report.iterations = {};", *solve.sweeps));
-  }
-
-  // A linear system too large to be written out.
-  void write_linear(CodeWriter& out, const CppExpression& cpp, Names& names, const Solve& solve,
-                    std::size_t s) {
-    const std::size_t m = solve.matrix.size();
-    std::string values;
-    for (const Expression& r : solve.residual) values += (values.empty() ? "" : ", ") + cpp(-r);
-    const std::string vector = fmt::format("vector_{}", s);
-    out.line(fmt::format("{}Real {}[{}] = {{{}}};", solve.constant_matrix ? "const " : "", vector,
-                         m, values));
-    if (solve.constant_matrix) {
-      const std::string product = fmt::format("product_{}", s);
-      out.line(fmt::format("Real {}[{}] = {{}};", product, m));
-      out.open(fmt::format("for (int i = 0; i < {}; ++i)", m));
-      out.line(fmt::format("for (int j = 0; j < {}; ++j) {}[i] += k.{}[i][j] * {}[j];", m, product,
-                           inverse_name(s), vector));
-      out.close();
-      for (std::size_t j = 0; j < m; ++j) {
-        out.line(
-            fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), product, j));
-      }
-      return;
-    }
-    const std::string matrix = fmt::format("matrix_{}", s);
-    out.line(fmt::format("Real {}[{}][{}] = {{}};", matrix, m, m));
-    write_matrix(out, cpp, matrix, solve);
-    out.line(fmt::format("if (!eliminate({}, {})) return report;", matrix, vector));
-    for (std::size_t j = 0; j < m; ++j) {
-      out.line(
-          fmt::format("const Real {} = {}[{}];", names.local(solve.corrections[j]), vector, j));
-    }
   }
 
   CppContext& context_;

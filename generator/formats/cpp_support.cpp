@@ -36,6 +36,28 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 )";
 }
 
+std::string cpp_sum_with_rest() {
+  return R"(// value + carry = value + increment + rest: what the carry misses is as small against it as it is
+// against the value.
+inline void add(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+)";
+}
+
+std::string cpp_collected_sum() {
+  return R"(// value += increment; what rounding loses is added to lost.
+inline void collect(Real& value, Real& lost, Real increment) {
+  Real error = 0;
+  two_sum(value, error, increment);
+  lost += error;
+}
+)";
+}
+
 std::string cpp_newton_rule(const ScalarType& scalar, bool simplified) {
   return fmt::format(R"(enum class Verdict {{ go_on, done, failed }};
 

@@ -14,6 +14,10 @@ namespace hamgen {
 [[nodiscard]] std::string cpp_compensated_sum();
 // Adding an increment that holds the carry already.
 [[nodiscard]] std::string cpp_two_sum();
+// Adding an increment and a small rest, the carry in it, with two_sum.
+[[nodiscard]] std::string cpp_sum_with_rest();
+// Adding with what rounding loses summed up, with two_sum.
+[[nodiscard]] std::string cpp_collected_sum();
 // When to stop Newton's iteration; simplified, with an approximate matrix, it converges linearly.
 [[nodiscard]] std::string cpp_newton_rule(const ScalarType& scalar, bool simplified = false);
 // When to stop a fixed-point iteration of `size` unknowns.
