@@ -96,6 +96,11 @@ class ArrayPropagator {
     if (plan_.mass && needs_scale()) list += fmt::format(", scale_({})", text(scale(*plan_.mass)));
     const std::string head = name_ + "(const Parameters& par, Real h, const State& z)";
     CodeWriter body;
+    if (weights_.complementary) {
+      body.line("// The step is symplectic because the two sum to h: like this they do exactly.");
+      body.line("h_rest_ = h - h_alpha_;");
+      body.line("h_alpha_ = h - h_rest_;");
+    }
     if (needs_drift()) {
       // dH/dp at p = 0.
       body.line("kinetic_gradient(par_, bar_.p, drift_);");
@@ -122,6 +127,7 @@ class ArrayPropagator {
   }
 
   void write_update() {
+    const bool refined = plan_.method == ArrayMethod::fixed_point;
     out_.lines(fmt::format(R"(  // Z = z + h J grad H(zbar).
   StepReport update() {{
     StepReport report;
@@ -136,14 +142,16 @@ class ArrayPropagator {
       return report;
     }}
     for (int i = 0; i < n; ++i) {{
-      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]);
-      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]);
+      add(z_.q[i], carry_.q[i], h_ * slope_.p[i]{});
+      add(z_.p[i], carry_.p[i], -h_ * slope_.q[i]{});
     }}
     return report;
   }}
 
 )",
-                           context_.scalar.largest));
+                           context_.scalar.largest,
+                           refined ? ", carry_.q[i] + h_ * refinement_.change[n + i]" : "",
+                           refined ? ", carry_.p[i] - h_ * refinement_.change[i]" : ""));
   }
 
   void write_members() {
@@ -178,6 +186,10 @@ class ArrayPropagator {
           plan_.reduced ? "Real residual_[n] = {};" : "Real residual_[2 * n] = {};", "");
       if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule rule_;", "");
       members.emplace_back("History history_;", "");
+      if (plan_.method == ArrayMethod::fixed_point) {
+        members.emplace_back(
+            fmt::format("Refinement<{}, 2 * n> refinement_;", plan_.reduced ? "n" : "2 * n"), "");
+      }
     }
     out_.aligned(members);
   }

@@ -18,6 +18,9 @@ struct ArrayWeights {
   std::string q_by_p, p_by_q, p_by_p, q_by_q;  // how they are called: "half_h_"
   // Members of the class and their values in its constructor, each once.
   std::vector<std::pair<std::string, Expression>> members;
+  // h alpha and h (1 - alpha), to be made to sum to h: Note [weights that sum to h] in
+  // program/step_builder.hpp.
+  bool complementary = false;
 };
 [[nodiscard]] ArrayWeights array_weights(const FamilyParameters& member);
 // The function step(), and the functions that an implicit one calls.

@@ -11,6 +11,7 @@
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_member.hpp"
 #include "generator/formats/cpp_preamble.hpp"
+#include "generator/formats/cpp_refinement.hpp"
 #include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_support.hpp"
 #include "generator/formats/cpp_tangent.hpp"
@@ -91,7 +92,9 @@ void write_member(CodeWriter& out, CppContext& context, StepRole role) {
 void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
   const ArrayPlan& plan = *context.program.plan.arrays;
   write_types(out, context, iterates(plan));
-  out.lines(cpp_compensated_sum() + "\n");
+  const bool refined = plan.method == ArrayMethod::fixed_point;
+  out.lines((refined ? cpp_two_sum() + "\n" + cpp_sum_with_rest() : cpp_compensated_sum()) + "\n");
+  if (refined) out.lines(cpp_refinement(context.scalar) + "\n");
   if (iterates(plan)) {
     out.lines((plan.method == ArrayMethod::newton ? cpp_newton_rule(context.scalar)
                                                   : cpp_fixed_point_rule(context.scalar)) +
