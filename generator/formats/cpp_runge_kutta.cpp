@@ -113,7 +113,7 @@ class Propagator {
 
 }  // namespace
 
-void write_flat_state(CodeWriter& out, const CppContext& context) {
+void write_flat_state(CodeWriter& out, const CppContext& context, bool with_rest) {
   out.line("// The state as one array.");
   out.open("inline void read(const State& z, Real (&x)[dimension])");
   if (context.arrays()) {
@@ -128,16 +128,22 @@ void write_flat_state(CodeWriter& out, const CppContext& context) {
   }
   out.close();
   out.line();
-  out.line("// z += dz, with what rounding loses kept in carry.");
-  out.open("inline void add(State& z, State& carry, const Real (&dz)[dimension])");
+  out.line(with_rest ? "// z += dz + rest, where the rest has the carry in it."
+                     : "// z += dz, with what rounding loses kept in carry.");
+  out.open(std::string("inline void add(State& z, State& carry, const Real (&dz)[dimension]") +
+           (with_rest ? ", const Real (&rest)[dimension])" : ")"));
+  const auto added = [&](const std::string& field, const std::string& index) {
+    return fmt::format("add(z.{0}, carry.{0}, dz[{1}]{2});", field, index,
+                       with_rest ? ", rest[" + index + "]" : "");
+  };
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
-    out.line("add(z.q[i], carry.q[i], dz[i]);");
-    out.line("add(z.p[i], carry.p[i], dz[n + i]);");
+    out.line(added("q[i]", "i"));
+    out.line(added("p[i]", "n + i"));
     out.close();
   } else {
     for (int i = 0; i < 2 * context.n(); ++i) {
-      out.line(fmt::format("add(z.{0}, carry.{0}, dz[{1}]);", context.state_field(i), i));
+      out.line(added(context.state_field(i), std::to_string(i)));
     }
   }
   out.close();
@@ -155,8 +161,8 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   out.line(fmt::format("inline constexpr int dimension = {};", 2 * context.n()));
   out.line();
   write_vector_field(out, context);
-  out.lines(cpp_compensated_sum() + "\n");
-  write_flat_state(out, context);
+  out.lines((implicit ? cpp_two_sum() + "\n" + cpp_sum_with_rest() : cpp_compensated_sum()) + "\n");
+  write_flat_state(out, context, implicit);
   if (implicit) {
     write_stages(out, context, tableau);
   } else {
