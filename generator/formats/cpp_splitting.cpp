@@ -17,7 +17,6 @@ struct Kind {
   std::string gradient;      // "potential_gradient"
   std::string coefficients;  // "kick"
   std::string values;        // where its gradient stands
-  std::string sign;          // dz -= kick * dV/dq, dz += drift * dT/dp
   bool kick = true;
 };
 
@@ -35,8 +34,8 @@ class SplittingWriter {
       if (substeps[i].kind == substeps[i - 1].kind)
         internal_error("substeps that do not alternate");
     }
-    const Kind kick{"potential_gradient", "kick", "", "-", true};
-    const Kind drift{"kinetic_gradient", "drift", "", "+", false};
+    const Kind kick{"potential_gradient", "kick", "", true};
+    const Kind drift{"kinetic_gradient", "drift", "", false};
     first_ = kick_first ? kick : drift;
     second_ = kick_first ? drift : kick;
     first_.values = closed_ ? "start.value" : "first";
@@ -58,7 +57,7 @@ class SplittingWriter {
                      text);
       write_gradient("dT/dp at z.", "kinetic_gradient", context_.program.kinetic_gradient, text);
     }
-    out_.lines(cpp_compensated_sum() + "\n");
+    out_.lines(cpp_two_sum() + "\n" + cpp_sum_with_rest() + "\n" + cpp_collected_sum() + "\n");
     write_start();
     write_solve();
     write_step();
@@ -127,14 +126,16 @@ class SplittingWriter {
     if (context_.arrays()) {
       const std::string field = kind.kick ? "p[j]" : "q[j]";
       out_.open("for (int j = 0; j < n; ++j)");
-      out_.line(fmt::format("dz.{} {}= {} * {}[j];", field, kind.sign, factor, kind.values));
+      out_.line(fmt::format("collect(dz.{0}, rest.{0}, {1}{2} * {3}[j]);", field,
+                            kind.kick ? "-" : "", factor, kind.values));
       if (!last) out_.line(fmt::format("now.{0} = z.{0} + dz.{0};", field));
       out_.close();
       return;
     }
     for (const int i : components(kind.kick)) {
       const std::string& field = context_.state_field(kind.kick ? context_.n() + i : i);
-      out_.line(fmt::format("dz.{} {}= {} * {}[{}];", field, kind.sign, factor, kind.values, i));
+      out_.line(fmt::format("collect(dz.{0}, rest.{0}, {1}{2} * {3}[{4}]);", field,
+                            kind.kick ? "-" : "", factor, kind.values, i));
       if (!last) out_.line(fmt::format("now.{0} = z.{0} + dz.{0};", field));
     }
   }
@@ -149,14 +150,21 @@ class SplittingWriter {
 
   void write_solve() {
     const std::size_t pairs = std::min(kicks_.size(), drifts_.size());
-    out_.line("// dz = Z - z for one step from z.");
-    out_.open(
-        fmt::format("[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& "
-                    "par, const Coefficients& k, const State& z, {}State& dz)",
-                    closed_ ? "Start& start, " : ""));
+    // Note [sums of kicks]
+    // What is small is summed first, the carry with it, and nothing of it is lost.  The kicks of a
+    // step are rounded multiples of one force where h and the coefficients are simple fractions,
+    // and then what their rounded sum loses is a pattern, the same at every step, and not chance:
+    // for h = 1/5, w = 1.3 the form of an oscillator drifts by 1e-3 units of rounding a step with
+    // sbab-3.
+    out_.line("// dz + rest = Z - z for one step from z + carry.");
+    out_.open(fmt::format(
+        "[[nodiscard]] inline StepReport solve([[maybe_unused]] const Parameters& "
+        "par, const Coefficients& k, const State& z, const State& carry, {}State& dz, State& rest)",
+        closed_ ? "Start& start, " : ""));
     out_.line("StepReport report;");
     out_.line("State now = z;");
-    out_.line("dz = State();");
+    out_.line("dz = carry;");
+    out_.line("rest = State();");
     for (const Kind& kind : {first_, second_}) {
       if (kind.values == "start.value") continue;
       out_.line(fmt::format("Real {}[{}];", kind.values, context_.n()));
@@ -225,11 +233,11 @@ class SplittingWriter {
     out_.open("[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z)");
     out_.line("const Coefficients k = prepare(par, h);");
     if (closed_) out_.line("Start start;");
-    out_.line("State dz;");
-    out_.line(
-        fmt::format("const StepReport report = solve(par, k, z, {}dz);", closed_ ? "start, " : ""));
+    out_.line("State dz, rest;");
+    out_.line(fmt::format("const StepReport report = solve(par, k, z, State(), {}dz, rest);",
+                          closed_ ? "start, " : ""));
     out_.line("if (!report.converged) return report;");
-    write_update("z.{x} += dz.{x};");
+    write_update("z.{x} += dz.{x} + rest.{x};");
     out_.line("return report;");
     out_.close();
     out_.line();
@@ -246,11 +254,11 @@ class SplittingWriter {
     out_.line();
     out_.line("// One step; on failure the state stays as it was.");
     out_.open("StepReport step()");
-    out_.line("State dz;");
-    out_.line(fmt::format("const StepReport report = solve(par_, k_, z_, {}dz);",
+    out_.line("State dz, rest;");
+    out_.line(fmt::format("const StepReport report = solve(par_, k_, z_, carry_, {}dz, rest);",
                           closed_ ? "start_, " : ""));
     out_.line("if (!report.converged) return report;");
-    write_update("add(z_.{x}, carry_.{x}, dz.{x});");
+    write_update("add(z_.{x}, carry_.{x}, dz.{x}, rest.{x});");
     out_.line("return report;");
     out_.close();
     out_.line();
