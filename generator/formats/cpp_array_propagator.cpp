@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "generator/formats/cpp_arrays.hpp"
+#include "generator/formats/cpp_step.hpp"
 
 namespace hamgen {
 
@@ -96,6 +97,11 @@ class ArrayPropagator {
     if (plan_.mass && needs_scale()) list += fmt::format(", scale_({})", text(scale(*plan_.mass)));
     const std::string head = name_ + "(const Parameters& par, Real h, const State& z)";
     CodeWriter body;
+    if (weights_.complementary) {
+      body.line("// The step is symplectic because the two sum to h: like this they do exactly.");
+      body.line("h_rest_ = h - h_alpha_;");
+      body.line("h_alpha_ = h - h_rest_;");
+    }
     if (needs_drift()) {
       // dH/dp at p = 0.
       body.line("kinetic_gradient(par_, bar_.p, drift_);");
@@ -122,7 +128,9 @@ class ArrayPropagator {
   }
 
   void write_update() {
-    out_.lines(fmt::format(R"(  // Z = z + h J grad H(zbar).
+    const bool refined = plan_.method == ArrayMethod::fixed_point;
+    out_.lines(
+        fmt::format(R"(  // Z = z + h J grad H(zbar).
   StepReport update() {{
     StepReport report;
     Real length = 0;
@@ -136,14 +144,20 @@ class ArrayPropagator {
       return report;
     }}
     for (int i = 0; i < n; ++i) {{
-      two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i]);
-      two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i]);
+      {};
+      {};
     }}
     return report;
   }}
 
 )",
-                           context_.scalar.largest));
+                    context_.scalar.largest,
+                    refined ? "add(z_.q[i], carry_.q[i], h_ * slope_.p[i], carry_.q[i] + h_ * "
+                              "refinement_.change[n + i])"
+                            : "two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i])",
+                    refined ? "add(z_.p[i], carry_.p[i], -h_ * slope_.q[i], carry_.p[i] - h_ * "
+                              "refinement_.change[i])"
+                            : "two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i])"));
   }
 
   void write_members() {
@@ -179,6 +193,8 @@ class ArrayPropagator {
       if (plan_.method == ArrayMethod::newton) members.emplace_back("NewtonRule<2> rule_;", "");
       if (plan_.method == ArrayMethod::fixed_point)
         members.emplace_back(fmt::format("Real length_[{}] = {{}};", unknowns), "");
+      if (plan_.method == ArrayMethod::fixed_point)
+        members.emplace_back(fmt::format("Refinement<{}, 2 * n> refinement_;", unknowns), "");
       members.emplace_back(fmt::format("History<{}> history_;", unknowns), "");
     }
     out_.aligned(members);
@@ -195,32 +211,11 @@ class ArrayPropagator {
 
 }  // namespace
 
-void write_advance(CodeWriter& out) {
-  out.line("// Up to `steps` steps; stops at the first failure.  The report sums the iterations.");
-  out.open("StepReport advance(long long steps)");
-  out.line("StepReport total;");
-  out.line("total.converged = true;");
-  out.open("for (long long i = 0; i < steps; ++i)");
-  out.line("const StepReport report = step();");
-  out.line("total.iterations += report.iterations;");
-  out.line("total.increment = report.increment;");
-  out.open("if (!report.converged)");
-  out.line("total.converged = false;");
-  out.line("break;");
-  out.close();
-  out.close();
-  out.line("return total;");
-  out.close();
-  out.line();
-  out.line("[[nodiscard]] const State& state() const { return z_; }");
-}
-
 std::string class_name(StepRole role) {
   return role == StepRole::propagator ? "Propagator" : "Substep";
 }
 
 void write_substep_access(CodeWriter& out, const std::string& reset) {
-  out.line("[[nodiscard]] const State& carry() const { return carry_; }");
   out.line("// Goes on from a state of another substep.");
   out.open("void begin_at(const State& z, const State& carry)");
   out.line("z_ = z;");

@@ -9,18 +9,30 @@ namespace hamgen {
 
 namespace {
 
+// What is small is summed first, the carry with it: Note [rounding without bias] in
+// program/step_builder.hpp.
+std::string from_state(const std::string& component, const std::string& change) {
+  if (change.empty()) return "z_." + component;
+  return fmt::format("z_.{0} + (carry_.{0}{1})", component, change);
+}
+// bar_ - row, as a statement's right side.
+std::string lacking(const std::string& component, const std::string& change) {
+  if (change.empty()) return fmt::format("bar_.{0} - z_.{0};", component);
+  return fmt::format("(bar_.{0} - z_.{0}) - (carry_.{0}{1});", component, change);
+}
+
 // alpha = 0 has zbar = (q, P), alpha = 1 has zbar = (Q, p).
 std::string explicit_step(bool a) {
   return a ? R"(  StepReport step() {
     potential_gradient(par_, z_.q, slope_.q);
-    for (int i = 0; i < n; ++i) bar_[i] = z_.p[i] - h_ * slope_.q[i];
+    for (int i = 0; i < n; ++i) bar_[i] = z_.p[i] + (carry_.p[i] - h_ * slope_.q[i]);
     kinetic_gradient(par_, bar_, slope_.p);
     return update();
   }
 )"
            : R"(  StepReport step() {
     kinetic_gradient(par_, z_.p, slope_.p);
-    for (int i = 0; i < n; ++i) bar_[i] = z_.q[i] + h_ * slope_.p[i];
+    for (int i = 0; i < n; ++i) bar_[i] = z_.q[i] + (carry_.q[i] + h_ * slope_.p[i]);
     potential_gradient(par_, bar_, slope_.q);
     return update();
   }
@@ -102,8 +114,8 @@ std::string evaluate(const Mechanics& mechanics, const ArrayPlan& plan, const Ar
     return "  // The gradient at bar_.\n  void evaluate() {\n" + gradient_at(mechanics, "bar_", 4) +
            "  }\n";
   }
-  std::string momentum =
-      "z_.p[i]" + weighted("-", w.p_by_q, "slope_.q[i]") + weighted("-", w.p_by_p, "drift_[i]");
+  std::string momentum = from_state(
+      "p[i]", weighted("-", w.p_by_q, "slope_.q[i]") + weighted("-", w.p_by_p, "drift_[i]"));
   if (!w.p_by_p.empty()) {
     momentum =
         fmt::format("({}) / (1 + {} * {})", momentum, w.p_by_p, plan.mass ? "mass_" : "mass_[i]");
@@ -150,17 +162,19 @@ std::string factorise(const ArrayPlan& plan, const ArrayWeights& w) {
 }
 
 std::string residual(const ArrayPlan& plan, const ArrayWeights& w) {
-  const std::string of_q =
-      fmt::format("residual_[i] = bar_.q[i] - z_.q[i]{}{};", weighted("-", w.q_by_p, "slope_.p[i]"),
-                  weighted("-", w.q_by_q, "slope_.q[i]"));
-  if (plan.reduced) return "      for (int i = 0; i < n; ++i) " + of_q + "\n";
+  const std::string of_q = lacking(
+      "q[i]", weighted("+", w.q_by_p, "slope_.p[i]") + weighted("+", w.q_by_q, "slope_.q[i]"));
+  if (plan.reduced) {
+    return "      for (int i = 0; i < n; ++i) {\n        residual_[i] = " + of_q + "\n      }\n";
+  }
   return fmt::format(R"(      for (int i = 0; i < n; ++i) {{
-        {}
-        residual_[n + i] = bar_.p[i] - z_.p[i]{}{};
+        residual_[i] = {}
+        residual_[n + i] = {}
       }}
 )",
-                     of_q, weighted("+", w.p_by_q, "slope_.q[i]"),
-                     weighted("+", w.p_by_p, "slope_.p[i]"));
+                     of_q,
+                     lacking("p[i]", weighted("-", w.p_by_q, "slope_.q[i]") +
+                                         weighted("-", w.p_by_p, "slope_.p[i]")));
 }
 
 // bar_ -= residual_, and the sizes that the stopping rule wants.
@@ -196,6 +210,39 @@ std::string subtract(const ArrayPlan& plan) {
   return text + "      }\n      report.increment = size;\n";
 }
 
+std::string refine(const ArrayPlan& plan, const ArrayWeights& w) {
+  const std::string all = plan.reduced ? "n" : "2 * n";
+  const std::string both = plan.reduced ? "" : R"(
+        point[n + i] = bar_.p[i];)";
+  const std::string back = plan.reduced ? "" : R"(
+        bar_.p[i] = point[n + i];)";
+  return fmt::format(
+      R"(  // The unknowns are rounded to the side that the iteration came from, at every step alike.  What
+  // the equations lack there is solved for too.
+  void refine() {{
+    Real point[{0}];
+    Real slope[2 * n];
+    for (bool more = true; more;) {{
+      evaluate();
+{1}      for (Real& lack : residual_) lack = -lack;
+      for (int i = 0; i < n; ++i) {{
+        point[i] = bar_.q[i];{2}
+        slope[i] = slope_.q[i];
+        slope[n + i] = slope_.p[i];
+      }}
+      more = refinement_(point, residual_, slope);
+      for (int i = 0; i < n; ++i) {{
+        bar_.q[i] = point[i];{3}
+        slope_.q[i] = refinement_.slope[i];
+        slope_.p[i] = refinement_.slope[n + i];
+      }}
+    }}
+  }}
+
+)",
+      all, residual(plan, w), both, back);
+}
+
 std::string iteration(const Mechanics& mechanics, const ArrayPlan& plan, const ArrayWeights& w) {
   const bool newton = plan.method == ArrayMethod::newton;
   const std::string unknowns = plan.reduced ? "n" : "2 * n";
@@ -219,7 +266,9 @@ std::string iteration(const Mechanics& mechanics, const ArrayPlan& plan, const A
   text += R"(      if (verdict == Verdict::go_on) continue;
       if (verdict == Verdict::failed) return false;
 )";
-  text += "      evaluate();\n      return true;\n    }\n  }\n\n" + evaluate(mechanics, plan, w);
+  text += newton ? "      evaluate();\n      return true;\n    }\n  }\n\n"
+                 : "      refine();\n      return true;\n    }\n  }\n\n" + refine(plan, w);
+  text += evaluate(mechanics, plan, w);
   if (plan.matrix) text += "\n" + factorise(plan, w);
   return text;
 }
@@ -242,12 +291,12 @@ std::string gradient_at(const Mechanics& mechanics, const std::string& state, in
 }
 
 std::string stage_q(const ArrayWeights& w) {
-  return "z_.q[i]" + weighted("+", w.q_by_p, "slope_.p[i]") +
-         weighted("+", w.q_by_q, "slope_.q[i]");
+  return from_state(
+      "q[i]", weighted("+", w.q_by_p, "slope_.p[i]") + weighted("+", w.q_by_q, "slope_.q[i]"));
 }
 std::string stage_p(const ArrayWeights& w) {
-  return "z_.p[i]" + weighted("-", w.p_by_q, "slope_.q[i]") +
-         weighted("-", w.p_by_p, "slope_.p[i]");
+  return from_state(
+      "p[i]", weighted("-", w.p_by_q, "slope_.q[i]") + weighted("-", w.p_by_p, "slope_.p[i]"));
 }
 
 ArrayWeights array_weights(const FamilyParameters& member) {
@@ -264,6 +313,7 @@ ArrayWeights array_weights(const FamilyParameters& member) {
   };
   weights.q_by_p = named(member.alpha, "h_alpha_");
   weights.p_by_q = named(Expression(1) - member.alpha, "h_rest_");
+  weights.complementary = weights.q_by_p == "h_alpha_" && weights.p_by_q == "h_rest_";
   weights.p_by_p = named(member.beta, "h_beta_");
   weights.q_by_q = named(member.gamma, "h_gamma_");
   return weights;

@@ -15,8 +15,6 @@ enum class StepRole { propagator, substep };
 [[nodiscard]] std::string class_name(StepRole role);
 // begin_at(z, carry), carry() and, if there is anything to `reset`, forget().
 void write_substep_access(CodeWriter& out, const std::string& reset);
-// The functions advance() and state() of a class with step() and z_.
-void write_advance(CodeWriter& out);
 
 // The class that takes many steps of a member.
 void write_array_propagator(CodeWriter& out, CppContext& context, StepRole role);
@@ -26,6 +24,9 @@ struct ArrayWeights {
   std::string q_by_p, p_by_q, p_by_p, q_by_q;  // how they are called: "half_h_"
   // Members of the class and their values in its constructor, each once.
   std::vector<std::pair<std::string, Expression>> members;
+  // h alpha and h (1 - alpha), to be made to sum to h: Note [weights that sum to h] in
+  // program/step_builder.hpp.
+  bool complementary = false;
 };
 [[nodiscard]] ArrayWeights array_weights(const FamilyParameters& member);
 // The function step(), and the functions that an implicit one calls.

@@ -4,6 +4,7 @@
 
 #include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_schemes.hpp"
+#include "generator/formats/cpp_step.hpp"
 
 namespace hamgen {
 

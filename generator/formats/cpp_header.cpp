@@ -91,6 +91,9 @@ void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
   const ArrayPlan& plan = *context.program.plan.arrays;
   write_types(out, context, iterates(plan));
   out.lines(cpp_numerics("two_sum"));
+  if (plan.method == ArrayMethod::fixed_point) {
+    out.lines(cpp_numerics("sum_with_rest") + cpp_numerics("refinement"));
+  }
   if (iterates(plan)) {
     out.lines(cpp_numerics("verdict"));
     out.lines(

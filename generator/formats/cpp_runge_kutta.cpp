@@ -11,7 +11,7 @@
 
 namespace hamgen {
 
-void write_flat_state(CodeWriter& out, const CppContext& context) {
+void write_flat_state(CodeWriter& out, const CppContext& context, bool with_rest) {
   out.line("// The state as one array.");
   out.open("inline void read(const State& z, Real (&x)[dimension])");
   if (context.arrays()) {
@@ -26,17 +26,22 @@ void write_flat_state(CodeWriter& out, const CppContext& context) {
   }
   out.close();
   out.line();
-  out.line("// z += dz, with what rounding loses kept in carry.");
-  out.open("inline void add(State& z, State& carry, const Real (&dz)[dimension])");
+  out.line(with_rest ? "// z += dz + rest, where the rest has the carry in it."
+                     : "// z += dz, with what rounding loses kept in carry.");
+  out.open(std::string("inline void add(State& z, State& carry, const Real (&dz)[dimension]") +
+           (with_rest ? ", const Real (&rest)[dimension])" : ")"));
+  const auto added = [&](const std::string& field, const std::string& index) {
+    return with_rest ? fmt::format("add(z.{0}, carry.{0}, dz[{1}], rest[{1}]);", field, index)
+                     : fmt::format("two_sum(z.{0}, carry.{0}, carry.{0} + dz[{1}]);", field, index);
+  };
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
-    out.line("two_sum(z.q[i], carry.q[i], carry.q[i] + dz[i]);");
-    out.line("two_sum(z.p[i], carry.p[i], carry.p[i] + dz[n + i]);");
+    out.line(added("q[i]", "i"));
+    out.line(added("p[i]", "n + i"));
     out.close();
   } else {
     for (int i = 0; i < 2 * context.n(); ++i) {
-      out.line(fmt::format("two_sum(z.{0}, carry.{0}, carry.{0} + dz[{1}]);",
-                           context.state_field(i), i));
+      out.line(added(context.state_field(i), std::to_string(i)));
     }
   }
   out.close();
@@ -55,8 +60,8 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   out.line();
   context.write_routine(out, "vector_field");
   if (implicit) {
-    out.lines(cpp_numerics("two_sum"));
-    write_flat_state(out, context);
+    out.lines(cpp_numerics("two_sum") + cpp_numerics("sum_with_rest"));
+    write_flat_state(out, context, true);
     write_stages(out, context, tableau);
     write_single_step(out);
   } else {
@@ -67,7 +72,7 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
   if (implicit) {
     write_stages_tangent(out);
   } else {
-    write_flat_state(out, context);
+    write_flat_state(out, context, false);
     write_stage_hessian(out, context);
     write_explicit_tangent(out, context);
   }

@@ -14,6 +14,6 @@ void write_runge_kutta(CodeWriter& out, CppContext& context, const RungeKutta& t
 void write_single_step(CodeWriter& out);
 
 // Reads State as an array x[2n], and back: add_to(z, carry, dz) by compensated sums.
-void write_flat_state(CodeWriter& out, const CppContext& context);
+void write_flat_state(CodeWriter& out, const CppContext& context, bool with_rest);
 
 }  // namespace hamgen

@@ -4,6 +4,7 @@
 
 #include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_functions.hpp"
+#include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tableau.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/numerics.hpp"
@@ -14,7 +15,9 @@ namespace {
 
 std::string step_text(const ScalarType& scalar) {
   return fmt::format(
-      R"(// Many steps: the stages start from the polynomial of the step before, rounding errors of the
+      R"(constexpr int unknowns = stages * dimension;
+
+// Many steps: the stages start from the polynomial of the step before, rounding errors of the
 // updates are carried along.
 class Propagator {{
  public:
@@ -34,6 +37,7 @@ class Propagator {{
   StepReport step() {{
     StepReport report;
     read(z_, y_);
+    read(carry_, rest_);
     predict(known_);
     bool solved = iterate(report);
     if (!solved && known_) {{
@@ -43,12 +47,16 @@ class Propagator {{
     }}
     known_ = false;
     if (!solved) return report;
+    refine();
     Real dz[dimension];
     Real length = 0;
     for (int k = 0; k < dimension; ++k) {{
       dz[k] = 0;
-      for (int i = 0; i < stages; ++i) dz[k] += slope_[i][k];
-      length += dz[k] * dz[k];
+      for (int i = 0; i < stages; ++i) {{
+        dz[k] += slope_[i][k];
+        rest_[k] += refinement_.change[i * dimension + k];
+      }}
+      length += dz[k] * dz[k] + rest_[k] * rest_[k];
     }}
     // False for infinities and NaN alike.
     report.converged = length <= {largest};
@@ -56,7 +64,7 @@ class Propagator {{
       report.increment = length;
       return report;
     }}
-    add(z_, carry_, dz);
+    add(z_, carry_, dz, rest_);
     known_ = true;
     return report;
   }}
@@ -65,7 +73,7 @@ class Propagator {{
       fmt::arg("largest", scalar.largest));
 }
 
-std::string private_text() {
+std::string private_text(bool newton) {
   return R"(
  private:
   // Increments Y_i - z to begin with: of the polynomial of the last step, or none.
@@ -87,9 +95,13 @@ std::string private_text() {
   // L_i = h b_i f(Y_i).
   void evaluate() {
     for (int i = 0; i < stages; ++i) {
-      Real x[dimension];
-      for (int k = 0; k < dimension; ++k) x[k] = y_[k] + increment_[i][k];
-      vector_field(par_, x, slope_[i]);
+      for (int k = 0; k < dimension; ++k) point_[i][k] = y_[k] + (rest_[k] + increment_[i][k]);
+    }
+    evaluate_at_points();
+  }
+  void evaluate_at_points() {
+    for (int i = 0; i < stages; ++i) {
+      vector_field(par_, point_[i], slope_[i]);
       for (int k = 0; k < dimension; ++k) slope_[i][k] *= scaled_[i];
     }
   }
@@ -98,6 +110,29 @@ std::string private_text() {
     Real sum = 0;
     for (int j = 0; j < stages; ++j) sum += coupling[i][j] * slope_[j][k];
     return sum;
+  }
+  // The points where f was evaluated are rounded to the side that the iteration came from, at every
+  // step alike.  What the equations lack there is solved for too.
+  void refine() {
+    Real point[unknowns];
+    Real lack[unknowns];
+    Real slope[unknowns];
+    for (bool more = true; more;) {
+      for (int row = 0; row < unknowns; ++row) {
+        const int i = row / dimension;
+        const int k = row % dimension;
+        point[row] = point_[i][k];
+        lack[row] = (y_[k] - point[row]) + (rest_[k] + collected(i, k));
+        slope[row] = slope_[i][k];
+      }
+)" + std::string(newton ? "      if (factorised_) matrix_.solve(lack);\n" : "") +
+         R"(      more = refinement_(point, lack, slope);
+      for (int row = 0; row < unknowns; ++row) {
+        point_[row / dimension][row % dimension] = point[row];
+        slope_[row / dimension][row % dimension] = refinement_.slope[row];
+      }
+      if (more) evaluate_at_points();
+    }
   }
 )";
 }
@@ -271,7 +306,8 @@ void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tablea
   write_tableau(out, context.scalar, context.program.sequence.stages, tableau.c);
   const bool tangent = context.options.tangent;
   if (newton || tangent) write_stage_hessian(out, context);
-  out.lines(cpp_numerics("verdict") + cpp_numerics("fixed_point_rule"));
+  out.lines(cpp_numerics("verdict") + cpp_numerics("fixed_point_rule") +
+            cpp_numerics("refinement"));
   if (newton || tangent) {
     out.lines(cpp_numerics("dense_matrix"));
     out.line("using Elimination = DenseMatrix<stages * dimension>;");
@@ -282,7 +318,7 @@ void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tablea
   write_advance(out);
   out.dedent();
   if (tangent) out.lines(stages_tangent());
-  out.lines(private_text());
+  out.lines(private_text(newton));
   if (solver != StageSolver::newton) {
     out.lines(fixed_point_text(solver == StageSolver::both));
   }
@@ -294,9 +330,12 @@ void write_stages(CodeWriter& out, CppContext& context, const RungeKutta& tablea
   State carry_;
   Real scaled_[stages] = {};                // h b_i
   Real y_[dimension] = {};                  // z as an array
+  Real rest_[dimension] = {};               // the carry, then all that is small of the increment
   Real first_[stages][dimension] = {};      // Y_i - z to begin with
   Real increment_[stages][dimension] = {};  // Y_i - z
-  Real slope_[stages][dimension] = {};      // L_i
+  Real point_[stages][dimension] = {};      // Y_i, rounded
+  Real slope_[stages][dimension] = {};      // L_i there
+  Refinement<unknowns, unknowns> refinement_;
   bool known_ = false;                      // L_i are of the step before
 )");
   if (newton) out.lines("  Elimination matrix_;\n  bool factorised_ = false;\n");

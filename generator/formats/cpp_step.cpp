@@ -89,6 +89,7 @@ class StepWriter {
         code_(context.code),
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
+        rest_(code_.has_rest()),
         composed_(code_.substeps.size() > 1) {}
 
   void write() {
@@ -134,11 +135,14 @@ class StepWriter {
     out_.open("[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z)");
     if (coefficients_) out_.line("const Coefficients k = prepare(par, h);");
     if (start_) out_.line("Start start;");
-    out_.line("State dz;");
+    out_.line(rest_ ? "State dz, rest;" : "State dz;");
     out_.line("const StepReport report = " + call({"par", "k", "h", "z", "State()", "start", ""}) +
               ";");
     out_.line("if (!report.converged) return report;");
-    write_each([](const std::string& x) { return fmt::format("z.{0} += dz.{0};", x); });
+    write_each([this](const std::string& x) {
+      return fmt::format(fmt::runtime(rest_ ? "z.{0} += dz.{0} + rest.{0};" : "z.{0} += dz.{0};"),
+                         x);
+    });
     out_.line("return report;");
     out_.close();
     out_.line();
@@ -228,7 +232,7 @@ class StepWriter {
   // One solve, tried again without what is known from earlier steps, and the update.
   void write_solve(const CallNames& names) {
     const bool extrapolates = code_.unknowns > 0;
-    out_.line("State dz;");
+    out_.line(rest_ ? "State dz, rest;" : "State dz;");
     if (!extrapolates) {
       out_.line("const StepReport report = " + call(names) + ";");
       out_.line("if (!report.converged) return report;");
@@ -253,7 +257,9 @@ class StepWriter {
       out_.line(fmt::format("{}.record({}.value);", history, start));
     }
     write_each([&](const std::string& x) {
-      return fmt::format("two_sum({0}.{2}, {1}.{2}, dz.{2});", names.z, names.carry, x);
+      return fmt::format(fmt::runtime(rest_ ? "add({0}.{2}, {1}.{2}, dz.{2}, rest.{2});"
+                                            : "two_sum({0}.{2}, {1}.{2}, dz.{2});"),
+                         names.z, names.carry, x);
     });
     out_.line("return report;");
   }
@@ -309,7 +315,7 @@ class StepWriter {
   CodeWriter& out_;
   const CppContext& context_;
   const StepCode& code_;
-  bool coefficients_, start_, composed_;
+  bool coefficients_, start_, rest_, composed_;
 };
 
 }  // namespace
@@ -362,11 +368,14 @@ void write_solver(CodeWriter& out, CppContext& context) {
     if (!context.arrays()) context.write_routine(out, part);
   }
   out.lines(cpp_numerics("two_sum"));
+  if (context.code.has_rest()) out.lines(cpp_numerics("sum_with_rest"));
+  if (has<Collect>(solve)) out.lines(cpp_numerics("collected_sum"));
   const bool newton = iterates(solve, Rule::newton);
   const bool fixed_point = iterates(solve, Rule::fixed_point);
   if (newton || fixed_point) out.lines(cpp_numerics("verdict"));
   if (newton) out.lines(cpp_numerics("newton_rule"));
   if (fixed_point) out.lines(cpp_numerics("fixed_point_rule"));
+  if (has<Refine>(solve)) out.lines(cpp_numerics("refinement"));
   if (const Record* start = context.code.record("Start")) {
     write_record(out, *start, context.scalar);
     out.line();
@@ -375,5 +384,28 @@ void write_solver(CodeWriter& out, CppContext& context) {
 }
 
 void write_steps(CodeWriter& out, const CppContext& context) { StepWriter(out, context).write(); }
+
+void write_advance(CodeWriter& out) {
+  out.lines(R"(// Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+StepReport advance(long long steps) {
+  StepReport total;
+  total.converged = true;
+  for (long long i = 0; i < steps; ++i) {
+    const StepReport report = step();
+    total.iterations += report.iterations;
+    total.increment = report.increment;
+    if (!report.converged) {
+      total.converged = false;
+      break;
+    }
+  }
+  return total;
+}
+
+[[nodiscard]] const State& state() const { return z_; }
+// What rounding took from the state: the sum of both is what the steps go on from.
+[[nodiscard]] const State& carry() const { return carry_; }
+)");
+}
 
 }  // namespace hamgen

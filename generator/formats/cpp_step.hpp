@@ -18,4 +18,7 @@ void write_solver(CodeWriter& out, CppContext& context);
 // step(par, h, z) and the class Propagator.
 void write_steps(CodeWriter& out, const CppContext& context);
 
+// The functions advance(), state() and carry() of a class with step(), z_ and carry_.
+void write_advance(CodeWriter& out);
+
 }  // namespace hamgen

@@ -49,7 +49,8 @@ std::string substep_of(const CppContext& context) {
                                                     : argument.name;
     arguments += (arguments.empty() ? "" : ", ") + name;
   }
-  return text + "    State dz;\n    if (!solve(" + arguments + ").converged) return false;\n";
+  const char* result = context.code.has_rest() ? "    State dz, rest;\n" : "    State dz;\n";
+  return text + result + "    if (!solve(" + arguments + ").converged) return false;\n";
 }
 
 }  // namespace
@@ -138,10 +139,12 @@ void write_composition_tangent(CodeWriter& out, const CppContext& context) {
       fmt::arg("lengths", row_of(lengths, context.scalar)),
       fmt::arg("factor", tangent_name(StepRole::substep)),
       fmt::arg("solve", context.arrays() ? kSubstepOfArrays : substep_of(context)),
-      fmt::arg("update",
-               context.arrays()
-                   ? "    now = end;\n    carry = substep.carry();\n"
-                   : each_field(context, 0, size, "    two_sum(now.{x}, carry.{x}, dz.{x});\n"))));
+      fmt::arg("update", context.arrays()
+                             ? "    now = end;\n    carry = substep.carry();\n"
+                             : each_field(context, 0, size,
+                                          context.code.has_rest()
+                                              ? "    add(now.{x}, carry.{x}, dz.{x}, rest.{x});\n"
+                                              : "    two_sum(now.{x}, carry.{x}, dz.{x});\n"))));
 }
 
 void write_explicit_tangent(CodeWriter& out, const CppContext& context) {

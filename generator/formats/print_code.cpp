@@ -32,8 +32,9 @@ class RoutinePrinter {
             dialect.scalar, [this](const std::string& symbol) { return name(symbol); },
             dialect.builtins) {
     // What iterations declare.
-    for (const char* local : {"size", "scale", "iteration", "verdict", "progress", "length",
-                              "increment", "sweep", "part", "i", "j", "rule"}) {
+    for (const char* local :
+         {"size", "scale", "iteration", "verdict", "progress", "length", "increment", "sweep",
+          "part", "i", "j", "rule", "more", "lack", "slope", "point"}) {
       names_.reserve(local);
     }
     for (const Argument& argument : routine.arguments) names_.reserve(argument.name);
@@ -75,6 +76,10 @@ class RoutinePrinter {
     const std::string value = cpp_(assign.value);
     out_.line(fmt::format("{} = {};", name(assign.symbol), value));
   }
+  void operator()(const Collect& sum) {
+    const std::string value = cpp_(sum.value);
+    out_.line(fmt::format("collect({}, {}, {});", name(sum.symbol), name(sum.lost), value));
+  }
   // target += value, or target -= what follows a minus, if that is one product.
   void operator()(const Accumulate& sum) {
     const std::string value = cpp_(sum.value);
@@ -104,8 +109,8 @@ class RoutinePrinter {
                           matrix.name));
   }
   void operator()(const Copy& copy) {
-    out_.line(
-        fmt::format("{}{} = {};", copy.declares ? copy.record + " " : "", copy.to, copy.from));
+    const std::string from = copy.from.empty() ? copy.record + "()" : copy.from;
+    out_.line(fmt::format("{}{} = {};", copy.declares ? copy.record + " " : "", copy.to, from));
   }
   void operator()(const Put& put) {
     const std::string value = cpp_(put.value);
@@ -148,6 +153,44 @@ class RoutinePrinter {
       std::string value = names_.local(u.symbol);
       if (iterate.rule == Rule::newton) value += " + " + cpp_(u.correction);
       out_.line(fmt::format("start.value[{}] = {};", u.memory, value));
+    }
+  }
+  void operator()(const Refine& refine) {
+    const std::string kept = kept_name(refine);
+    const auto list = [&](const auto& items, const auto& item) {
+      std::vector<std::string> texts;
+      for (const auto& each : items) texts.push_back(item(each));
+      return joined(texts, ", ");
+    };
+    out_.line(fmt::format("Refinement<{}, {}> {};", refine.unknowns.size(), refine.gradient.size(),
+                          refine.name));
+    if (!refine.kept.empty())
+      out_.line(fmt::format("Real {}[{}] = {{}};", kept, refine.kept.size()));
+    out_.open("for (bool more = true; more;)");
+    print(refine.body);
+    out_.line(fmt::format("const Real lack[{}] = {{{}}};", refine.unknowns.size(),
+                          list(refine.unknowns, [&](const Unknown& u) {
+                            return cpp_(u.correction - Expression::symbol(u.symbol));
+                          })));
+    out_.line(fmt::format("const Real slope[{}] = {{{}}};", refine.gradient.size(),
+                          list(refine.gradient, [&](const Expression& e) { return cpp_(e); })));
+    if (!refine.kept.empty()) {
+      out_.open(fmt::format("if ({}.rounds == 0)", refine.name));
+      for (std::size_t j = 0; j < refine.kept.size(); ++j) {
+        out_.line(fmt::format("{}[{}] = {};", kept, j, names_.local(refine.kept[j])));
+      }
+      out_.close();
+    }
+    out_.line(fmt::format(
+        "Real point[{}] = {{{}}};", refine.unknowns.size(),
+        list(refine.unknowns, [&](const Unknown& u) { return names_.local(u.symbol); })));
+    out_.line(fmt::format("more = {}(point, lack, slope);", refine.name));
+    for (std::size_t j = 0; j < refine.unknowns.size(); ++j) {
+      out_.line(fmt::format("{} = point[{}];", names_.local(refine.unknowns[j].symbol), j));
+    }
+    out_.close();
+    for (std::size_t j = 0; j < refine.kept.size(); ++j) {
+      out_.line(fmt::format("{} = {}[{}];", names_.local(refine.kept[j]), kept, j));
     }
   }
   void operator()(const Sweep& sweep) {
@@ -227,6 +270,11 @@ class RoutinePrinter {
     out_.open(head);
     print(body);
     out_.close();
+  }
+
+  // Where the values of the body at the rounded unknowns wait: kept_0 beside refinement_0.
+  [[nodiscard]] static std::string kept_name(const Refine& refine) {
+    return "kept" + refine.name.substr(refine.name.rfind('_'));
   }
 
   void newton(const Iterate& iterate) {
@@ -399,6 +447,10 @@ class RoutinePrinter {
       if (const auto* matrix = std::get_if<Matrix>(&node.value)) names_.reserve(matrix->name);
       if (const auto* copy = std::get_if<Copy>(&node.value)) names_.reserve(copy->to);
       if (const auto* loop = std::get_if<For>(&node.value)) names_.reserve(loop->range.index);
+      if (const auto* refine = std::get_if<Refine>(&node.value)) {
+        names_.reserve(refine->name);
+        names_.reserve(kept_name(*refine));
+      }
       for (const Body* inner : inner_bodies(node)) reserve_arrays(*inner);
     }
   }

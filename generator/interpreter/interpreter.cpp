@@ -51,7 +51,8 @@ void Interpreter<Real>::reset(const std::vector<Real>& state, const std::vector<
 
 template <class Real>
 typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Object<Real>& z,
-                                                            Object<Real>& carry, Object<Real>& dz) {
+                                                            Object<Real>& carry, Object<Real>& dz,
+                                                            Object<Real>& rest) {
   std::vector<Given<Real>> arguments;
   for (const Argument& argument : code_->routine("solve")->arguments) {
     const std::string& name = argument.name;
@@ -63,6 +64,7 @@ typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Ob
                                 : name == "z"     ? z
                                 : name == "carry" ? carry
                                 : name == "start" ? substep.start
+                                : name == "rest"  ? rest
                                                   : dz));
     }
   }
@@ -75,6 +77,7 @@ template <class Real>
 typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Object<Real>& z,
                                                            Object<Real>& carry) {
   Object<Real> dz = make_object<Real>(*code_->record("State"));
+  Object<Real> rest = make_object<Real>(*code_->record("State"));
   const bool extrapolates = code_->unknowns > 0;
   bool known = false;
   if (extrapolates) {
@@ -83,11 +86,11 @@ typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Obj
     std::vector<Real>& value = substep.start.numbers;
     if (known) substep.history->extrapolate(value);
   }
-  Report report = solve(substep, z, carry, dz);
+  Report report = solve(substep, z, carry, dz, rest);
   if (!report.converged && known) {
     const long long wasted = report.iterations;
     substep.start = make_object<Real>(*code_->record("Start"));
-    report = solve(substep, z, carry, dz);
+    report = solve(substep, z, carry, dz, rest);
     report.iterations += wasted;
   }
   if (!report.converged) return report;
@@ -99,7 +102,11 @@ typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Obj
     substep.history->record(substep.start.numbers);
   }
   for (std::size_t i = 0; i < z.numbers.size(); ++i) {
-    NumericsOf<Real>::add(z.numbers[i], carry.numbers[i], dz.numbers[i]);
+    if (code_->has_rest()) {
+      NumericsOf<Real>::add_rest(z.numbers[i], carry.numbers[i], dz.numbers[i], rest.numbers[i]);
+    } else {
+      NumericsOf<Real>::add_small(z.numbers[i], carry.numbers[i], dz.numbers[i]);
+    }
   }
   return report;
 }

@@ -43,7 +43,8 @@ class Interpreter {
     Object<Real> start;
     std::unique_ptr<AnyHistory<Real>> history;
   };
-  Report solve(Substep& substep, Object<Real>& z, Object<Real>& carry, Object<Real>& dz);
+  Report solve(Substep& substep, Object<Real>& z, Object<Real>& carry, Object<Real>& dz,
+               Object<Real>& rest);
   Report take(Substep& substep, Object<Real>& z, Object<Real>& carry);
   void forget(Substep& substep);
   [[nodiscard]] Given<Real> given(Object<Real>& object) const {

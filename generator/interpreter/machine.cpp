@@ -87,6 +87,14 @@ class Machine<Real>::Compiler {
       return true;
     };
   }
+  Step operator()(const Collect& sum) {
+    const Address target = address(sum.symbol);
+    const Address lost = address(sum.lost);
+    return [this, target, lost, value = compiled(sum.value)] {
+      NumericsOf<Real>::collect_rest(m_.frame_.at(target), m_.frame_.at(lost), value(m_.frame_));
+      return true;
+    };
+  }
   Step operator()(const Array& array) {
     const Address target{index_of(array.name), 0, {}};
     std::vector<CompiledExpression<Real>> values;
@@ -107,6 +115,12 @@ class Machine<Real>::Compiler {
   }
   Step operator()(const Copy& copy) {
     const int to = index_of(copy.to);
+    if (copy.from.empty()) {
+      return [this, to] {
+        std::ranges::fill(object(to).numbers, Real(0));
+        return true;
+      };
+    }
     const int from = index_of(copy.from);
     return [this, to, from] {
       object(to).numbers = object(from).numbers;
@@ -223,6 +237,40 @@ class Machine<Real>::Compiler {
         kept[u.memory] = m_.frame_.at(u.target);
         if (newton) kept[u.memory] += u.correction(m_.frame_);
       }
+      return true;
+    };
+  }
+  Step operator()(const Refine& refine) {
+    std::vector<Unknown> list = refine.unknowns;
+    for (Unknown& u : list) u.correction = u.correction - Expression::symbol(u.symbol);
+    const std::vector<Compiled> unknowns = compiled(list);
+    std::vector<CompiledExpression<Real>> gradient;
+    for (const Expression& e : refine.gradient) gradient.push_back(compiled(e));
+    std::vector<Address> kept;
+    for (const std::string& symbol : refine.kept) kept.push_back(address(symbol));
+    const Address change{index_of(refine.name), 0, {}};
+    return [this, unknowns, gradient, kept, change, body = steps(refine.body)] {
+      const auto refinement = make_refinement<Real>(static_cast<int>(unknowns.size()),
+                                                    static_cast<int>(gradient.size()));
+      std::vector<Real> waiting(kept.size());
+      for (bool more = true; more;) {
+        if (!run_all(body)) return false;
+        std::vector<Real> lack;
+        std::vector<Real> slope;
+        std::vector<Real> point;
+        for (const Compiled& u : unknowns) {
+          lack.push_back(u.correction(m_.frame_));
+          point.push_back(m_.frame_.at(u.target));
+        }
+        for (const auto& component : gradient) slope.push_back(component(m_.frame_));
+        for (std::size_t j = 0; refinement->is_first() && j < kept.size(); ++j) {
+          waiting[j] = m_.frame_.at(kept[j]);
+        }
+        more = (*refinement)(point, lack, slope);
+        for (std::size_t j = 0; j < point.size(); ++j) m_.frame_.at(unknowns[j].target) = point[j];
+      }
+      for (std::size_t j = 0; j < kept.size(); ++j) m_.frame_.at(kept[j]) = waiting[j];
+      refinement->get_change({&m_.frame_.at(change), gradient.size()});
       return true;
     };
   }
@@ -362,6 +410,10 @@ class Machine<Real>::Compiler {
       if (const auto* array = std::get_if<Array>(&instruction.value)) {
         declare(array->name, nullptr, array->sizes);
       }
+      if (const auto* refine = std::get_if<Refine>(&instruction.value)) {
+        // As if it had one field: its change.
+        declare(refine->name, nullptr, {static_cast<int>(refine->gradient.size())});
+      }
       const auto* copy = std::get_if<Copy>(&instruction.value);
       if (copy != nullptr && copy->declares) declare(copy->to, code_.record(copy->record), {});
       for (const Body* inner : inner_bodies(instruction)) declare_all(*inner);
@@ -394,7 +446,7 @@ class Machine<Real>::Compiler {
 
   [[nodiscard]] std::vector<int> sizes_of(const Place& place) const {
     const Shape& shape = m_.shapes_[static_cast<std::size_t>(index_of(place.object))];
-    if (place.field.empty()) return shape.sizes;
+    if (place.field.empty() || shape.record == nullptr) return shape.sizes;
     return std::ranges::find(shape.record->fields, place.field, &Field::name)->sizes;
   }
   [[nodiscard]] int size_of(const Place& place) const { return sizes_of(place).front(); }
@@ -407,7 +459,8 @@ class Machine<Real>::Compiler {
     }
     Address result{index_of(place.object), 0, {}};
     const Shape& shape = m_.shapes_[static_cast<std::size_t>(result.object)];
-    if (!place.field.empty()) result.offset = offset_of(*shape.record, place.field);
+    if (!place.field.empty() && shape.record != nullptr)
+      result.offset = offset_of(*shape.record, place.field);
     const std::vector<int> sizes = sizes_of(place);
     long stride = product(sizes);
     for (std::size_t k = 0; k < place.indices.size(); ++k) {

@@ -82,6 +82,26 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
 };
 
 template <class Real, int Size>
+class RefinementOf final : public AnyRefinement<Real> {
+ public:
+  bool operator()(std::span<Real> point, std::span<const Real> lack,
+                  std::span<const Real> slope) override {
+    Padded<Real, Size> all(point);
+    const bool more = refinement_(all.padded, Padded<Real, Size>(lack).padded,
+                                  Padded<Real, 2 * Size>(slope).padded);
+    std::copy_n(all.padded, point.size(), point.begin());
+    return more;
+  }
+  [[nodiscard]] bool is_first() const override { return refinement_.rounds == 0; }
+  void get_change(std::span<Real> change) const override {
+    std::copy_n(refinement_.change, change.size(), change.begin());
+  }
+
+ private:
+  typename NumericsOf<Real>::template Refined<Size> refinement_;
+};
+
+template <class Real, int Size>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
   explicit MatrixOf(int size) {
@@ -132,6 +152,14 @@ std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size) {
 }
 
 template <class Real>
+std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components) {
+  const int size = std::max(unknowns, (components + 1) / 2);
+  return at_least<1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+    return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
+  });
+}
+
+template <class Real>
 std::unique_ptr<AnyMatrix<Real>> make_matrix(int size) {
   return at_least<256>(size, [size](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     return std::make_unique<MatrixOf<Real, decltype(n)::value>>(size);
@@ -150,6 +178,10 @@ template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule(int);
 template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule(int);
 template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule(int);
 template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyRefinement<float>> make_refinement(int, int);
+template std::unique_ptr<AnyRefinement<double>> make_refinement(int, int);
+template std::unique_ptr<AnyRefinement<long double>> make_refinement(int, int);
+template std::unique_ptr<AnyRefinement<Quad>> make_refinement(int, int);
 template std::unique_ptr<AnyMatrix<float>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<double>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<long double>> make_matrix(int);

@@ -74,6 +74,15 @@ struct AnyFixedPointRule {
   [[nodiscard]] virtual Real size() const = 0;
 };
 template <class Real>
+struct AnyRefinement {
+  virtual ~AnyRefinement() = default;
+  // True if it wants the values once more, at the point it has moved.
+  virtual bool operator()(std::span<Real> point, std::span<const Real> lack,
+                          std::span<const Real> slope) = 0;
+  [[nodiscard]] virtual bool is_first() const = 0;
+  virtual void get_change(std::span<Real> change) const = 0;
+};
+template <class Real>
 struct AnyMatrix {
   virtual ~AnyMatrix() = default;
   virtual void put(int row, int column, Real value) = 0;
@@ -88,6 +97,9 @@ template <class Real>
 [[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power);
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size);
+// For up to twice as many components of the gradient as unknowns.
+template <class Real>
+[[nodiscard]] std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components);
 // Up to 256 rows.
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyMatrix<Real>> make_matrix(int size);

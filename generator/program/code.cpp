@@ -43,6 +43,10 @@ struct Reader {
     found.written.insert(assign.symbol);
     mention(assign.value, found);
   }
+  void operator()(const Collect& sum) const {
+    found.written.insert({sum.symbol, sum.lost});
+    mention(sum.value, found);
+  }
   void operator()(const Accumulate& sum) const {
     found.written.insert(sum.symbol);
     mention(sum.value, found);
@@ -64,6 +68,11 @@ struct Reader {
     found.objects.insert("start");
     mention(iterate.unknowns, found);
     mention(iterate.body, found);
+  }
+  void operator()(const Refine& refine) const {
+    mention(refine.unknowns, found);
+    mention(refine.body, found);
+    for (const Expression& e : refine.gradient) mention(e, found);
   }
   void operator()(const Sweep& sweep) const {
     mention(sweep.unknowns, found);
@@ -87,6 +96,7 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* scope = std::get_if<Scope>(&instruction.value)) return {&scope->body};
   if (const auto* branch = std::get_if<If>(&instruction.value)) return {&branch->then};
   if (const auto* iterate = std::get_if<Iterate>(&instruction.value)) return {&iterate->body};
+  if (const auto* refine = std::get_if<Refine>(&instruction.value)) return {&refine->body};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
   return {};
 }

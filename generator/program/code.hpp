@@ -65,7 +65,7 @@ struct Matrix {
   int size = 0;
   bool large = false;
 };
-// to = from, both records of one type; `declares` a local of it.
+// to = from, both records of one type; `declares` a local of it.  Without `from` zeros.
 struct Copy {
   std::string record;
   std::string to, from;
@@ -73,6 +73,11 @@ struct Copy {
 };
 struct Assign {
   std::string symbol;
+  Expression value;
+};
+// symbol += value, where what rounding loses is added to `lost`.
+struct Collect {
+  std::string symbol, lost;
   Expression value;
 };
 // symbol += value
@@ -139,6 +144,16 @@ struct Iterate {
   Body body;
   std::vector<std::string> kept;  // symbols of the body that what follows uses
 };
+// What a fixed point lacks below the last place of its unknowns: see numerics/refinement.hpp.  The
+// values of the body stay those at the unknowns; element j of the object's `change` is what the
+// component `gradient` j lacks there.
+struct Refine {
+  std::string name;
+  std::vector<Unknown> unknowns;
+  Body body;
+  std::vector<std::string> kept;
+  std::vector<Expression> gradient;
+};
 // The body a fixed number of times; then the unknowns are `results`.
 struct Sweep {
   int count = 0;
@@ -157,8 +172,8 @@ struct Return {
 };
 
 struct Instruction {
-  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Put, SetFlag, For, Scope, If, Call,
-               Factorise, SolveFactorised, Invert, Iterate, Sweep, Return>
+  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Put, SetFlag, For, Scope, If,
+               Call, Factorise, SolveFactorised, Invert, Iterate, Refine, Sweep, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
 };

@@ -54,6 +54,9 @@ class Printer {
   void operator()(const Assign& assign) {
     line(fmt::format("{} <- {}", assign.symbol, to_text(assign.value)));
   }
+  void operator()(const Collect& sum) {
+    line(fmt::format("{}, {} += {}", sum.symbol, sum.lost, to_text(sum.value)));
+  }
   void operator()(const Accumulate& sum) {
     line(fmt::format("{} += {}", sum.symbol, to_text(sum.value)));
   }
@@ -86,6 +89,11 @@ class Printer {
                                       : "iterate to the fixed point:");
     inside(iterate.body);
     unknowns(iterate.unknowns, iterate.rule == Rule::newton ? "correct" : "next");
+  }
+  void operator()(const Refine& refine) {
+    line(fmt::format("refine the fixed point, {}:", refine.name));
+    inside(refine.body);
+    unknowns(refine.unknowns, "next");
   }
   void operator()(const Sweep& sweep) {
     line(fmt::format("{} sweeps:", sweep.count));

@@ -21,8 +21,8 @@ Lowering::Lowering(std::vector<Section> sections) : sections_(std::move(sections
 
 void Lowering::declare(const std::string& name, int section) { levels_[name] = section; }
 
-void Lowering::define(std::string name, Expression value, int section) {
-  definitions_.push_back({std::move(name), std::move(value), section});
+void Lowering::define(std::string name, Expression value, int section, Keep keep) {
+  definitions_.push_back({std::move(name), std::move(value), section, keep == Keep::yes});
 }
 
 std::size_t Lowering::want(Expression value, int section) {
@@ -44,7 +44,7 @@ void Lowering::inline_trivial() {
     const Expression& value = definition.value;
     // A multiple of one symbol is cheaper used than stored.
     const auto [coefficient, rest] = value.split_coefficient();
-    if (is_trivial(value) || rest.kind() == Kind::symbol) {
+    if (is_trivial(value) || (rest.kind() == Kind::symbol && !definition.keep)) {
       replacements[definition.name] = value;
     } else {
       kept.push_back(std::move(definition));

@@ -18,8 +18,8 @@ struct Section {
 struct WantedValue {
   std::string name;
   Expression value;
-  int section = 0;  // where it is wanted; it moves up if it depends on less
-  bool movable = true;
+  int section = 0;    // where it is wanted; it moves up if it depends on less
+  bool keep = false;  // a number of its own, though it is a multiple of another
 };
 
 class Lowering {
@@ -29,7 +29,8 @@ class Lowering {
   // Declares a symbol that exists from a section on (state, parameters, loop variables).
   void declare(const std::string& name, int section);
   // Adds definitions whose values are wanted; results are rewritten in place by `run`.
-  void define(std::string name, Expression value, int section);
+  enum class Keep { no, yes };
+  void define(std::string name, Expression value, int section, Keep keep = Keep::no);
   // An expression evaluated in a section but not named (increments, residuals).
   std::size_t want(Expression value, int section);
 

@@ -7,9 +7,8 @@ namespace hamgen {
 
 void StepBuilder::evaluate_gradient(NewtonBlock& newton, int k) {
   if (known_gradient_[index(k)]) return;
-  known_gradient_[index(k)] = true;
   newton.evaluated.push_back(k);
-  define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), newton.where);
+  define_gradient(k, newton.where);
 }
 
 Expression StepBuilder::second_derivative(NewtonBlock& newton, int k, int v) {
@@ -52,8 +51,6 @@ Expression StepBuilder::increment_symbol(int x) const {
   return Expression::symbol("delta(" + name_of(x) + ")", kRankOfTemporary);
 }
 
-namespace {
-
 NewtonBlock newton_block(const Block& block) {
   NewtonBlock newton{.block = block, .members = block.unknowns};
   const std::size_t m = block.unknowns.size();
@@ -65,88 +62,95 @@ NewtonBlock newton_block(const Block& block) {
   return newton;
 }
 
-}  // namespace
-
 // Newton's iteration on the unknowns, with the torn variables eliminated by the chain rule.  The
 // last increment also corrects the gradient to first order, so that no evaluation at the solution
-// is needed: the error is quadratic in that increment, as Newton's own.
+// is needed: the error is quadratic in that increment, as Newton's own.  An affine block differs by
+// its matrix, which is inverted once per run where it is constant.
 void StepBuilder::add_newton(const Block& block) {
   PendingSolve pending;
-  pending.solve.kind = block.kind;
+  pending.solve.kind = BlockKind::newton;
   pending.solve.linear_solver = linear_solver(block);
   pending.solve.constant_matrix = block.kind == BlockKind::linear && block.constant_matrix;
   const bool written_out = pending.solve.linear_solver == LinearSolver::written_out;
-
-  NewtonBlock newton = newton_block(block);
-  newton.iterates = block.kind != BlockKind::linear;
-  if (newton.iterates || !written_out) open_solve();
+  open_solve();
   pending.stage = stage_;
-  newton.where = newton.iterates ? body(stage_) : (written_out ? straight() : before(stage_));
-  newton.outside = newton.iterates || !written_out ? after(stage_) : straight();
+  NewtonBlock newton = newton_block(block);
+  newton.where = body(stage_);
+  newton.outside = after(stage_);
 
   for (const int x : block.unknowns) {
-    if (newton.iterates) {
-      lowering_.declare(stage_value_[index(x)].name(), newton.where);
-    } else {
-      // An affine system may start anywhere.  From 0 the increment is the solution itself, and
-      // nothing cancels for large h; from z it would lose (h omega)^2 units of rounding.
-      stage_value_[index(x)] = Expression(0);
-    }
+    lowering_.declare(stage_value_[index(x)].name(), newton.where);
   }
   for (const int t : block.torn) tear_out(newton, t);
   for (const int x : block.unknowns) {
     for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
   }
-  for (std::size_t i = 0; i < block.unknowns.size(); ++i) {
-    const int x = block.unknowns[i];
+  for (const int x : block.unknowns) {
     newton.residual.push_back(stage_value_[index(x)] - row(x, newton.where));
-    std::vector<Expression> line;
-    for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
-      const auto slope = [&](int v) { return newton.slopes.at(v)[j]; };
-      line.push_back(Expression(i == j ? 1 : 0) - chain(newton, x, slope));
-    }
-    newton.matrix.push_back(std::move(line));
+    add_matrix_row(newton, x);
   }
   solve_linear_system(newton, pending);
   for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
     const int x = block.unknowns[j];
     pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
-    if (!newton.iterates) pending.solve.variables.back().name = increment_symbol(x).name();
     pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
-    if (written_out && newton.iterates) {
+    if (written_out) {
       pending.correction.push_back(lowering_.want(newton.increments[j], newton.where));
     }
   }
-  if (newton.iterates || !written_out) solves_.push_back(std::move(pending));
+  solves_.push_back(std::move(pending));
   correct_solution(newton);
+}
+
+// d(bar_x - row x)/d(unknown j)
+void StepBuilder::add_matrix_row(NewtonBlock& newton, int x) {
+  auto& line = newton.matrix.emplace_back();
+  for (std::size_t j = 0; j < newton.block.unknowns.size(); ++j) {
+    const auto slope = [&](int v) { return newton.slopes.at(v)[j]; };
+    line.push_back(Expression(newton.block.unknowns[j] == x ? 1 : 0) - chain(newton, x, slope));
+  }
 }
 
 // Row t gives its variable, and the chain rule what it depends on.
 void StepBuilder::tear_out(NewtonBlock& newton, int t) {
-  Expression denominator(1);
-  if (equations_.depends(t, t)) {
-    // Affine in itself: solved for.
-    const Substitution zero{{equations_.stage(t).name(), Expression(0)}};
-    std::vector<Expression> terms{carry_symbol(t)};
-    for (const int k : equations_.row_gradients(t)) {
-      terms.push_back(weight(t, k) * at_stage(substitute(equations_.stage_gradient(k), zero)));
-      denominator += -(weight(t, k) * at_stage(equations_.stage_hessian(k, t)));
-    }
-    const Expression known =
-        equations_.mechanics.variable(t) +
-        named_rest(name_of(t), Expression::sum(std::move(terms)), newton.where);
-    define(stage_value_[index(t)], known / denominator, newton.where);
-  } else {
+  tear_value(newton, t);
+  tear_slopes(newton, t);
+  for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
+}
+
+Expression StepBuilder::own_slope(int t) const {
+  Expression slope(1);
+  if (!equations_.depends(t, t)) return slope;
+  for (const int k : equations_.row_gradients(t)) {
+    slope += -(weight(t, k) * at_stage(equations_.stage_hessian(k, t)));
+  }
+  return slope;
+}
+
+void StepBuilder::tear_value(NewtonBlock& newton, int t) {
+  if (!equations_.depends(t, t)) {
     for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
     define(stage_value_[index(t)], row(t, newton.where), newton.where);
+    return;
   }
+  // Affine in itself: solved for.
+  const Substitution zero{{equations_.stage(t).name(), Expression(0)}};
+  std::vector<Expression> terms{carry_symbol(t)};
+  for (const int k : equations_.row_gradients(t)) {
+    terms.push_back(weight(t, k) * at_stage(substitute(equations_.stage_gradient(k), zero)));
+  }
+  const Expression known = equations_.mechanics.variable(t) +
+                           named_rest(name_of(t), Expression::sum(std::move(terms)), newton.where);
+  define(stage_value_[index(t)], known / own_slope(t), newton.where);
+}
+
+void StepBuilder::tear_slopes(NewtonBlock& newton, int t) {
   std::vector<Expression> slopes;
   for (std::size_t j = 0; j < newton.block.unknowns.size(); ++j) {
     const Expression value =
-        chain(newton, t, [&](int v) { return newton.slopes.at(v)[j]; }) / denominator;
+        chain(newton, t, [&](int v) { return newton.slopes.at(v)[j]; }) / own_slope(t);
     slopes.push_back(name_slope(t, newton.block.unknowns[j], value, newton.where));
   }
-  for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
   newton.slopes[t] = std::move(slopes);
   newton.members.push_back(t);
 }

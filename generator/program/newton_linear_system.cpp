@@ -25,51 +25,93 @@ void StepBuilder::solve_linear_system(NewtonBlock& newton, PendingSolve& pending
   }
 }
 
-// -matrix^-1 residual by Cramer's rule, with the inverse named when it is constant.
+namespace {
+
+// Of a matrix of size 1, 2 or 3: entry (i, j) of the result is the cofactor of entry (i, j).
+std::vector<std::vector<Expression>> cofactors(const std::vector<std::vector<Expression>>& a) {
+  const std::size_t m = a.size();
+  std::vector<std::vector<Expression>> result(m, std::vector<Expression>(m, Expression(1)));
+  for (std::size_t i = 0; i < m && m > 1; ++i) {
+    for (std::size_t j = 0; j < m; ++j) {
+      if (m == 2) {
+        result[i][j] = i == j ? a[1 - i][1 - j] : -a[1 - i][1 - j];
+        continue;
+      }
+      // With cyclic indices they carry their sign.
+      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      result[i][j] = a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Expression StepBuilder::name_value(const std::string& text, const Expression& value, int section) {
+  if (value.is_number()) return value;
+  const Expression symbol = Expression::symbol(text, kRankOfTemporary);
+  define(symbol, value, section);
+  return symbol;
+}
+
+std::string StepBuilder::residual_name(const Block& block, std::size_t i) const {
+  return "R(" + name_of(block.unknowns[i]);
+}
+
+void StepBuilder::name_matrix(NewtonBlock& newton, std::size_t i) {
+  for (std::size_t j = 0; j < newton.matrix[i].size(); ++j) {
+    Expression& entry = newton.matrix[i][j];
+    const std::string& column = name_of(newton.block.unknowns[j]);
+    entry = name_value(residual_name(newton.block, i) + "," + column + ")", entry, newton.where);
+  }
+}
+
+// -matrix^-1 residual by Cramer's rule.
 void StepBuilder::write_out_solution(NewtonBlock& newton) {
   const Block& block = newton.block;
   const std::size_t m = newton.residual.size();
-  auto name = [&](const std::string& what, std::size_t i) {
-    return what + "(" + name_of(block.unknowns[i]);
-  };
-  auto named = [&](const std::string& text, const Expression& value) {
-    if (value.is_number()) return value;
-    const Expression symbol = Expression::symbol(text, kRankOfTemporary);
-    define(symbol, value, newton.where);
-    return symbol;
-  };
   std::vector<Expression> r;
-  std::vector<std::vector<Expression>> a(m, std::vector<Expression>(m));
   for (std::size_t i = 0; i < m; ++i) {
-    r.push_back(named(name("R", i) + ")", newton.residual[i]));
-    for (std::size_t j = 0; j < m; ++j) {
-      const std::string column = name_of(block.unknowns[j]);
-      a[i][j] = named(name("R", i) + "," + column + ")", newton.matrix[i][j]);
-    }
+    r.push_back(name_value(residual_name(block, i) + ")", newton.residual[i], newton.where));
+    name_matrix(newton, i);
   }
+  const auto& a = newton.matrix;
   if (m == 1) {
-    // A constant slope is inverted once per run.
     define(newton.increments[0], -(r[0] * Expression::power(a[0][0], Expression(-1))),
            newton.where);
     return;
   }
-  auto minor = [&](std::size_t i, std::size_t j) -> Expression {
-    if (m == 2) return a[1 - i][1 - j];
-    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    return a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];
-  };
-  // Cofactors of a 3 x 3 matrix with cyclic indices carry their sign; those of a 2 x 2 do not.
-  auto cofactor = [&](std::size_t i, std::size_t j) {
-    return m == 2 && i != j ? -minor(i, j) : minor(i, j);
-  };
+  const auto cofactor = cofactors(a);
   Expression determinant(0);
-  for (std::size_t j = 0; j < m; ++j) determinant += a[0][j] * cofactor(0, j);
+  for (std::size_t j = 0; j < m; ++j) determinant += a[0][j] * cofactor[0][j];
   const Expression inverse =
-      named(name("1/det", 0) + ")", Expression::power(determinant, Expression(-1)));
+      name_value("1/det(" + name_of(block.unknowns[0]) + ")",
+                 Expression::power(determinant, Expression(-1)), newton.where);
   for (std::size_t j = 0; j < m; ++j) {
     std::vector<Expression> terms;
-    for (std::size_t i = 0; i < m; ++i) terms.push_back(cofactor(i, j) * r[i]);
+    for (std::size_t i = 0; i < m; ++i) terms.push_back(cofactor[i][j] * r[i]);
     define(newton.increments[j], -(inverse * Expression::sum(std::move(terms))), newton.where);
+  }
+}
+
+void StepBuilder::write_out_inverse(NewtonBlock& newton) {
+  const Block& block = newton.block;
+  const std::size_t m = newton.matrix.size();
+  for (std::size_t i = 0; i < m; ++i) name_matrix(newton, i);
+  const auto& a = newton.matrix;
+  const auto cofactor = cofactors(a);
+  Expression determinant(0);
+  for (std::size_t j = 0; j < m; ++j) determinant += a[0][j] * cofactor[0][j];
+  const Expression reciprocal =
+      name_value("1/det(" + name_of(block.unknowns[0]) + ")",
+                 Expression::power(determinant, Expression(-1)), newton.where);
+  newton.inverse.assign(m, std::vector<Expression>(m));
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) {
+      newton.inverse[i][j] = name_value(
+          "inverse(" + name_of(block.unknowns[i]) + "," + name_of(block.unknowns[j]) + ")",
+          cofactor[j][i] * reciprocal, newton.where);
+    }
   }
 }
 

@@ -21,18 +21,22 @@ struct LoopVariable {
   Expression correction;  // Newton, size <= 3: what is added
 };
 
-// A loop, or for a linear system too large to write out a single solve.
+// A loop.
 struct Solve {
   BlockKind kind = BlockKind::newton;
   LinearSolver linear_solver = LinearSolver::written_out;
-  std::optional<int> sweeps;  // a fixed number of sweeps instead of a stopping rule
-  bool constant_matrix = false;
-  bool simplified = false;  // Newton with an approximate matrix: linear convergence
+  std::optional<int> sweeps;     // a fixed number of sweeps instead of a stopping rule
+  bool constant_matrix = false;  // inverted once per run
+  bool simplified = false;       // Newton with an approximate matrix: linear convergence
   std::vector<LoopVariable> variables;
   std::vector<Statement> body;       // evaluated once per iteration
-  std::vector<Expression> residual;  // for a linear solve that is not written out: size m
+  std::vector<Expression> residual;  // of a linear system that is not written out: size m
   std::vector<std::vector<Expression>> matrix;  // m x m
   std::vector<std::string> corrections;         // symbols of the solution -matrix^-1 residual
+  // Of a fixed point: components of the gradient, and the symbols of what they lack of their values
+  // at the exact solution, for the unknowns are rounded.
+  std::vector<Expression> gradient;
+  std::vector<std::string> changes;
 };
 
 struct Stage {
@@ -60,8 +64,10 @@ struct Program {
   std::vector<Statement> coefficients;  // of h and parameters: once per run
   std::vector<Stage> stages;
   std::vector<Expression> increments;  // Z_i - z_i, 2n; zero where nothing changes
-  Evaluation energy;                   // one result
-  Evaluation gradient;                 // 2n results
+  // What is added to the increments without rounding, 2n, or none: then these are all of it.
+  std::vector<Expression> rests = {};
+  Evaluation energy;    // one result
+  Evaluation gradient;  // 2n results
   Evaluation invariants;
   // The modified Hamiltonian, functions of h too: H + ... cut off after each of these powers of h.
   Evaluation modified_energies = {};

@@ -15,7 +15,9 @@ class SolveRoutine {
 
   Routine build(const SolveParts& parts, const CoefficientPlaces& coefficients) {
     routine_ = {.name = "solve",
-                .remark = {"dz = Z - z for one step from z + carry."},
+                .remark = {program_.rests.empty()
+                               ? "dz = Z - z for one step from z + carry."
+                               : "dz + rest = Z - z for one step from z + carry; rest is small."},
                 .result = {.type = "StepReport", .object = "report"},
                 .places = coefficients};
     add_arguments(parts);
@@ -52,6 +54,7 @@ class SolveRoutine {
     list.push_back(state_argument("carry"));
     if (parts.start) list.push_back({.name = "start", .record = "Start", .changes = true});
     list.push_back(state_argument("dz", true));
+    if (!program_.rests.empty()) list.push_back(state_argument("rest", true));
   }
 
   // The symbols a stage reads.
@@ -65,6 +68,7 @@ class SolveRoutine {
       for (const Expression& e : {v.cold, v.next, v.correction}) collect_symbols(e, used);
     }
     for (const Expression& e : solve.residual) collect_symbols(e, used);
+    for (const Expression& e : solve.gradient) collect_symbols(e, used);
     for (const auto& row : solve.matrix) {
       for (const Expression& e : row) collect_symbols(e, used);
     }
@@ -78,6 +82,7 @@ class SolveRoutine {
     for (const Statement& st : program_.stages[s].after) collect_symbols(st.value, later);
     for (std::size_t t = s + 1; t < program_.stages.size(); ++t) collect(program_.stages[t], later);
     for (const Expression& e : program_.increments) collect_symbols(e, later);
+    for (const Expression& e : program_.rests) collect_symbols(e, later);
     std::vector<std::string> result;
     for (const Statement& st : solve.body) {
       if (later.contains(st.name)) result.push_back(st.name);
@@ -99,7 +104,6 @@ class SolveRoutine {
   }
 
   void add_solve(std::size_t s, const Solve& solve) {
-    if (solve.kind == BlockKind::linear) return add_linear(s, solve);
     if (solve.sweeps) return add_sweeps(solve);
     const bool newton = solve.kind == BlockKind::newton;
     Iterate iterate{.rule = newton ? Rule::newton : Rule::fixed_point,
@@ -120,15 +124,19 @@ class SolveRoutine {
             Expression::symbol(solve.corrections[j], kRankOfTemporary);
       }
     }
-    if (newton && !solve.corrections.empty()) {
-      add_system(iterate.body, "matrix", "vector", solve);
-      assign_solution(iterate.body, "vector", solve, true);
-    }
+    if (newton && !solve.corrections.empty()) add_system(iterate.body, s, solve);
+    if (!newton) add_refinement(s, solve, iterate);
     routine_.body.push_back({std::move(iterate)});
     if (newton) {
       routine_.body.back().remark = {
           "Newton's iteration for the stage values: residual R, its derivatives, increments "
           "delta."};
+    } else {
+      routine_.body.push_back(
+          {std::move(refinement_),
+           {"The unknowns are rounded to the side that the iteration came from, at every step "
+            "alike.  What",
+            "the equations lack there is solved for too."}});
     }
   }
 
@@ -142,13 +150,41 @@ class SolveRoutine {
     routine_.body.push_back({std::move(sweep), {"Predictor: grad H at z."}});
   }
 
-  // matrix x = vector, solved.
-  void add_system(Body& body, const std::string& matrix, const std::string& vector,
-                  const Solve& solve) {
-    put_matrix(body, matrix, solve);
-    body.push_back({Array{vector, {static_cast<int>(solve.matrix.size())}, right_side(solve)}});
-    body.push_back({Factorise{matrix}});
-    body.push_back({SolveFactorised{matrix, vector}});
+  // The increments -matrix^-1 residual: by elimination, or with the inverse of a constant matrix.
+  void add_system(Body& body, std::size_t s, const Solve& solve) {
+    const auto size = static_cast<int>(solve.matrix.size());
+    if (!solve.constant_matrix) put_matrix(body, "matrix", solve);
+    body.push_back({Array{"vector", {size}, right_side(solve)}});
+    if (solve.constant_matrix) {
+      multiply(body, s, size);
+    } else {
+      body.push_back({Factorise{"matrix"}});
+      body.push_back({SolveFactorised{"matrix", "vector"}});
+    }
+    for (std::size_t j = 0; j < solve.corrections.size(); ++j) {
+      const char* solution = solve.constant_matrix ? "product" : "vector";
+      body.push_back(
+          {Assign{solve.corrections[j], bind_element(routine_, solution, {static_cast<int>(j)})}});
+    }
+  }
+
+  // product = k.inverse vector
+  void multiply(Body& body, std::size_t s, int size) {
+    const auto element = [&](const Place& place, const std::string& symbol) {
+      routine_.places.insert_or_assign(symbol, place);
+      return Expression::symbol(symbol, kRankOfTemporary);
+    };
+    const AffineIndex i{0, {{"i", 1}}};
+    const AffineIndex j{0, {{"j", 1}}};
+    const Expression term =
+        element({"k", inverse_name(s), {i, j}}, fmt::format("k.{}(i,j)", inverse_name(s))) *
+        element({"vector", "", {j}}, "vector(j)");
+    const Expression target = element({"product", "", {i}}, "product(i)");
+    body.push_back({Array{"product", {size}}});
+    const AffineIndex last{size - 1, {}};
+    Body sum{{Accumulate{target.name(), term}}};
+    Body row{{For{{"j", {0, {}}, last}, std::move(sum)}}};
+    body.push_back({For{{"i", {0, {}}, last}, std::move(row)}});
   }
 
   static std::vector<Expression> right_side(const Solve& solve) {
@@ -157,47 +193,18 @@ class SolveRoutine {
     return values;
   }
 
-  void assign_solution(Body& body, const std::string& vector, const Solve& solve, bool known) {
-    for (std::size_t j = 0; j < solve.corrections.size(); ++j) {
-      const Expression value = bind_element(routine_, vector, {static_cast<int>(j)});
-      if (known) {
-        body.push_back({Assign{solve.corrections[j], value}});
-      } else {
-        body.push_back({Let{solve.corrections[j], value}});
-      }
+  // Behind the iteration; what it changes are places in its object.
+  void add_refinement(std::size_t s, const Solve& solve, const Iterate& iterate) {
+    Refine refine{.name = fmt::format("refinement_{}", s),
+                  .unknowns = iterate.unknowns,
+                  .body = iterate.body,
+                  .kept = iterate.kept,
+                  .gradient = solve.gradient};
+    for (std::size_t j = 0; j < solve.changes.size(); ++j) {
+      routine_.places[solve.changes[j]] = {
+          refine.name, "change", {{.constant = static_cast<long>(j), .factors = {}}}};
     }
-  }
-
-  // A linear system too large to be written out.
-  void add_linear(std::size_t s, const Solve& solve) {
-    const std::string vector = fmt::format("vector_{}", s);
-    Body& body = routine_.body;
-    if (!solve.constant_matrix) {
-      add_system(body, fmt::format("matrix_{}", s), vector, solve);
-      return assign_solution(body, vector, solve, false);
-    }
-    const long last = std::ssize(solve.matrix) - 1;
-    const auto element = [&](const std::string& object, const std::string& field,
-                             const std::vector<std::string>& indices) {
-      Place place{.object = object, .field = field};
-      for (const std::string& index : indices) {
-        place.indices.push_back({.constant = 0, .factors = {{index, 1}}});
-      }
-      std::string symbol = to_text(place);
-      std::ranges::replace(symbol, '[', '(');
-      routine_.places.insert_or_assign(symbol, place);
-      return Expression::symbol(symbol, kRankOfTemporary);
-    };
-    const std::string product = fmt::format("product_{}", s);
-    body.push_back({Array{vector, {static_cast<int>(last) + 1}, right_side(solve)}});
-    body.push_back({Array{product, {static_cast<int>(last) + 1}}});
-    const KernelRange rows{"i", {0, {}}, {last, {}}};
-    const KernelRange columns{"j", {0, {}}, {last, {}}};
-    const Expression term = element("k", inverse_name(s), {"i", "j"}) * element(vector, "", {"j"});
-    Body sum{{Accumulate{element(product, "", {"i"}).name(), term}}};
-    Body loop{{For{columns, std::move(sum)}}};
-    body.push_back({For{rows, std::move(loop)}});
-    assign_solution(body, product, solve, false);
+    refinement_ = std::move(refine);
   }
 
   void add_increments() {
@@ -208,6 +215,10 @@ class SolveRoutine {
       const Expression target = environment_.bind_state(routine_, "dz", i);
       routine_.body.push_back({Assign{target.name(), increment}});
       end.finite.push_back(target.name());
+      if (program_.rests.empty()) continue;
+      const Expression rest = environment_.bind_state(routine_, "rest", i);
+      routine_.body.push_back({Assign{rest.name(), program_.rests[static_cast<std::size_t>(i)]}});
+      end.finite.push_back(rest.name());
     }
     routine_.body.push_back({std::move(end)});
   }
@@ -215,6 +226,7 @@ class SolveRoutine {
   const Environment& environment_;
   const Program& program_;
   Routine routine_;
+  Refine refinement_;
   int memory_ = 0;  // elements of start.value in use
 };
 

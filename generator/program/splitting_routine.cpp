@@ -30,6 +30,11 @@ struct Kind {
   [[nodiscard]] const char* lengths() const { return kick ? "kick" : "drift"; }
 };
 
+// Note [sums of kicks]
+// What is small is summed first, the carry with it, and nothing of it is lost.  The kicks of a step
+// are rounded multiples of one force where h and the coefficients are simple fractions, and then
+// what their rounded sum loses is a pattern, the same at every step, and not chance: for h = 1/5,
+// w = 1.3 the form of an oscillator drifts by 1e-3 units of rounding a step with sbab-3.
 class SplittingRoutine {
  public:
   SplittingRoutine(const Environment& environment, const Program& program)
@@ -51,7 +56,7 @@ class SplittingRoutine {
 
   Routine build() {
     routine_ = {.name = "solve",
-                .remark = {"dz = Z - z for one step from z + carry."},
+                .remark = {"dz + rest = Z - z for one step from z + carry."},
                 .result = {.type = "StepReport", .object = "report"},
                 .arguments = {parameters_argument(),
                               {.name = "k", .record = "Coefficients"},
@@ -61,10 +66,11 @@ class SplittingRoutine {
       routine_.arguments.push_back({.name = "start", .record = "Start", .changes = true});
     }
     routine_.arguments.push_back(state_argument("dz", true));
+    routine_.arguments.push_back(state_argument("rest", true));
     Body& body = routine_.body;
     body.push_back({Copy{"State", "now", "z", true}});
-    // What rounding took from z is part of the step from the beginning.
     body.push_back({Copy{"State", "dz", "carry"}});
+    body.push_back({Copy{"State", "rest", ""}});
     for (const Kind& kind : {first_, second_}) {
       if (kind.gradient.field.empty()) body.push_back({Array{kind.gradient.object, {n_}}});
     }
@@ -152,7 +158,8 @@ class SplittingRoutine {
       const Expression length = element({"k", kind.lengths()}, substep);
       const Expression slope = element(kind.gradient, i);
       const Expression dz = component("dz", kind.kick, i);
-      target.push_back({Accumulate{dz.name(), (kind.kick ? -length : length) * slope}});
+      const Expression rest = component("rest", kind.kick, i);
+      target.push_back({Collect{dz.name(), rest.name(), (kind.kick ? -length : length) * slope}});
       if (last) continue;
       target.push_back(
           {Assign{component("now", kind.kick, i).name(), component("z", kind.kick, i) + dz}});

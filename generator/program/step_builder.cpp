@@ -8,6 +8,15 @@ namespace hamgen {
 
 namespace {
 
+// The summands of a sum, or of a multiple of one.
+std::vector<Expression> terms_of(const Expression& e) {
+  const auto [coefficient, rest] = e.split_coefficient();
+  if (rest.kind() != Kind::sum) return {e};
+  std::vector<Expression> terms;
+  for (const Expression& term : rest.operands()) terms.push_back(Expression(coefficient) * term);
+  return terms;
+}
+
 std::vector<Section> sections(const SolvePlan& plan) {
   std::vector<Section> result(4 + 3 * plan.blocks.size() + 3);
   for (std::size_t s = 0; 2 + 3 * s < result.size(); ++s) result[2 + 3 * s].is_loop = true;
@@ -32,6 +41,7 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
     stage_value_.push_back(equations_.stage(i));
     gradient_.push_back(equations_.gradient_symbol(i));
   }
+  name_weights();
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -43,10 +53,13 @@ Program StepBuilder::build() {
     for (const Block& block : plan_.blocks) add_block(block);
   }
   std::vector<std::size_t> increments;
+  std::vector<std::size_t> rests;
   for (int i = 0; i < 2 * n_; ++i) {
     const int k = i < n_ ? i + n_ : i - n_;
     need_gradient(k);
-    increments.push_back(lowering_.want(increment(i, k), straight()));
+    const auto [large, small] = increment(i, k);
+    if (sums_exactly_) rests.push_back(lowering_.want(small, straight()));
+    increments.push_back(lowering_.want(sums_exactly_ ? large : large + small, straight()));
   }
   lowering_.run();
 
@@ -62,6 +75,7 @@ Program StepBuilder::build() {
   for (const std::size_t handle : increments) {
     program.increments.push_back(lowering_.wanted(handle));
   }
+  for (const std::size_t handle : rests) program.rests.push_back(lowering_.wanted(handle));
   return program;
 }
 
@@ -82,12 +96,15 @@ const std::string& StepBuilder::name_of(int i) const {
   return equations_.mechanics.variables[index(i)].name;
 }
 
-Expression StepBuilder::increment(int i, int k) {
-  if (gradient_[index(k)].is_zero()) return gradient_[index(k)];
+std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
+  if (gradient_[index(k)].is_zero()) return {Expression(0), Expression(0)};
   const Expression h = i < n_ ? step_size() : -step_size();
   const auto& [main, correction] = correction_[index(k)];
-  if (correction.is_zero()) return h * gradient_[index(k)] + carry_symbol(i);
-  return h * main + named_rest("d" + name_of(i), carry_symbol(i) + h * correction, straight());
+  if (correction.is_zero()) return {h * gradient_[index(k)], carry_symbol(i)};
+  std::vector<Expression> terms{carry_symbol(i)};
+  for (const Expression& term : terms_of(correction)) terms.push_back(h * term);
+  const Expression small = Expression::sum(std::move(terms));
+  return {h * main, sums_exactly_ ? small : named_rest("d" + name_of(i), small, straight())};
 }
 
 Expression StepBuilder::named_rest(const std::string& of, const Expression& value, int section) {
@@ -100,8 +117,7 @@ Expression StepBuilder::named_rest(const std::string& of, const Expression& valu
 
 void StepBuilder::need_gradient(int k) {
   if (known_gradient_[index(k)] || gradient_[index(k)].is_zero()) return;
-  known_gradient_[index(k)] = true;
-  lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), straight());
+  define_gradient(k, straight());
 }
 
 Expression StepBuilder::at_stage(const Expression& e) const {
@@ -124,7 +140,44 @@ Expression StepBuilder::row(int i, int section) {
 }
 
 Expression StepBuilder::weight(int i, int k) const {
-  return step_size() * equations_.stage_matrix.at({i, k});
+  const auto it = weights_.find({i, k});
+  return it != weights_.end() ? it->second : step_size() * equations_.stage_matrix.at({i, k});
+}
+
+void StepBuilder::name_weights() {
+  const auto is_exact = [](const Expression& e) {
+    return e.is_zero() || e.is_one() || e == Expression(Rational(1, 2));
+  };
+  ExpressionMap<std::pair<Expression, Expression>> pairs;
+  for (int i = 0; i < n_; ++i) {
+    const auto q = equations_.stage_matrix.find({i, n_ + i});
+    const auto p = equations_.stage_matrix.find({n_ + i, i});
+    if (q == equations_.stage_matrix.end() || is_exact(q->second)) continue;
+    auto pair = pairs.find(q->second);
+    if (pair == pairs.end()) {
+      const auto named = [&](const std::string& what, const Expression& value) {
+        const Expression symbol =
+            Expression::symbol(fmt::format("{}({})", what, to_text(q->second)), kRankOfTemporary);
+        lowering_.define(symbol.name(), value, kCoefficients, Lowering::Keep::yes);
+        return symbol;
+      };
+      const Expression first = named("weight", step_size() * q->second);
+      const Expression of_p = named("1 - weight", step_size() - first);
+      const Expression of_q = named("weight*", step_size() - of_p);
+      pair = pairs.emplace(q->second, std::pair(of_q, of_p)).first;
+    }
+    weights_[{i, n_ + i}] = pair->second.first;
+    if (p != equations_.stage_matrix.end()) weights_[{n_ + i, i}] = -pair->second.second;
+  }
+  keeps_gradients_ = std::ranges::any_of(equations_.stage_matrix, [&](const auto& entry) {
+    return !is_exact(entry.second) && !is_exact(-entry.second);
+  });
+}
+
+void StepBuilder::define_gradient(int k, int section) {
+  known_gradient_[index(k)] = true;
+  lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), section,
+                   keeps_gradients_ ? Lowering::Keep::yes : Lowering::Keep::no);
 }
 
 void StepBuilder::define(const Expression& symbol, const Expression& value, int section) {
@@ -140,6 +193,8 @@ void StepBuilder::renew(Expression& value, const std::string& name, const Expres
 }
 
 void StepBuilder::add_block(const Block& block) {
+  for (const int v : block.unknowns) solved_.insert(equations_.stage(v).name());
+  for (const int v : block.torn) solved_.insert(equations_.stage(v).name());
   switch (block.kind) {
     case BlockKind::assign:
       add_assignment(block.unknowns[0]);
@@ -149,7 +204,9 @@ void StepBuilder::add_block(const Block& block) {
       return;
     case BlockKind::linear:
     case BlockKind::newton:
-      if (block.simplified) {
+      if (block.kind == BlockKind::linear && linear_solver(block) == LinearSolver::written_out) {
+        add_affine(block);
+      } else if (block.simplified) {
         add_simplified_newton(block);
       } else {
         add_newton(block);
@@ -203,9 +260,7 @@ void StepBuilder::add_fixed_point(const Block& block) {
   const int where = body(stage_);
   for (const int x : block.unknowns) lowering_.declare(stage_value_[index(x)].name(), where);
   auto evaluate = [&](int k) {
-    if (known_gradient_[index(k)]) return;
-    known_gradient_[index(k)] = true;
-    define(gradient_[index(k)], at_stage(equations_.stage_gradient(k)), where);
+    if (!known_gradient_[index(k)]) define_gradient(k, where);
   };
   for (const int t : block.torn) {
     for (const int k : equations_.row_gradients(t)) evaluate(k);
@@ -217,6 +272,29 @@ void StepBuilder::add_fixed_point(const Block& block) {
     pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
     pending.next.push_back(lowering_.want(row(x, where), where));
   }
+  // What else depends on these unknowns is refined with them.
+  std::set<std::string> own;
+  for (const int v : block.unknowns) own.insert(equations_.stage(v).name());
+  for (const int v : block.torn) own.insert(equations_.stage(v).name());
+  for (int k = 0; k < 2 * n_; ++k) {
+    const std::set<std::string> used = symbols(equations_.stage_gradient(k));
+    bool depends = false;
+    bool known = true;
+    for (int v = 0; v < 2 * n_; ++v) {
+      const std::string& name = equations_.stage(v).name();
+      depends = depends || (used.contains(name) && own.contains(name));
+      known = known && (!used.contains(name) || solved_.contains(name));
+    }
+    if (!depends || !known) continue;
+    evaluate(k);
+    const std::string& gradient = gradient_[index(k)].name();
+    const Expression change = Expression::symbol("change(" + gradient + ")", kRankOfTemporary);
+    lowering_.declare(change.name(), after(stage_));
+    pending.solve.changes.push_back(change.name());
+    pending.gradient.push_back(lowering_.want(gradient_[index(k)], where));
+    correction_[index(k)] = {gradient_[index(k)], change};
+  }
+  sums_exactly_ = true;
   solves_.push_back(std::move(pending));
 }
 
@@ -260,6 +338,9 @@ Solve StepBuilder::finished(PendingSolve& pending) const {
     if (j < pending.correction.size()) {
       variable.correction = lowering_.wanted(pending.correction[j]);
     }
+  }
+  for (const std::size_t handle : pending.gradient) {
+    solve.gradient.push_back(lowering_.wanted(handle));
   }
   for (const std::size_t handle : pending.residual) {
     solve.residual.push_back(lowering_.wanted(handle));

@@ -17,14 +17,14 @@ namespace hamgen {
 struct PendingSolve {
   Solve solve;
   int stage = 0;
-  std::vector<std::size_t> cold, next, correction, residual;
+  std::vector<std::size_t> cold, next, correction, residual, gradient;
   std::vector<std::vector<std::size_t>> matrix;
 };
 
 // A block solved by Newton's iteration, linear ones by its first step.
 struct NewtonBlock {
   const Block& block;
-  bool iterates = true;
+  bool iterates = true;             // else it is affine and written out
   int where = 0;                    // the section its equations are evaluated in
   int outside = 0;                  // the section of what follows from its solution
   std::vector<int> members = {};    // the unknowns, and what has been torn out so far
@@ -38,7 +38,12 @@ struct NewtonBlock {
   std::vector<Expression> residual = {};
   std::vector<std::vector<Expression>> matrix = {};
   std::vector<Expression> increments = {};
+  // matrix^-1 of an affine block.
+  std::vector<std::vector<Expression>> inverse = {};
 };
+
+// With the unit slopes of its unknowns.
+[[nodiscard]] NewtonBlock newton_block(const Block& block);
 
 class StepBuilder {
  public:
@@ -64,9 +69,27 @@ class StepBuilder {
   [[nodiscard]] Expression carry_symbol(int i) const;
   // A small part of a sum, named so that it is computed first.
   Expression named_rest(const std::string& of, const Expression& value, int section);
-  // Z_i - z_i - carry_i = +-h dH/dz_k, with the carry.
-  Expression increment(int i, int k);
+  // Note [affine blocks]
+  // A constant matrix has the same rounding errors at every step, and so has what is solved with
+  // it: a map that is not symplectic, and invariants that drift with the number of steps.  An
+  // affine block is therefore solved twice with one inverse: the solution from z, and Newton's
+  // correction by what its equations lack there.  Errors of the inverse enter times that
+  // correction, itself no more than rounding.  The correction is as small at every step, too: added
+  // to h dH/dp before that goes to z, it would fall below the last place time and again, so the two
+  // are summed without an error.
+  //
+  // Z_i - z_i = +-h dH/dz_k with the carry, as a sum of what is large and what is small.
+  std::pair<Expression, Expression> increment(int i, int k);
 
+  // Note [weights that sum to h]
+  // A step is symplectic if qbar_i - q_i takes w dH/dp_i and pbar_i - p_i takes -v dH/dq_i with
+  // w + v = h, to the last digit: h alpha and h (1 - alpha), each rounded, do not sum to h, and the
+  // same volume is lost at every step.  So v = h - w and then w = h - v, of which the second is
+  // exact for weights from -h to 2h.  What they multiply must be one number in both rows and in the
+  // increment: a gradient p/3 is not dissolved into constants w/3 and h/3.
+  void name_weights();
+  // dH/dz_k at the stage values known now, in this section.
+  void define_gradient(int k, int section);
   // dH/dz_k at the stage values known now.
   void need_gradient(int k);
   // Stage symbols replaced by their present values.
@@ -92,10 +115,23 @@ class StepBuilder {
   template <class Value>
   Expression chain(NewtonBlock& newton, int i, const Value& value);
   void tear_out(NewtonBlock& newton, int t);
+  // 1 - d(row t)/d(zbar_t)
+  [[nodiscard]] Expression own_slope(int t) const;
+  void tear_value(NewtonBlock& newton, int t);
+  void tear_slopes(NewtonBlock& newton, int t);
   Expression name_slope(int t, int x, const Expression& value, int section);
   [[nodiscard]] Expression increment_symbol(int x) const;
   void solve_linear_system(NewtonBlock& newton, PendingSolve& pending);
+  void add_matrix_row(NewtonBlock& newton, int x);
+  // "R(q" of row i.
+  [[nodiscard]] std::string residual_name(const Block& block, std::size_t i) const;
+  Expression name_value(const std::string& text, const Expression& value, int section);
+  void name_matrix(NewtonBlock& newton, std::size_t i);
   void write_out_solution(NewtonBlock& newton);
+  void add_affine(const Block& block);
+  void write_out_inverse(NewtonBlock& newton);
+  void start_affine(NewtonBlock& newton);
+  void multiply_out(NewtonBlock& newton, const std::vector<Expression>& lacking);
   void correct_solution(NewtonBlock& newton);
   void correct_gradient(int k, const Expression& change, int section);
   template <class Variables>
@@ -117,6 +153,10 @@ class StepBuilder {
   std::vector<PendingSolve> solves_;
   int stage_ = 0;
   bool solving_done_ = false;
+  std::set<std::string> solved_;  // stage values of the blocks so far
+  bool sums_exactly_ = false;     // increments and their rests, see Note [affine blocks]
+  bool keeps_gradients_ = false;  // each as a number of its own, see Note [weights that sum to h]
+  std::map<std::pair<int, int>, Expression> weights_;
 };
 
 // Sections of the lowering: once per run, then three for each stage.

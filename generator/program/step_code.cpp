@@ -134,7 +134,7 @@ void add_member(StepCode& code, const Environment& environment, const Program& p
     if (!stage.solve) continue;
     parts.inverse = parts.inverse || is_inverted(*stage.solve);
     large = large || stage.solve->linear_solver == LinearSolver::eigen_dense;
-    if (stage.solve->kind == BlockKind::linear || stage.solve->sweeps) continue;
+    if (stage.solve->sweeps) continue;
     code.unknowns += static_cast<int>(stage.solve->variables.size());
   }
   parts.start = code.unknowns > 0;
@@ -191,6 +191,12 @@ void find_changed(StepCode& code, const Environment& environment) {
 }
 
 }  // namespace
+
+bool StepCode::has_rest() const {
+  const Routine* solve = routine("solve");
+  return solve != nullptr &&
+         std::ranges::find(solve->arguments, "rest", &Argument::name) != solve->arguments.end();
+}
 
 const Record* StepCode::record(std::string_view name) const {
   const auto it = std::ranges::find(records, name, &Record::name);

@@ -21,7 +21,8 @@ struct RuleOfNewton {
 //
 //   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
 //
-// with k_i = prepare(par, h_i), and start_i what substep i remembers of the step before.
+// (dz + rest where solve has a place for the rest of it), with k_i = prepare(par, h_i), and start_i
+// what substep i remembers of the step before.
 struct StepCode {
   std::vector<Record> records;           // Parameters, State; Coefficients, Start where they are
   std::vector<Routine> routines;         // in the order in which they use each other
@@ -33,6 +34,8 @@ struct StepCode {
   std::vector<std::string>
       parameters;  // in the order of their record; E0 last, if the step uses it
 
+  // Does solve leave what is small of an increment in `rest`?
+  [[nodiscard]] bool has_rest() const;
   // Null if there is none of this name.
   [[nodiscard]] const Record* record(std::string_view name) const;
   [[nodiscard]] const Routine* routine(std::string_view name) const;

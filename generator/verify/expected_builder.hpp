@@ -41,16 +41,17 @@ class ExpectedStep {
   void solve(const Block& block);
   void quadratic(int i);
   void newton(const Block& block);
+  void affine(const Block& block);
   void simplified_newton(const Block& block);
   void fixed_point(const Block& block);
   void sweep();
   const Solve& next_solve(BlockKind kind);
-  // R and R' as the program has them, -R'^-1 R from them.
+  // R and R' as the program has them, -R'^-1 R from them; R'^-1 where it is written out.
   std::vector<Expression> increments(const Block& block, const std::vector<Expression>& residual,
                                      const std::vector<std::vector<Expression>>& matrix,
                                      const Solve* solve);
-  std::vector<Expression> by_adjugate(const Block& block, const std::vector<Expression>& r,
-                                      const std::vector<std::vector<Expression>>& a);
+  std::vector<std::vector<Expression>> by_adjugate(const Block& block,
+                                                   const std::vector<std::vector<Expression>>& a);
   // H_k as the last iteration evaluated it, and what its increment adds.
   void correct_gradient(int k, const Expression& change);
   // What one step of Newton's iteration solves: these components of the gradient are their values

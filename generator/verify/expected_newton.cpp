@@ -26,23 +26,18 @@ Expression ExpectedStep::along(int i, const std::vector<int>& variables,
 }
 
 void ExpectedStep::newton(const Block& block) {
-  const bool linear = block.kind == BlockKind::linear;
   const std::size_t m = block.unknowns.size();
   second_.clear();  // those of an earlier block are taken before its last increment
-  const Solve* solve = nullptr;
-  if (!linear || m > 3) solve = &next_solve(block.kind);
+  const Solve* solve = &next_solve(BlockKind::newton);
   std::vector<int> members;
   std::map<int, std::vector<Expression>> slopes;  // d(member)/d(unknown)
   for (std::size_t j = 0; j < m; ++j) {
     const int x = block.unknowns[j];
-    // An affine system is solved from 0.
-    bar_[at(x)] = linear ? Expression(0) : free("bar", x);
+    bar_[at(x)] = free("bar", x);
     slopes[x] = std::vector<Expression>(m, Expression(0));
     slopes[x][j] = Expression(1);
     members.push_back(x);
-    if (solve != nullptr && !linear) {
-      claim("the start of " + name(x), solve->variables.at(j).cold, mechanics_.variable(x));
-    }
+    claim("the start of " + name(x), solve->variables.at(j).cold, mechanics_.variable(x));
   }
   // d(row i)/d(unknown j) along the members found so far.
   auto slope_of_row = [&](int i, std::size_t j) {
@@ -91,7 +86,7 @@ void ExpectedStep::newton(const Block& block) {
     }
   }
   const std::vector<Expression> delta = increments(block, residual, matrix, solve);
-  for (std::size_t j = 0; solve != nullptr && m <= 3 && j < m; ++j) {
+  for (std::size_t j = 0; m <= 3 && j < m; ++j) {
     claim("Newton's increment of " + name(block.unknowns[j]), solve->variables.at(j).correction,
           delta[j]);
   }
@@ -107,7 +102,7 @@ void ExpectedStep::newton(const Block& block) {
   const std::set<int> torn(block.torn.begin(), block.torn.end());
   std::set<int> anew;
   for (const int t : block.torn) {
-    const bool direct = !linear && std::ranges::all_of(weights_[t], [&](const auto& term) {
+    const bool direct = std::ranges::all_of(weights_[t], [&](const auto& term) {
       const int k = term.first;
       return derivatives_.second(k, t).is_zero() && !is_linear_in(k, torn) &&
              std::ranges::find(evaluated, k) != evaluated.end();
@@ -115,7 +110,6 @@ void ExpectedStep::newton(const Block& block) {
     if (direct) anew.insert(t);
   }
   const auto is_anew = [&](int k) { return is_linear_in(k, anew); };
-  if (linear) claim_affine(evaluated, members);
   for (const int k : evaluated) {
     if (is_anew(k)) continue;
     Expression sum(0);
@@ -216,17 +210,6 @@ void ExpectedStep::correct_gradient(int k, const Expression& sum) {
   gradient_[at(k)] = define("H(" + name(k) + ")*", *gradient_[at(k)] + change);
 }
 
-void ExpectedStep::claim_affine(const std::vector<int>& components,
-                                const std::vector<int>& variables) {
-  Substitution zero;
-  for (const int v : variables) zero.emplace(mechanics_.variable(v).name(), Expression(0));
-  for (const int k : components) {
-    Expression affine = substitute(derivatives_.first(k), zero);
-    for (const int v : variables) affine += derivatives_.second(k, v) * mechanics_.variable(v);
-    claim("dH/d" + name(k) + " is affine where it is taken so", derivatives_.first(k), affine);
-  }
-}
-
 bool ExpectedStep::is_linear_in(int k, const std::set<int>& variables) const {
   bool any = false;
   for (int v = 0; v < 2 * n_; ++v) {
@@ -247,8 +230,16 @@ std::vector<Expression> ExpectedStep::increments(const Block& block,
                                                  const std::vector<std::vector<Expression>>& matrix,
                                                  const Solve* solve) {
   const std::size_t m = residual.size();
-  if (m <= 3) return by_adjugate(block, residual, matrix);
   std::vector<Expression> delta;
+  if (m <= 3) {
+    const auto inverse = by_adjugate(block, matrix);
+    for (std::size_t i = 0; i < m; ++i) {
+      Expression sum(0);
+      for (std::size_t j = 0; j < m; ++j) sum += inverse[i][j] * residual[j];
+      delta.push_back(define("delta(" + name(block.unknowns[i]) + ")", -sum));
+    }
+    return delta;
+  }
   for (std::size_t i = 0; i < m; ++i) {
     const std::string& x = name(block.unknowns[i]);
     claim("the residual of " + x, solve->residual.at(i), residual[i]);
@@ -261,11 +252,10 @@ std::vector<Expression> ExpectedStep::increments(const Block& block,
   return delta;
 }
 
-// -R'^-1 R by the adjugate.
-std::vector<Expression> ExpectedStep::by_adjugate(const Block& block,
-                                                  const std::vector<Expression>& r,
-                                                  const std::vector<std::vector<Expression>>& a) {
-  const std::size_t m = r.size();
+// R'^-1 by the adjugate.
+std::vector<std::vector<Expression>> ExpectedStep::by_adjugate(
+    const Block& block, const std::vector<std::vector<Expression>>& a) {
+  const std::size_t m = a.size();
   auto minor = [&](std::size_t row, std::size_t column) {
     std::vector<std::size_t> rows;
     std::vector<std::size_t> columns;
@@ -283,15 +273,13 @@ std::vector<Expression> ExpectedStep::by_adjugate(const Block& block,
   };
   Expression determinant(0);
   for (std::size_t j = 0; j < m; ++j) determinant += a[0][j] * cofactor(0, j);
-  const Expression inverse = define("1/det(" + name(block.unknowns[0]) + ")",
-                                    Expression::power(determinant, Expression(-1)));
-  std::vector<Expression> delta;
-  for (std::size_t j = 0; j < m; ++j) {
-    Expression sum(0);
-    for (std::size_t i = 0; i < m; ++i) sum += cofactor(i, j) * r[i];
-    delta.push_back(define("delta(" + name(block.unknowns[j]) + ")", -(inverse * sum)));
+  const Expression reciprocal = define("1/det(" + name(block.unknowns[0]) + ")",
+                                       Expression::power(determinant, Expression(-1)));
+  std::vector<std::vector<Expression>> inverse(m, std::vector<Expression>(m));
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) inverse[i][j] = cofactor(j, i) * reciprocal;
   }
-  return delta;
+  return inverse;
 }
 
 }  // namespace hamgen

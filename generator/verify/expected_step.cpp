@@ -79,7 +79,8 @@ Identities ExpectedStep::run() {
       expected = h * change->second.first +
                  define("rest(d" + name(i) + ")", carry(i) + h * change->second.second);
     }
-    claim("the increment of " + name(i), program_.increments[at(i)], expected);
+    const Expression rest = program_.rests.empty() ? Expression(0) : program_.rests[at(i)];
+    claim("the increment of " + name(i), program_.increments[at(i)] + rest, expected);
   }
   return std::move(identities_);
 }
@@ -154,7 +155,11 @@ void ExpectedStep::solve(const Block& block) {
       return;
     case BlockKind::linear:
     case BlockKind::newton:
-      block.simplified ? simplified_newton(block) : newton(block);
+      if (block.kind == BlockKind::linear && block.unknowns.size() <= 3) {
+        affine(block);
+      } else {
+        block.simplified ? simplified_newton(block) : newton(block);
+      }
       return;
     case BlockKind::fixed_point:
       fixed_point(block);
@@ -203,6 +208,15 @@ void ExpectedStep::fixed_point(const Block& block) {
     const int x = block.unknowns[j];
     claim("the start of " + name(x), solve.variables.at(j).cold, mechanics_.variable(x));
     claim("the next value of " + name(x), solve.variables.at(j).next, row(x));
+  }
+  // What the rounded solution lacks of the exact one is free, as loop variables are.
+  for (int k = 0; k < 2 * n_; ++k) {
+    const Expression change = Expression::symbol("change(H(" + name(k) + "))", kRankOfTemporary);
+    const auto place = std::ranges::find(solve.changes, change.name());
+    if (place == solve.changes.end()) continue;
+    claim("dH/d" + name(k) + " at the fixed point",
+          solve.gradient.at(static_cast<std::size_t>(place - solve.changes.begin())), gradient(k));
+    change_[k] = {gradient(k), change};
   }
 }
 

@@ -1,0 +1,75 @@
+// drift [--steps N] [--starts N] [--seconds S] [WORD...]: a table of the rows whose problem or name
+// has one of the words in it.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "benchmarks/drift/rows.hpp"
+
+namespace {
+
+using namespace hamgen::drift;
+
+struct Options {
+  long long steps = 6'000'000;
+  int starts = 32;
+  double seconds = 600;
+  std::vector<std::string> words;
+};
+
+Options read_options(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string argument = arguments[i];
+    const auto value = [&] { return std::atof(i + 1 < count ? arguments[++i] : "0"); };
+    if (argument == "--steps") {
+      options.steps = static_cast<long long>(value());
+    } else if (argument == "--starts") {
+      options.starts = static_cast<int>(value());
+    } else if (argument == "--seconds") {
+      options.seconds = value();
+    } else {
+      options.words.push_back(argument);
+    }
+  }
+  return options;
+}
+
+bool is_wanted(const Row& row, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if ((row.problem + ": " + row.name).find(word) != std::string::npos) return true;
+  }
+  return words.empty();
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const Options options = read_options(count, arguments);
+  int drifting = 0;
+  fmt::print("{:30} {:34} {:>6} {:>10} {:>9} {:>7} {:>9} {:>8}  {}\n", "problem", "method",
+             "starts", "mean", "std error", "errors", "units", "ns/step", "verdict");
+  for (const Row& row : all_rows()) {
+    if (!is_wanted(row, options.words)) continue;
+    fmt::print("{:30} {:34} ", row.problem, row.name);
+    try {
+      const Result r = measure(row, options.steps, options.starts, options.seconds);
+      const bool drifts = r.drifts();
+      if (drifts && !row.is_exempt) ++drifting;
+      fmt::print("{:6} {:10.2e} {:9.1e} {:7.1f} {:9.1e} {:8.1f}  {}\n", r.starts, r.mean,
+                 r.standard_error, r.mean / r.standard_error, r.units(), r.nanoseconds,
+                 row.is_exempt ? "exempt: not symplectic"
+                 : drifts      ? "DRIFTS"
+                               : "no drift");
+    } catch (const std::exception& error) {
+      const std::string what = error.what();
+      fmt::print("  not measured: {}\n", what.substr(0, 300));
+    }
+    std::fflush(stdout);
+  }
+  fmt::print("{} of the rows drift\n", drifting);
+  return drifting == 0 ? 0 : 1;
+}

@@ -1,0 +1,220 @@
+#include "benchmarks/drift/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "generator/base/source_text.hpp"
+#include "runtime/compiler.hpp"
+#include "runtime/process.hpp"
+
+namespace hamgen::drift {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
+// seconds.
+constexpr const char* kProgram = R"(
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <vector>
+
+#include "rounded.hpp"
+#include "exact.hpp"
+
+using Quad = __float128;
+constexpr int size = sizeof(rounded::State) / sizeof(double);
+static_assert(sizeof(exact::State) == size * sizeof(Quad));
+
+static std::uint64_t seed = 0;
+static double uniform() {{
+  seed = seed * 6364136223846793005u + 1442695040888963407u;
+  return (seed >> 11) * 0x1p-52 - 1;
+}}
+
+static exact::Parameters exact_parameters(const rounded::Parameters& par) {{
+  exact::Parameters result;
+  constexpr int count = sizeof(rounded::Parameters) / sizeof(double);
+  double values[count + 1];
+  Quad wide[count + 1];
+  std::memcpy(values, &par, count * sizeof(double));
+  for (int i = 0; i < count; ++i) wide[i] = values[i];
+  std::memcpy(static_cast<void*>(&result), wide, count * sizeof(Quad));
+  return result;
+}}
+
+static Quad conserved(const exact::Parameters& par, Quad h, const Quad (&z)[size]) {{
+  exact::State state;
+  std::memcpy(static_cast<void*>(&state), z, sizeof z);
+  {quantity}
+}}
+
+static Quad conserved(const exact::Parameters& par, double h, const rounded::Propagator& run) {{
+  double hi[size], lo[size];
+  std::memcpy(hi, &run.state(), sizeof hi);
+  std::memcpy(lo, &run.carry(), sizeof lo);
+  Quad z[size];
+  for (int i = 0; i < size; ++i) z[i] = Quad(hi[i]) + lo[i];
+  return conserved(par, Quad(h), z);
+}}
+
+static double now() {{
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return time.tv_sec + 1e-9 * time.tv_nsec;
+}}
+
+int main() {{
+  const double h = {h};
+  const long long steps = {steps};
+  const rounded::Parameters par;
+  const exact::Parameters exact_par = exact_parameters(par);
+  double running = 0;
+  for (int s = 0; s < {starts} && (s < 4 || running < {seconds}); ++s) {{
+    seed = 7919u * s + 13;
+    for (int i = 0; i < 10; ++i) uniform();
+    double z[size];
+    {start}
+    rounded::State state;
+    std::memcpy(static_cast<void*>(&state), z, sizeof z);
+    rounded::Propagator run(par, h, state);
+    const Quad before = conserved(exact_par, h, run);
+    double errors[2];
+    for (double& error : errors) {{
+      const double begin = now();
+      if (!run.advance(steps / 2).converged) return 1;
+      running += now() - begin;
+      const Quad change = conserved(exact_par, h, run) - before;
+      error = double(change / (before < 0 ? -before : before));
+    }}
+    std::printf("%.17g %.17g %.17g\n", errors[0], errors[1], running);
+  }}
+}}
+)";
+
+std::string quantity_text(Conserved conserved) {
+  switch (conserved) {
+    case Conserved::form:
+      return R"(exact::State next = state;
+  if (!exact::step(par, h, next).converged) return Quad(0) / 0;
+  Quad Z[size];
+  std::memcpy(Z, &next, sizeof Z);
+  Quad sum = 0;
+  for (int i = 0; i < size / 2; ++i) sum += z[i] * Z[size / 2 + i] - z[size / 2 + i] * Z[i];
+  return sum;)";
+    case Conserved::energy:
+      return "return exact::energy(par, state);";
+    case Conserved::invariant:
+      return R"(Quad values[64];
+  exact::invariants(par, state, *reinterpret_cast<Quad (*)[exact_invariants]>(values));
+  return values[0];)";
+  }
+  return "";
+}
+
+// A directory of its own that does not outlive it.
+class Directory {
+ public:
+  Directory() {
+    std::string pattern = (fs::temp_directory_path() / "hamgen-drift-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path_ = pattern;
+  }
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+  ~Directory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string emitted(const Row& row, const std::string& scalar, const std::string& name_space) {
+  Request request = row.request;
+  request.scalar = scalar;
+  request.name_space = name_space;
+  return generate(make_source("drift.ham", row.model), request).at(0).text;
+}
+
+std::string checked_run(const runtime::ProcessRequest& request) {
+  const runtime::ProcessResult result = runtime::run_process(request);
+  if (!result.succeeded()) {
+    throw std::runtime_error(runtime::end_text(result, request) + "\n" + result.output);
+  }
+  return result.output;
+}
+
+std::string solver_of(const std::string& header) {
+  const std::size_t begin = header.find("//   solve     ");
+  if (begin == std::string::npos) return "";
+  return header.substr(begin + 15, header.find('\n', begin) - begin - 15);
+}
+
+}  // namespace
+
+double Result::units() const {
+  return mean / (std::numeric_limits<double>::epsilon() * static_cast<double>(steps));
+}
+
+bool Result::drifts() const {
+  return !(std::abs(mean) <= 4 * standard_error) && !(std::abs(units()) <= 1e-4);
+}
+
+Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit) {
+  const Directory directory;
+  const std::string rounded = emitted(row, "double", "rounded");
+  write(directory.path() / "rounded.hpp", edit ? edit(rounded) : rounded);
+  write(directory.path() / "exact.hpp", emitted(row, "quad", "exact"));
+  const std::size_t invariants =
+      read_request(make_source("drift.ham", row.model), row.request).invariants.size();
+  write(
+      directory.path() / "drift.cpp",
+      fmt::format("constexpr int exact_invariants = {};\n", std::max<std::size_t>(invariants, 1)) +
+          fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
+                      fmt::arg("h", row.h), fmt::arg("steps", steps), fmt::arg("starts", starts),
+                      fmt::arg("seconds", seconds), fmt::arg("start", row.start)));
+  runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
+                                  .working_directory = directory.path(),
+                                  .time_limit = std::chrono::minutes(20)};
+  for (const char* flag :
+       {"-std=gnu++20", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno", "-isystem",
+        "/usr/include/eigen3", "drift.cpp", "-o", "drift", "-lquadmath"}) {
+    compile.command.emplace_back(flag);
+  }
+  (void)checked_run(compile);
+  std::istringstream output(checked_run({.command = {(directory.path() / "drift").string()},
+                                         .working_directory = directory.path(),
+                                         .time_limit = std::chrono::hours(24)}));
+  Result result{.steps = steps / 2 * 2, .solver = solver_of(rounded)};
+  double squares = 0.0;
+  double running = 0.0;
+  for (double half = 0.0, all = 0.0; output >> half >> all >> running; ++result.starts) {
+    result.first_mean += half;
+    result.mean += all;
+    squares += all * all;
+  }
+  if (result.starts < 2) throw std::runtime_error("too few starts");
+  result.first_mean /= result.starts;
+  result.mean /= result.starts;
+  const double variance = std::max(0.0, squares / result.starts - result.mean * result.mean);
+  result.standard_error = std::sqrt(variance / (result.starts - 1));
+  result.nanoseconds = 1e9 * running / (static_cast<double>(result.steps) * result.starts);
+  return result;
+}
+
+}  // namespace hamgen::drift

@@ -1,0 +1,56 @@
+// Does rounding make a conserved quantity drift?  A method is emitted in double and in quad,
+// compiled with the flags of `hamgen run`, and run from many starts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "generator/pipeline.hpp"
+
+namespace hamgen::drift {
+
+// What a run of exact arithmetic would keep, evaluated in quad from state + carry.
+enum class Conserved {
+  // omega(z, Z) of a step from z to Z in quad: of a quadratic H the step is a linear symplectic map
+  // M, and z^T J M z one of its invariants, whichever the method.
+  form,
+  energy,
+  invariant  // the model's first one
+};
+
+struct Row {
+  std::string name;     // "implicit-midpoint, closed form"
+  std::string problem;  // "oscillator"
+  std::string model;    // its text
+  Request request;
+  Conserved conserved = Conserved::form;
+  double h = 0.1;
+  // Statements that fill z[0..2n) from uniform(), uniform in (-1, 1), and the number s of the start.
+  std::string start = "for (double& value : z) value = uniform();";
+  bool is_exempt = false;  // not symplectic: listed, not judged
+};
+
+struct Result {
+  int starts = 0;
+  long long steps = 0;
+  double mean = 0.0;            // of the error after all steps, relative to the quantity
+  double standard_error = 0.0;  // of that mean
+  double first_mean = 0.0;      // after the first half of the steps
+  double nanoseconds = 0.0;     // of processor time a step
+  std::string solver;
+
+  // |mean| <= 4 standard errors, or 1e-4 units of rounding a step.
+  [[nodiscard]] bool drifts() const;
+  // Of rounding, a step.
+  [[nodiscard]] double units() const;
+};
+
+using Edit = std::function<std::string(const std::string&)>;
+
+// At least four starts, no more after so many seconds of processor time.  `edit` changes the
+// emitted header in double.  Throws std::runtime_error with the compiler's or the program's words.
+[[nodiscard]] Result measure(const Row& row, long long steps, int starts, double seconds,
+                             const Edit& edit = {});
+
+}  // namespace hamgen::drift

@@ -1,0 +1,190 @@
+#include "benchmarks/drift/rows.hpp"
+
+#include <fmt/format.h>
+
+#include "generator/schemes/all_schemes.hpp"
+
+namespace hamgen::drift {
+
+std::string oscillator() {
+  return "system oscillator\ncoordinate q\nmomentum p\nparameter w = 1.3\n"
+         "H = p^2/2 + w^2*q^2/2\n";
+}
+
+std::string chain(int n) {
+  return fmt::format(
+      "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
+      "momentum p[1..N]\nparameter k = 1.3\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k*(q[i+1] - q[i])^2/2)\n",
+      n);
+}
+
+std::string kepler() {
+  return "system kepler\ncoordinate q1, q2\nmomentum p1, p2\nlet r = sqrt(q1^2 + q2^2)\n"
+         "H = (p1^2 + p2^2)/2 - 1/r\ninvariant L = q1*p2 - q2*p1\n";
+}
+
+std::string planar_bodies(int n) {
+  return fmt::format(
+      "system bodies\nsize N = {}\ncoordinate x[1..N], y[1..N]\nmomentum px[1..N], py[1..N]\n"
+      "H = sum(i = 1..N, (px[i]^2 + py[i]^2)/2)"
+      " + sum(i = 1..N, j = 1..i-1, sqrt(1 + (x[i] - x[j])^2 + (y[i] - y[j])^2))\n"
+      "invariant L = sum(i = 1..N, x[i]*py[i] - y[i]*px[i])\n",
+      n);
+}
+
+std::string list_of_halves(int n) {
+  std::string text = "[";
+  for (int i = 0; i < n; ++i) text += i == 0 ? "1/2" : ", 1/2";
+  return text + "]";
+}
+
+namespace {
+
+// A grid folded into one array: neighbours at the distances 1 and 16, too wide for a band.
+std::string sheet() {
+  return "system sheet\nsize N = 256\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+         "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/5 + (q[i+1] - q[i])^2/2 + (q[i+16] - q[i])^2/3)\n";
+}
+
+std::string all_pairs(int n) {
+  return fmt::format(
+      "system pairs\nsize N = {}\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/5 + i*q[i]^2/70)"
+      " + sum(i = 1..N, j = 1..i-1, (q[i] - q[j])^2/50)\n",
+      n);
+}
+
+// Masses of no power of two, a product of coordinate and momentum: nothing is separable.
+std::string gyroscope() {
+  return "system gyroscope\ncoordinate x, y\nmomentum px, py\nparameter b = 0.7\n"
+         "H = (px + b*y)^2/6 + (py - b*x)^2/14 + x^2/2 + 0.65*y^2\n";
+}
+
+// An oscillator beside a body it knows nothing of: a linear block in a nonlinear H.
+std::string oscillator_and_bodies() {
+  return "system pair\ncoordinate x, y, u\nmomentum px, py, pu\nparameter w = 1.3\n"
+         "H = (px^2 + py^2)/2 + sqrt(1 + x^2 + y^2) + pu^2/2 + w^2*u^2/2\n"
+         "invariant I = pu^2 + w^2*u^2\n";
+}
+
+constexpr const char* kEllipse = R"(const double c = std::cos(0.1 + s), d = std::sin(0.1 + s);
+    z[0] = 0.4 * c; z[1] = 0.4 * d; z[2] = -2 * d; z[3] = 2 * c;)";
+constexpr const char* kDisk = R"(for (int i = 0; i < size; ++i) z[i] = uniform();
+    for (int i = 0; i < size / 4; ++i) {
+      z[size / 2 + i] -= z[size / 4 + i];
+      z[3 * size / 4 + i] += z[i];
+    })";
+
+struct Problem {
+  std::string name, model;
+  Conserved conserved = Conserved::form;
+  double h = 0.1;
+  std::string start = Row().start;
+};
+
+void add(std::vector<Row>& rows, const Problem& problem, const std::string& name,
+         const Request& request, bool is_exempt = false) {
+  rows.push_back({.name = name,
+                  .problem = problem.name,
+                  .model = problem.model,
+                  .request = request,
+                  .conserved = problem.conserved,
+                  .h = problem.h,
+                  .start = problem.start,
+                  .is_exempt = is_exempt});
+}
+
+// Every scheme that has a name.
+void add_schemes(std::vector<Row>& rows, const Problem& problem) {
+  for (const Scheme& scheme : all_schemes()) {
+    const auto* tableau = std::get_if<RungeKutta>(&scheme.method);
+    add(rows, problem, scheme.name, {.scheme = scheme.name},
+        tableau != nullptr && tableau->is_explicit());
+  }
+}
+
+void add_members(std::vector<Row>& rows, const Problem& problem, int size) {
+  add(rows, problem, "midpoint", {});
+  add(rows, problem, "midpoint, fixed point", {.solver = "fixed-point"});
+  add(rows, problem, "alpha = 3/10", {.alpha = "3/10"});
+  add(rows, problem, "alpha = 3/10, fixed point", {.alpha = "3/10", .solver = "fixed-point"});
+  add(rows, problem, "alpha = 3/10, beta, gamma",
+      {.alpha = "3/10", .beta = "1/7", .gamma = "-1/9"});
+  add(rows, problem, "beta = h/7, gamma = -h/9", {.beta = "h/7", .gamma = "-h/9"});
+  add(rows, problem, "sweeps:3", {.solver = "sweeps:3"}, true);
+  if (size <= 4) add(rows, problem, "order 4", {.order = 4});
+}
+
+}  // namespace
+
+std::vector<Row> all_rows() {
+  std::vector<Row> rows;
+  const Problem one{.name = "oscillator", .model = oscillator(), .h = 0.2};
+  add_schemes(rows, one);
+  add_members(rows, one, 1);
+  add(rows, one, "order 6", {.order = 6});
+  add(rows, one, "locally exact", {.gauge = "locally-exact"});
+  const Problem stiff{.name = "oscillator, h w = 130", .model = oscillator(), .h = 100};
+  add(rows, stiff, "midpoint", {});
+  add(rows, stiff, "gauss-4", {.scheme = "gauss-4"});
+
+  const Problem orbit{.name = "Kepler, L",
+                      .model = kepler(),
+                      .conserved = Conserved::invariant,
+                      .h = 0.01,
+                      .start = kEllipse};
+  add_schemes(rows, orbit);
+  add_members(rows, orbit, 2);
+
+  const Problem two{.name = "chain of 2, closed form", .model = chain(2)};
+  add_members(rows, two, 2);
+  add(rows, two, "locally exact", {.gauge = "locally-exact"});
+  const Problem gyro{.name = "gyroscope", .model = gyroscope()};
+  add_members(rows, gyro, 2);
+  add(rows, gyro, "symplectic-euler-a", {.scheme = "symplectic-euler-a"});
+  add(rows, gyro, "yoshida-4", {.scheme = "yoshida-4"});
+  add(rows, gyro, "gauss-6", {.scheme = "gauss-6"});
+  const Problem mixed{.name = "oscillator beside a body",
+                      .model = oscillator_and_bodies(),
+                      .conserved = Conserved::invariant};
+  add(rows, mixed, "midpoint", {});
+  const Problem six{.name = "chain of 6, elimination", .model = chain(6)};
+  add_members(rows, six, 6);
+  for (const char* scheme : {"gauss-4", "gauss-6", "gauss-16"}) {
+    add(rows, six, scheme, {.scheme = scheme});
+  }
+  const Problem six_at_large{.name = "chain of 6, h = 0.3", .model = chain(6), .h = 0.3};
+  for (const char* scheme : {"gauss-4", "gauss-6"}) {
+    add(rows, six_at_large, scheme, {.scheme = scheme});
+    add(rows, six_at_large, std::string(scheme) + ", Newton",
+        {.scheme = scheme, .solver = "newton"});
+  }
+  add(rows, six_at_large, "midpoint, fixed point", {.solver = "fixed-point"});
+  const Problem thirty{.name = "chain of 30, Eigen", .model = chain(30)};
+  add(rows, thirty, "midpoint", {.alpha = list_of_halves(30)});
+
+  const Problem band{.name = "chain of 25, loops, band", .model = chain(25)};
+  add_members(rows, band, 25);
+  for (const char* scheme :
+       {"symplectic-euler-a", "symplectic-euler-b", "stormer-verlet", "blanes-moan-6", "yoshida-4",
+        "yoshida-4-verlet", "gauss-4", "gauss-8"}) {
+    add(rows, band, scheme, {.scheme = scheme});
+  }
+  const Problem dense{.name = "all pairs of 30, loops, dense", .model = all_pairs(30)};
+  add_members(rows, dense, 30);
+  const Problem sparse{.name = "sheet of 256, loops, sparse", .model = sheet()};
+  add(rows, sparse, "midpoint", {});
+  const Problem bodies{.name = "13 bodies, loops, L",
+                       .model = planar_bodies(13),
+                       .conserved = Conserved::invariant,
+                       .h = 0.05,
+                       .start = kDisk};
+  add_members(rows, bodies, 26);
+  for (const char* scheme : {"symplectic-euler-a", "stormer-verlet", "yoshida-4", "gauss-4"}) {
+    add(rows, bodies, scheme, {.scheme = scheme});
+  }
+  return rows;
+}
+
+}  // namespace hamgen::drift

@@ -1,0 +1,19 @@
+// What is measured: every method in every storage, on a problem where exact arithmetic keeps
+// something.
+#pragma once
+
+#include "benchmarks/drift/measure.hpp"
+
+namespace hamgen::drift {
+
+[[nodiscard]] std::vector<Row> all_rows();
+
+// The problems, as text of a model.
+[[nodiscard]] std::string oscillator();          // w = 1.3
+[[nodiscard]] std::string chain(int n);          // harmonic, fixed ends, in loops from n = 25
+[[nodiscard]] std::string kepler();              // L is its first invariant
+[[nodiscard]] std::string planar_bodies(int n);  // soft attraction, all pairs; L
+// A member whose alpha is a list: the sums are written out whatever n is.
+[[nodiscard]] std::string list_of_halves(int n);
+
+}  // namespace hamgen::drift
