@@ -11,7 +11,7 @@
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
 //             stage values of p_t: H does not depend on them
-//   cost      per step: 24 + - *, 1 /, 2 sqrt and functions
+//   cost      per step: 36 + - *, 1 /, 2 sqrt and functions
 #pragma once
 #include <cmath>
 
@@ -63,13 +63,15 @@ inline Real energy(const Parameters& par, const State& z) {
 // What depends on h and the parameters alone.
 struct Coefficients {
   Real c1 = 0.0;  // h/2
-  Real c2 = 0.0;  // -eps*omega/2
+  Real c2 = 0.0;  // -h/2
+  Real c3 = 0.0;  // -eps*omega/2
 };
 
 inline Coefficients prepare(const Parameters& par, Real h) {
   Coefficients k;
   k.c1 = 0.5 * h;
-  k.c2 = -0.5 * par.eps * par.omega;
+  k.c2 = -0.5 * h;
+  k.c3 = -0.5 * par.eps * par.omega;
   return k;
 }
 
@@ -81,9 +83,18 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   value = sum;
 }
 
-// dz = Z - z for one step from z + carry.
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.
+inline void add(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+
+// dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, State& dz) {
+                                      const State& z, const State& carry, State& dz, State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real t = z.t;
@@ -92,22 +103,33 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real t_bar = t + rest_t;
   const Real t1 = par.omega * t_bar;
   const Real H_q_q = 1.0 + par.eps * std::cos(t1);
-  const Real R_q = -(q + carry.q);
-  const Real R_p = -(p + carry.p);
   const Real R_p_q = k.c1 * H_q_q;
   const Real inverse_det_q = 1.0 / (1.0 + k.c1 * R_p_q);
-  const Real delta_q = -inverse_det_q * (R_q + k.c1 * R_p);
-  const Real delta_p = -inverse_det_q * (R_p - R_p_q * R_q);
+  const Real inverse_q_p = k.c1 * inverse_det_q;
+  const Real inverse_p_q = -inverse_det_q * R_p_q;
+  const Real q_bar = q * inverse_det_q + p * inverse_q_p;
+  const Real p_bar = q * inverse_p_q + p * inverse_det_q;
+  const Real H_q = q_bar * H_q_q;
+  const Real rest_q = carry.q + p_bar * k.c1;
+  const Real R_q = q_bar - q - rest_q;
+  const Real rest_p = carry.p + k.c2 * H_q;
+  const Real R_p = p_bar - p - rest_p;
+  const Real delta_q = -(inverse_det_q * R_q + R_p * inverse_q_p);
+  const Real delta_p = -(inverse_det_q * R_p + R_q * inverse_p_q);
   const Real change_H_q = delta_q * H_q_q;
-  const Real rest_dq = carry.q + h * delta_p;
-  const Real rest_dp = carry.p - h * change_H_q;
-  const Real H_t = k.c2 * (delta_q * delta_q) * std::sin(t1);
-  dz.q = rest_dq;
-  dz.t = h + carry.t;
-  dz.p = rest_dp;
-  dz.p_t = carry.p_t - h * H_t;
+  const Real q_bar_new = q_bar + delta_q;
+  const Real H_t = k.c3 * (q_bar_new * q_bar_new) * std::sin(t1);
+  dz.q = h * p_bar;
+  rest.q = carry.q + h * delta_p;
+  dz.t = h;
+  rest.t = carry.t;
+  dz.p = -h * H_q;
+  rest.p = carry.p - h * change_H_q;
+  dz.p_t = -h * H_t;
+  rest.p_t = carry.p_t;
   // False for infinities and NaN alike.
-  const Real length = dz.q * dz.q + dz.t * dz.t + dz.p * dz.p + dz.p_t * dz.p_t;
+  const Real length = dz.q * dz.q + rest.q * rest.q + dz.t * dz.t + rest.t * rest.t + dz.p * dz.p +
+                      rest.p * rest.p + dz.p_t * dz.p_t + rest.p_t * rest.p_t;
   report.converged = length <= 1.0e308;
   if (!report.converged) report.increment = length;
   return report;
@@ -116,13 +138,13 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 // Advances z by one step of size h.  On failure z is left unchanged.
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   const Coefficients k = prepare(par, h);
-  State dz;
-  const StepReport report = solve(par, k, h, z, State(), dz);
+  State dz, rest;
+  const StepReport report = solve(par, k, h, z, State(), dz, rest);
   if (!report.converged) return report;
-  z.q += dz.q;
-  z.t += dz.t;
-  z.p += dz.p;
-  z.p_t += dz.p_t;
+  z.q += dz.q + rest.q;
+  z.t += dz.t + rest.t;
+  z.p += dz.p + rest.p;
+  z.p_t += dz.p_t + rest.p_t;
   return report;
 }
 
@@ -134,13 +156,13 @@ class Propagator {
 
   // One step; on failure the state stays as it was.
   StepReport step() {
-    State dz;
-    const StepReport report = solve(par_, k_, h_, z_, carry_, dz);
+    State dz, rest;
+    const StepReport report = solve(par_, k_, h_, z_, carry_, dz, rest);
     if (!report.converged) return report;
-    two_sum(z_.q, carry_.q, dz.q);
-    two_sum(z_.t, carry_.t, dz.t);
-    two_sum(z_.p, carry_.p, dz.p);
-    two_sum(z_.p_t, carry_.p_t, dz.p_t);
+    add(z_.q, carry_.q, dz.q, rest.q);
+    add(z_.t, carry_.t, dz.t, rest.t);
+    add(z_.p, carry_.p, dz.p, rest.p);
+    add(z_.p_t, carry_.p_t, dz.p_t, rest.p_t);
     return report;
   }
 
@@ -161,6 +183,8 @@ class Propagator {
   }
 
   [[nodiscard]] const State& state() const { return z_; }
+  // What rounding took from the state: the sum of both is what the steps go on from.
+  [[nodiscard]] const State& carry() const { return carry_; }
 
  private:
   Parameters par_;

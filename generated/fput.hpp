@@ -386,6 +386,8 @@ class Propagator {
   }
 
   [[nodiscard]] const State& state() const { return z_; }
+  // What rounding took from the state: the sum of both is what the steps go on from.
+  [[nodiscard]] const State& carry() const { return carry_; }
 
  private:
   // Newton's iteration from bar_; the torn momenta follow from the coordinates.
@@ -394,7 +396,9 @@ class Propagator {
     for (int iteration = 1;; ++iteration) {
       ++report.iterations;
       evaluate();
-      for (int i = 0; i < n; ++i) residual_[i] = bar_.q[i] - z_.q[i] - half_h_ * slope_.p[i];
+      for (int i = 0; i < n; ++i) {
+        residual_[i] = (bar_.q[i] - z_.q[i]) - (carry_.q[i] + half_h_ * slope_.p[i]);
+      }
       if (!factorise()) return false;
       matrix_.solve(residual_);
       Real size = 0;
@@ -416,7 +420,7 @@ class Propagator {
   // The gradient at bar_, whose momenta are made from its coordinates.
   void evaluate() {
     potential_gradient(par_, bar_.q, slope_.q);
-    for (int i = 0; i < n; ++i) bar_.p[i] = z_.p[i] - half_h_ * slope_.q[i];
+    for (int i = 0; i < n; ++i) bar_.p[i] = z_.p[i] + (carry_.p[i] - half_h_ * slope_.q[i]);
     kinetic_gradient(par_, bar_.p, slope_.p);
   }
 

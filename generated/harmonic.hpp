@@ -10,7 +10,7 @@
 //   solve     linear solve of size 2 for q, p, constant matrix hoisted
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per step: 13 + - *
+//   cost      per step: 15 + - *
 #pragma once
 
 #if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ || \
@@ -55,10 +55,17 @@ inline Real energy(const Parameters& par, const State& z) {
 
 // What depends on h and the parameters alone.
 struct Coefficients {
-  Real c1 = 0.0;  // w^2
-  Real c2 = 0.0;  // h*w^2/2
-  Real c3 = 0.0;  // 1/(1 + h^2*w^2/4)
-  Real c4 = 0.0;  // h/2
+  Real c1 = 0.0;   // w^2
+  Real c2 = 0.0;   // h*w^2/2
+  Real c3 = 0.0;   // 1/(1 + h^2*w^2/4)
+  Real c4 = 0.0;   // h/2/(1 + h^2*w^2/4)
+  Real c5 = 0.0;   // -h*w^2/2/(1 + h^2*w^2/4)
+  Real c6 = 0.0;   // h/2
+  Real c7 = 0.0;   // -h/2
+  Real c8 = 0.0;   // h/(1 + h^2*w^2/4)
+  Real c9 = 0.0;   // -h^2*w^2/2/(1 + h^2*w^2/4)
+  Real c10 = 0.0;  // h*w^2/(1 + h^2*w^2/4)
+  Real c11 = 0.0;  // h^2*w^2/2/(1 + h^2*w^2/4)
 };
 
 inline Coefficients prepare(const Parameters& par, Real h) {
@@ -66,7 +73,14 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   k.c1 = par.w * par.w;
   k.c2 = 0.5 * h * k.c1;
   k.c3 = 1.0 / (1.0 + 0.5 * h * k.c2);
-  k.c4 = 0.5 * h;
+  k.c4 = 0.5 * h * k.c3;
+  k.c5 = -k.c3 * k.c2;
+  k.c6 = 0.5 * h;
+  k.c7 = -0.5 * h;
+  k.c8 = h * k.c3;
+  k.c9 = h * k.c5;
+  k.c10 = h * k.c3 * k.c1;
+  k.c11 = h * k.c4 * k.c1;
   return k;
 }
 
@@ -78,23 +92,34 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   value = sum;
 }
 
-// dz = Z - z for one step from z + carry.
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.
+inline void add(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+
+// dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, State& dz) {
+                                      const State& z, const State& carry, State& dz, State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
-  const Real R_q = -(q + carry.q);
-  const Real R_p = -(p + carry.p);
-  const Real delta_q = -k.c3 * (R_q + k.c4 * R_p);
-  const Real delta_p = -k.c3 * (R_p - k.c2 * R_q);
-  const Real change_H_q = delta_q * k.c1;
-  const Real rest_dq = carry.q + h * delta_p;
-  const Real rest_dp = carry.p - h * change_H_q;
-  dz.q = rest_dq;
-  dz.p = rest_dp;
+  const Real q_bar = q * k.c3 + p * k.c4;
+  const Real p_bar = q * k.c5 + p * k.c3;
+  const Real H_q = q_bar * k.c1;
+  const Real rest_q = carry.q + p_bar * k.c6;
+  const Real R_q = q_bar - q - rest_q;
+  const Real rest_p = carry.p + k.c7 * H_q;
+  const Real R_p = p_bar - p - rest_p;
+  dz.q = h * p_bar;
+  rest.q = carry.q - k.c8 * R_p - k.c9 * R_q;
+  dz.p = -h * H_q;
+  rest.p = carry.p + k.c10 * R_q + k.c11 * R_p;
   // False for infinities and NaN alike.
-  const Real length = dz.q * dz.q + dz.p * dz.p;
+  const Real length = dz.q * dz.q + rest.q * rest.q + dz.p * dz.p + rest.p * rest.p;
   report.converged = length <= 1.0e308;
   if (!report.converged) report.increment = length;
   return report;
@@ -103,11 +128,11 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 // Advances z by one step of size h.  On failure z is left unchanged.
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   const Coefficients k = prepare(par, h);
-  State dz;
-  const StepReport report = solve(par, k, h, z, State(), dz);
+  State dz, rest;
+  const StepReport report = solve(par, k, h, z, State(), dz, rest);
   if (!report.converged) return report;
-  z.q += dz.q;
-  z.p += dz.p;
+  z.q += dz.q + rest.q;
+  z.p += dz.p + rest.p;
   return report;
 }
 
@@ -119,11 +144,11 @@ class Propagator {
 
   // One step; on failure the state stays as it was.
   StepReport step() {
-    State dz;
-    const StepReport report = solve(par_, k_, h_, z_, carry_, dz);
+    State dz, rest;
+    const StepReport report = solve(par_, k_, h_, z_, carry_, dz, rest);
     if (!report.converged) return report;
-    two_sum(z_.q, carry_.q, dz.q);
-    two_sum(z_.p, carry_.p, dz.p);
+    add(z_.q, carry_.q, dz.q, rest.q);
+    add(z_.p, carry_.p, dz.p, rest.p);
     return report;
   }
 
@@ -144,6 +169,8 @@ class Propagator {
   }
 
   [[nodiscard]] const State& state() const { return z_; }
+  // What rounding took from the state: the sum of both is what the steps go on from.
+  [[nodiscard]] const State& carry() const { return carry_; }
 
  private:
   Parameters par_;

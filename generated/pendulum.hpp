@@ -334,6 +334,8 @@ class Propagator {
   }
 
   [[nodiscard]] const State& state() const { return z_; }
+  // What rounding took from the state: the sum of both is what the steps go on from.
+  [[nodiscard]] const State& carry() const { return carry_; }
 
  private:
   Parameters par_;

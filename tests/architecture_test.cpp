@@ -102,8 +102,10 @@ const std::vector<Rule>& rules() {
       // How values of studies look.
       {"app/output/", with_generator_values({"app/output/", "app/studies/"}), {fmt, other}},
       {"app/", {"app/", "generator/", "runtime/"}, {fmt, system, other}},
-      // It measures with the studies, without the command.
-      {"benchmarks/", {"benchmarks/", "app/studies/", "generator/", "runtime/"}, {fmt, other}},
+      // They measure with the studies, without the command, and with what tests measure by.
+      {"benchmarks/",
+       {"benchmarks/", "app/studies/", "generator/", "runtime/", "tests/contract/"},
+       {fmt, other}},
       {"generated/", {}, {eigen, quadmath}},
   };
   return table;

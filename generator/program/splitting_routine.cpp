@@ -21,7 +21,7 @@ Routine half_gradient(const Environment& environment, const Coefficients& coeffi
 }
 
 // One of the two kinds of substeps: p -= kick dV/dq, or q += drift dT/dp.
-struct Kind {
+struct HalfStep {
   bool kick = true;
   Place gradient = {};  // where it stands
   [[nodiscard]] const char* routine() const {
@@ -71,7 +71,7 @@ class SplittingRoutine {
     body.push_back({Copy{"State", "now", "z", true}});
     body.push_back({Copy{"State", "dz", "carry"}});
     body.push_back({Copy{"State", "rest", ""}});
-    for (const Kind& kind : {first_, second_}) {
+    for (const HalfStep& kind : {first_, second_}) {
       if (kind.gradient.field.empty()) body.push_back({Array{kind.gradient.object, {n_}}});
     }
     const Place known{"start", "known"};
@@ -111,7 +111,7 @@ class SplittingRoutine {
     if (closed_) add_call(body, first_);
   }
 
-  void add_call(Body& body, const Kind& kind) const {
+  void add_call(Body& body, const HalfStep& kind) const {
     if (arrays_) {
       body.push_back(
           {Call{kind.routine(), {{"par"}, {"now", kind.kick ? "q" : "p"}, kind.gradient}}});
@@ -151,7 +151,7 @@ class SplittingRoutine {
   }
 
   // dz -= kick dV/dq or dz += drift dT/dp, and the state there, unless nobody looks at it.
-  void add_change(Body& body, const Kind& kind, const AffineIndex& substep, bool last) {
+  void add_change(Body& body, const HalfStep& kind, const AffineIndex& substep, bool last) {
     Body inner;
     Body& target = arrays_ ? inner : body;
     for (const AffineIndex& i : components(kind.kick)) {
@@ -180,7 +180,7 @@ class SplittingRoutine {
   const Program& program_;
   int n_;
   bool arrays_, closed_;
-  Kind first_, second_;  // that comes first, and the other
+  HalfStep first_, second_;  // that comes first, and the other
   Routine routine_;
 };
 
