@@ -468,6 +468,14 @@ class Propagator {
   History<n> history_;
 };
 
+// Advances z by one step of size h.  On failure z is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
+  Propagator propagator(par, h, z);
+  const StepReport report = propagator.step();
+  if (report.converged) z = propagator.state();
+  return report;
+}
+
 }  // namespace fput::implicit_midpoint
 
 #ifdef __clang__

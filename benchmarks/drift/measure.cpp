@@ -29,9 +29,6 @@ constexpr const char* kProgram = R"(
 #include <ctime>
 #include <vector>
 
-#include "rounded.hpp"
-#include "exact.hpp"
-
 using Quad = __float128;
 constexpr int size = sizeof(rounded::State) / sizeof(double);
 static_assert(sizeof(exact::State) == size * sizeof(Quad));
@@ -191,9 +188,9 @@ Result measure(const Row& row, long long steps, int starts, double seconds, cons
   runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
                                   .working_directory = directory.path(),
                                   .time_limit = std::chrono::minutes(20)};
-  for (const char* flag :
-       {"-std=gnu++20", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno", "-isystem",
-        "/usr/include/eigen3", "drift.cpp", "-o", "drift", "-lquadmath"}) {
+  for (const char* flag : {"-std=gnu++20", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno",
+                           "-isystem", "/usr/include/eigen3", "-include", "rounded.hpp", "-include",
+                           "exact.hpp", "drift.cpp", "-o", "drift", "-lquadmath"}) {
     compile.command.emplace_back(flag);
   }
   (void)checked_run(compile);

@@ -121,7 +121,11 @@ void write_scheme(CodeWriter& out, CppContext& context) {
     const StepRole role = composed ? StepRole::substep : StepRole::propagator;
     if (context.arrays()) {
       write_array_member(out, context, role);
-      if (composed) write_array_composition(out, context);
+      if (composed) {
+        write_array_composition(out, context);
+      } else {
+        write_single_step(out);
+      }
     } else {
       write_solved(out, context);
       if (tangent) write_member_tangent(out, context, role);

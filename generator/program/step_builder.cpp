@@ -152,7 +152,11 @@ void StepBuilder::name_weights() {
   for (int i = 0; i < n_; ++i) {
     const auto q = equations_.stage_matrix.find({i, n_ + i});
     const auto p = equations_.stage_matrix.find({n_ + i, i});
-    if (q == equations_.stage_matrix.end() || is_exact(q->second)) continue;
+    if (q == equations_.stage_matrix.end() || p == equations_.stage_matrix.end()) continue;
+    // Of a C that is not in sp(2n) they need not sum to h.
+    const bool complementary =
+        q->second - p->second == Expression(1) || p->second == -(Expression(1) - q->second);
+    if (is_exact(q->second) || !complementary) continue;
     auto pair = pairs.find(q->second);
     if (pair == pairs.end()) {
       const auto named = [&](const std::string& what, const Expression& value) {
@@ -167,7 +171,7 @@ void StepBuilder::name_weights() {
       pair = pairs.emplace(q->second, std::pair(of_q, of_p)).first;
     }
     weights_[{i, n_ + i}] = pair->second.first;
-    if (p != equations_.stage_matrix.end()) weights_[{n_ + i, i}] = -pair->second.second;
+    weights_[{n_ + i, i}] = -pair->second.second;
   }
   keeps_gradients_ = std::ranges::any_of(equations_.stage_matrix, [&](const auto& entry) {
     return !is_exact(entry.second) && !is_exact(-entry.second);

@@ -79,28 +79,14 @@ TEST(Drift, TheEquationsOfLoopsStartFromTheCarry) {
       {.model = chain(25), .request = {}});
 }
 
-TEST(Drift, TheWeightsOfLoopsSumToH) {
-  expect_drift_only_with({{"h_rest_ = h - h_alpha_;", ""}, {"h_alpha_ = h - h_rest_;", ""}},
-                         {.model = chain(25), .request = {.alpha = "3/10"}, .h = 0.7});
-}
-
 // Which of two neighbours the rounded stages are depends on where they came from.
 TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
   expect_drift_only_with({{"refine();\n    Real dz", "Real dz"}},
                          {.model = chain(6), .request = {.scheme = "gauss-4"}, .h = 0.3});
 }
 
-TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {
-  expect_drift_only_with({{"refinement_0.change[", "0 * refinement_0.change["}},
-                         {.model = chain(6), .request = {.solver = "fixed-point"}});
-  expect_drift_only_with({{"refinement_.change[", "0 * refinement_.change["}},
-                         {.model = chain(25), .request = {.solver = "fixed-point"}});
-}
-
-TEST(Drift, KicksAndDriftsStartFromTheCarry) {
-  expect_drift_only_with({{"dz = carry;", "dz = State();"},
-                          {"carry_.q, dz.q)", "carry_.q, dz.q + carry_.q)"},
-                          {"carry_.p, dz.p)", "carry_.p, dz.p + carry_.p)"}},
+TEST(Drift, NothingIsLostOfTheSumsOfKicks) {
+  expect_drift_only_with({{"lost += error;", ""}},
                          {.model = oscillator(), .request = {.scheme = "sbab-3"}, .h = 0.2});
 }
 

@@ -38,10 +38,12 @@ void for_each_expression(Program& program, const std::function<void(Expression&)
       for (LoopVariable& v : stage.solve->variables) {
         for (Expression* e : {&v.cold, &v.next, &v.correction}) visit(*e);
       }
+      expressions(stage.solve->gradient);
     }
     statements(stage.after);
   }
   expressions(program.increments);
+  expressions(program.rests);
   for (Evaluation* evaluation :
        {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
         &program.kinetic_gradient, &program.vector_field, &program.hessian,
@@ -177,10 +179,15 @@ class Interpreter {
           for (const LoopVariable& v : stage.solve->variables) {
             for (const Expression& e : {v.cold, v.next, v.correction}) results_.push_back(value(e));
           }
+          for (const Expression& e : stage.solve->gradient) results_.push_back(value(e));
         }
         run(stage.after);
       }
-      for (const Expression& e : program.increments) results_.push_back(value(e));
+      // What is large and what is small make one increment.
+      for (std::size_t i = 0; i < program.increments.size(); ++i) {
+        const double rest = program.rests.empty() ? 0.0 : value(program.rests[i]);
+        results_.push_back(value(program.increments[i]) + rest);
+      }
       for (const Evaluation* e :
            {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
             &program.kinetic_gradient, &program.vector_field, &program.hessian,
