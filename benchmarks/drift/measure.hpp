@@ -26,7 +26,8 @@ struct Row {
   Request request;
   Conserved conserved = Conserved::form;
   double h = 0.1;
-  // Statements that fill z[0..2n) from uniform(), uniform in (-1, 1), and the number s of the start.
+  // Statements that fill z[0..2n) from uniform(), uniform in (-1, 1), and the number s of the
+  // start.
   std::string start = "for (double& value : z) value = uniform();";
   bool is_exempt = false;  // not symplectic: listed, not judged
 };

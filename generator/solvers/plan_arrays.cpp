@@ -20,8 +20,8 @@ bool is_constant(const Kernel& kernel, const Expression& e) {
 // Is the kernel a polynomial of degree two in the state?
 bool has_constant_hessian(const Kernel& kernel) {
   const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
-  return std::ranges::none_of(
-             kernel.slots, [&](const Slot& slot) { return beyond.contains(slot.symbol); }) &&
+  return std::ranges::none_of(kernel.slots,
+                              [&](const Slot& slot) { return beyond.contains(slot.symbol); }) &&
          std::ranges::all_of(kernel.hessian,
                              [&](const auto& entry) { return is_constant(kernel, entry.second); });
 }
