@@ -32,12 +32,21 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
   for (std::size_t i = 0; i < environment.parameters.size(); ++i) {
     parameter_text[environment.parameters[i].name] = "par." + parameter_fields[i];
   }
+  for (const char* name : {"prepare", "solve"}) needed_.merge(callees(code, name));
+  if (options.tangent) needed_.merge(callees(code, "tangent"));
 }
 
 void CppContext::write_routine(CodeWriter& out, std::string_view name) {
   const Routine* routine = code.routine(name);
-  if (routine != nullptr)
-    print(out, *routine, {scalar, options.builtins, arrays() ? n() : 0}, used);
+  if (routine == nullptr || !written_.emplace(name).second) return;
+  print(out, *routine, {scalar, options.builtins, arrays() ? n() : 0}, used);
+}
+
+void CppContext::write_with_callees(CodeWriter& out, std::string_view name) {
+  const std::set<std::string> wanted = callees(code, std::string(name));
+  for (const Routine& routine : code.routines) {
+    if (wanted.contains(routine.name)) write_routine(out, routine.name);
+  }
 }
 
 CppExpression CppContext::expression(Names& names) {

@@ -50,10 +50,18 @@ class CppContext {
   // What the expressions called decides the includes.
   void note(const CppExpression& cpp);
 
-  // Writes the routine of this name, if there is one.
+  // Writes the routine of this name, if there is one and it has not been written.
   void write_routine(CodeWriter& out, std::string_view name);
+  // And what it calls, before it.
+  void write_with_callees(CodeWriter& out, std::string_view name);
+  // Does the step call it, or the tangent map that the options ask for?
+  [[nodiscard]] bool needs(const std::string& routine) const { return needed_.contains(routine); }
   // Locals for the state variables that the statements use, from z.q.
   void load_state(CodeWriter& out, Names& names, const std::set<std::string>& used) const;
+
+ private:
+  std::set<std::string> needed_;
+  std::set<std::string, std::less<>> written_;
 };
 
 // Writes them one by one; those in `declared` are assigned to, the rest are new constants.

@@ -8,7 +8,8 @@ void write_functions(CodeWriter& out, CppContext& context) {
   context.write_routine(out, "energy");
   context.write_routine(out, "invariants");
   write_modified_energies(out, context);
-  if (context.options.gradient) context.write_routine(out, "gradient");
+  const bool wanted = context.options.gradient || context.needs("gradient");
+  if (wanted) context.write_with_callees(out, "gradient");
 }
 
 void write_modified_energies(CodeWriter& out, CppContext& context) {

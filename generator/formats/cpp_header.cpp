@@ -6,12 +6,10 @@
 
 #include "generator/algebra/functions.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
-#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/cpp_context.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_preamble.hpp"
-#include "generator/formats/cpp_schemes.hpp"
 #include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/numerics.hpp"
@@ -74,71 +72,18 @@ void open_namespace(CodeWriter& out, const CppContext& context) {
   out.line();
 }
 
-// A step that `solve` makes, of a system that is written out or of a splitting.
-void write_solved(CodeWriter& out, CppContext& context) {
+void write_scheme(CodeWriter& out, CppContext& context) {
   write_types(out, context, needs_vocabulary(context));
-  if (context.arrays()) {
-    write_array_functions(out, context);
-  } else {
-    write_functions(out, context);
-  }
+  write_functions(out, context);
   write_solver(out, context);
   write_steps(out, context);
-}
-
-// A member of a system whose sums stay loops.
-void write_array_member(CodeWriter& out, CppContext& context, StepRole role) {
-  const ArrayPlan& plan = *context.program.plan.arrays;
-  write_types(out, context, iterates(plan));
-  out.lines(cpp_numerics("two_sum"));
-  if (plan.method == ArrayMethod::fixed_point) {
-    out.lines(cpp_numerics("sum_with_rest") + cpp_numerics("refinement"));
-  }
-  if (iterates(plan)) {
-    out.lines(cpp_numerics("verdict"));
-    out.lines(
-        cpp_numerics(plan.method == ArrayMethod::newton ? "newton_rule" : "fixed_point_rule"));
-    out.lines(cpp_numerics("history"));
-  }
-  write_array_functions(out, context);
-  write_array_propagator(out, context, role);
-}
-
-void write_scheme(CodeWriter& out, CppContext& context) {
-  const Method& method = context.equations.scheme.method;
-  const bool tangent = context.options.tangent;
-  if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
-    write_runge_kutta(out, context, *tableau);
-  } else if (std::holds_alternative<Splitting>(method)) {
-    write_solved(out, context);
-    if (tangent && context.arrays()) {
-      write_array_splitting_tangent(out, context);
-    } else if (tangent) {
-      write_splitting_tangent(out, context);
-    }
-  } else {
-    const bool composed = std::holds_alternative<Composition>(method);
-    const StepRole role = composed ? StepRole::substep : StepRole::propagator;
-    if (context.arrays()) {
-      write_array_member(out, context, role);
-      if (composed) {
-        write_array_composition(out, context);
-      } else {
-        write_single_step(out);
-      }
-    } else {
-      write_solved(out, context);
-      if (tangent) write_member_tangent(out, context, role);
-    }
-    if (composed && tangent) write_composition_tangent(out, context);
-  }
+  if (context.options.tangent) context.write_with_callees(out, "tangent");
 }
 
 // Everything inside the namespace and the namespace itself.
 std::string namespace_text(CppContext& context) {
   CodeWriter inner;
   write_scheme(inner, context);
-  if (context.arrays()) context.write_routine(inner, "invariants");
   CodeWriter out;
   open_namespace(out, context);  // what it defines depends on what was used
   out.lines(inner.text());

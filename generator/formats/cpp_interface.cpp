@@ -35,7 +35,11 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
   std::string increments;
   std::string ends;
   if (context.arrays()) {
-    // There tangent needs no increment.
+    increments = R"(  for (int i = 0; i < n; ++i) {
+    dz.q[i] = end.q[i] - z.q[i];
+    dz.p[i] = end.p[i] - z.p[i];
+  }
+)";
     ends = R"(  for (int i = 0; i < n; ++i) {
     new_state[i] = static_cast<double>(end.q[i]);
     new_state[n + i] = static_cast<double>(end.p[i]);

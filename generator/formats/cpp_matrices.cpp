@@ -1,7 +1,7 @@
-// The matrices of large systems: their class, called Matrix, with clear, put, factorise and solve.
+#include "generator/formats/cpp_matrices.hpp"
+
 #include <fmt/format.h>
 
-#include "generator/formats/cpp_arrays.hpp"
 #include "generator/formats/numerics.hpp"
 
 namespace hamgen {
@@ -58,7 +58,7 @@ void write_plain(CodeWriter& out, const char* numerics, const char* name, int si
 
 }  // namespace
 
-void write_array_matrix(CodeWriter& out, const ArrayMatrix& matrix) {
+void write_matrix(CodeWriter& out, const ArrayMatrix& matrix) {
   switch (matrix.kind) {
     case MatrixKind::band:
       if (matrix.bandwidth > 0) {

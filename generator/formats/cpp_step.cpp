@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "generator/formats/cpp_matrices.hpp"
 #include "generator/formats/numerics.hpp"
 
 namespace hamgen {
@@ -20,7 +21,8 @@ std::string sizes_text(const Field& field) {
 std::string initial_value(const Field& field, const ScalarType& scalar) {
   std::string values;
   for (const Rational& value : field.values) {
-    const std::string text = field.type != "bool" ? literal(value, scalar)
+    const std::string text = field.type == "int"    ? value.get_str()
+                             : field.type != "bool" ? literal(value, scalar)
                              : value == 0         ? "false"
                                                   : "true";
     values += (values.empty() ? "" : ", ") + text;
@@ -56,17 +58,23 @@ bool iterates(const Routine* routine, Rule rule) {
 bool has_matrix(const Routine* routine, bool large) {
   return routine != nullptr && any(routine->body, [large](const Instruction& i) {
            const auto* matrix = std::get_if<Matrix>(&i.value);
-           return matrix != nullptr && matrix->large == large;
+           return matrix != nullptr && !matrix->patterned && matrix->large == large;
+         });
+}
+
+// Has Start a field of this block?
+bool remembers(const CppContext& context, std::string_view block) {
+  const Record* start = context.code.record("Start");
+  return start != nullptr && std::ranges::any_of(start->fields, [block](const Field& field) {
+           return field.type.starts_with(block);
          });
 }
 
 // What is written of the step itself.
 std::vector<const Routine*> written(const CppContext& context) {
   std::vector<const Routine*> routines;
-  std::vector<const char*> names = {"prepare", "solve"};
-  if (context.options.tangent) names.insert(names.end(), {"tangent", "substep_tangent"});
-  for (const char* name : names) {
-    if (const Routine* routine = context.code.routine(name)) routines.push_back(routine);
+  for (const Routine& routine : context.code.routines) {
+    if (context.needs(routine.name)) routines.push_back(&routine);
   }
   return routines;
 }
@@ -79,6 +87,7 @@ bool any_written(const CppContext& context, const Is& is) {
 // What the arguments of solve are called where it is called.
 struct CallNames {
   std::string par, k, h, z, carry, start, history;
+  std::string dz = "dz", rest = "rest";
 };
 
 class StepWriter {
@@ -90,13 +99,15 @@ class StepWriter {
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
         rest_(code_.has_rest()),
-        composed_(code_.substeps.size() > 1) {}
+        composed_(code_.substeps.size() > 1),
+        large_(context.arrays()) {}
 
   void write() {
-    if (!composed_) write_step();
+    const bool by_propagator = composed_ || large_;
+    if (!by_propagator) write_step();
     if (code_.unknowns > 0) out_.lines(cpp_numerics("history"));
     write_propagator();
-    if (composed_) write_step_of_propagator();
+    if (by_propagator) write_step_of_propagator();
   }
 
  private:
@@ -109,6 +120,8 @@ class StepWriter {
                                : argument.name == "z"     ? names.z
                                : argument.name == "carry" ? names.carry
                                : argument.name == "start" ? names.start
+                               : argument.name == "dz"    ? names.dz
+                               : argument.name == "rest"  ? names.rest
                                                           : argument.name;
       list += (list.empty() ? "" : ", ") + text;
     }
@@ -117,7 +130,7 @@ class StepWriter {
 
   // The line for every component that changes.
   void write_each(const std::function<std::string(const std::string&)>& line) {
-    if (context_.arrays()) {
+    if (large_) {
       out_.open("for (int i = 0; i < n; ++i)");
       out_.line(line("q[i]"));
       out_.line(line("p[i]"));
@@ -161,8 +174,7 @@ class StepWriter {
   }
 
   void write_propagator() {
-    const bool extrapolates = code_.unknowns > 0;
-    out_.line(extrapolates ? "// Many steps: start values are extrapolated, rounding errors of "
+    out_.line(code_.retries ? "// Many steps: start values are extrapolated, rounding errors of "
                              "the updates carried along."
                            : "// Many steps: rounding errors of the updates are carried along.");
     out_.open("class Propagator");
@@ -174,7 +186,8 @@ class StepWriter {
     } else {
       out_.line("// One step; on failure the state stays as it was.");
       out_.open("StepReport step()");
-      write_solve({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"});
+      write_solve(
+          with_room({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"}));
       out_.close();
     }
     out_.line();
@@ -184,7 +197,8 @@ class StepWriter {
     if (composed_) {
       out_.line("// Substep i from z + carry.");
       out_.open("StepReport substep(int i, State& z, State& carry)");
-      write_solve({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"});
+      write_solve(
+          with_room({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"}));
       out_.close();
       out_.line();
     }
@@ -229,39 +243,63 @@ class StepWriter {
     out_.close();
   }
 
+  // What is large has its place in the Propagator.
+  [[nodiscard]] CallNames with_room(CallNames names) const {
+    if (large_) names.dz = "dz_";
+    if (large_) names.rest = "rest_";
+    return names;
+  }
+
   // One solve, tried again without what is known from earlier steps, and the update.
   void write_solve(const CallNames& names) {
-    const bool extrapolates = code_.unknowns > 0;
-    out_.line(rest_ ? "State dz, rest;" : "State dz;");
-    if (!extrapolates) {
+    if (!large_) out_.line(rest_ ? "State dz, rest;" : "State dz;");
+    if (!code_.retries) {
       out_.line("const StepReport report = " + call(names) + ";");
       out_.line("if (!report.converged) return report;");
     } else {
-      const std::string& start = names.start;
-      const std::string& history = names.history;
-      out_.line(fmt::format("{}.known = {}.known > 0;", start, history));
-      out_.line(fmt::format("if ({0}.known) {1}.extrapolate({0}.value);", start, history));
-      out_.line("StepReport report = " + call(names) + ";");
-      out_.open(fmt::format("if (!report.converged && {}.known)", start));
-      out_.line("// Extrapolation may lead astray, the state itself seldom does.");
-      out_.line("const long long wasted = report.iterations;");
-      out_.line(start + " = Start();");
-      out_.line("report = " + call(names) + ";");
-      out_.line("report.iterations += wasted;");
-      out_.close();
-      out_.line("if (!report.converged) return report;");
-      for (const RuleOfNewton& rule : code_.rules) {
-        out_.line(fmt::format("{0}.{1}.watch({2}, {0}.value, {3}, {4});", start, rule.name, history,
-                              rule.first, rule.count));
-      }
-      out_.line(fmt::format("{}.record({}.value);", history, start));
+      write_solve_with_memory(names);
     }
     write_each([&](const std::string& x) {
-      return fmt::format(fmt::runtime(rest_ ? "add({0}.{2}, {1}.{2}, dz.{2}, rest.{2});"
-                                            : "two_sum({0}.{2}, {1}.{2}, dz.{2});"),
-                         names.z, names.carry, x);
+      return fmt::format(fmt::runtime(rest_ ? "add({0}.{2}, {1}.{2}, {3}.{2}, {4}.{2});"
+                                            : "two_sum({0}.{2}, {1}.{2}, {3}.{2});"),
+                         names.z, names.carry, x, names.dz, names.rest);
     });
     out_.line("return report;");
+  }
+
+  void write_solve_with_memory(const CallNames& names) {
+    const std::string& start = names.start;
+    const std::string& history = names.history;
+    const bool extrapolates = code_.unknowns > 0;
+    if (extrapolates) {
+      out_.line(fmt::format("{}.known = {}.known > 0;", start, history));
+      out_.line(fmt::format("if ({0}.known) {1}.extrapolate({0}.value);", start, history));
+    } else {
+      out_.line(fmt::format("const bool known = {}.known;", start));
+    }
+    out_.line("StepReport report = " + call(names) + ";");
+    out_.open(fmt::format("if (!report.converged && {})", extrapolates ? start + ".known" : "known"));
+    out_.line("// Extrapolation may lead astray, the state itself seldom does.");
+    out_.line("const long long wasted = report.iterations;");
+    if (extrapolates) write_forget(start);
+    out_.line("report = " + call(names) + ";");
+    out_.line("report.iterations += wasted;");
+    out_.close();
+    out_.line("if (!report.converged) return report;");
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("{0}.{1}.watch({2}, {0}.value, {3}, {4});", start, rule.name, history,
+                            rule.first, rule.count));
+    }
+    if (extrapolates) out_.line(fmt::format("{}.record({}.value);", history, start));
+  }
+
+  // A matrix that is there stays, and what is large makes no temporary.
+  void write_forget(const std::string& start) {
+    if (!large_) return out_.line(start + " = Start();");
+    out_.line(start + ".known = false;");
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("{}.{} = {{}};", start, rule.name));
+    }
   }
 
   void write_composed_step() {
@@ -277,7 +315,13 @@ class StepWriter {
     if (code_.unknowns > 0) {
       out_.open("if (!report.converged)");
       out_.line("// Those before have seen a step that will not be.");
-      out_.line("for (Start& start : start_) start = Start();");
+      if (large_) {
+        for (const RuleOfNewton& rule : code_.rules) {
+          out_.line(fmt::format("for (Start& start : start_) start.{} = {{}};", rule.name));
+        }
+      } else {
+        out_.line("for (Start& start : start_) start = Start();");
+      }
       out_.line("for (auto& history : history_) history = {};");
       out_.line("return total;");
       out_.close();
@@ -305,6 +349,7 @@ class StepWriter {
     if (coefficients_) out_.line(fmt::format("Coefficients k_{};", each));
     if (start_) out_.line(fmt::format("Start start_{};", each));
     if (code_.unknowns > 0) out_.line(fmt::format("History<{}> history_{};", code_.unknowns, each));
+    if (large_) out_.line(rest_ ? "State dz_, rest_;" : "State dz_;");
   }
 
   [[nodiscard]] bool takes_step() const {
@@ -315,7 +360,7 @@ class StepWriter {
   CodeWriter& out_;
   const CppContext& context_;
   const StepCode& code_;
-  bool coefficients_, start_, rest_, composed_;
+  bool coefficients_, start_, rest_, composed_, large_;
 };
 
 }  // namespace
@@ -339,7 +384,7 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
 
 bool needs_vocabulary(const CppContext& context) {
   return any_written(context, [](const Routine* routine) {
-    return has<Matrix>(routine) || has<Iterate>(routine);
+    return has<Matrix>(routine) || has<Iterate>(routine) || has<IterateArray>(routine);
   });
 }
 
@@ -356,13 +401,20 @@ void write_solver(CodeWriter& out, CppContext& context) {
   const bool small =
       any_written(context, [](const Routine* routine) { return has_matrix(routine, false); });
   // Eigen does not know quad numbers.
-  if (small || (large && context.quad())) out.lines(cpp_numerics("dense_matrix"));
+  const bool dense = small || (large && context.quad());
+  if (context.code.matrix) {
+    write_matrix(out, *context.code.matrix);
+    if (dense && context.code.matrix->kind != MatrixKind::dense)
+      out.lines(cpp_numerics("dense_matrix"));
+  } else if (dense) {
+    out.lines(cpp_numerics("dense_matrix"));
+  }
   if (needs_eigen(context)) out.lines(cpp_numerics("eigen_dense_matrix"));
   if (has<Invert>(prepare)) out.lines(cpp_numerics("inverse"));
   if (prepare != nullptr) {
     write_record(out, *context.code.record("Coefficients"), context.scalar);
     out.line();
-    context.write_routine(out, "prepare");
+    context.write_with_callees(out, "prepare");
   }
   for (const char* part : {"potential_gradient", "kinetic_gradient"}) {
     if (!context.arrays()) context.write_routine(out, part);
@@ -370,17 +422,22 @@ void write_solver(CodeWriter& out, CppContext& context) {
   out.lines(cpp_numerics("two_sum"));
   if (context.code.has_rest()) out.lines(cpp_numerics("sum_with_rest"));
   if (has<Collect>(solve)) out.lines(cpp_numerics("collected_sum"));
-  const bool newton = iterates(solve, Rule::newton);
-  const bool fixed_point = iterates(solve, Rule::fixed_point);
+  const bool newton = iterates(solve, Rule::newton) || remembers(context, "NewtonRule");
+  const bool simplified = remembers(context, "SimplifiedNewtonRule");
+  const bool impatient = remembers(context, "ImpatientRule");
+  const bool fixed_point = iterates(solve, Rule::fixed_point) || simplified || impatient ||
+                           remembers(context, "FixedPointRule");
   if (newton || fixed_point) out.lines(cpp_numerics("verdict"));
   if (newton) out.lines(cpp_numerics("newton_rule"));
   if (fixed_point) out.lines(cpp_numerics("fixed_point_rule"));
-  if (has<Refine>(solve)) out.lines(cpp_numerics("refinement"));
+  if (impatient) out.lines(cpp_numerics("impatient_rule"));
+  if (simplified) out.lines(cpp_numerics("simplified_newton_rule"));
+  if (has<Refine>(solve) || remembers(context, "Refinement")) out.lines(cpp_numerics("refinement"));
   if (const Record* start = context.code.record("Start")) {
     write_record(out, *start, context.scalar);
     out.line();
   }
-  context.write_routine(out, "solve");
+  context.write_with_callees(out, "solve");
 }
 
 void write_steps(CodeWriter& out, const CppContext& context) { StepWriter(out, context).write(); }

@@ -21,8 +21,8 @@ Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real
   }
   if (code_->routine("solve") == nullptr) internal_error("a step that cannot be interpreted");
   parameters_.numbers = std::move(parameters);
-  z_ = make_object<Real>(*code_->record("State"));
-  carry_ = make_object<Real>(*code_->record("State"));
+  z_ = make_object<Real>(*code_->record("State"), *code_);
+  carry_ = make_object<Real>(*code_->record("State"), *code_);
   z_.numbers = state;
   for (const Rational& length : code_->substeps) {
     Substep& substep = substeps_.emplace_back();
@@ -38,7 +38,7 @@ Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real
 
 template <class Real>
 void Interpreter<Real>::forget(Substep& substep) {
-  if (const Record* start = code_->record("Start")) substep.start = make_object<Real>(*start);
+  if (const Record* start = code_->record("Start")) substep.start = make_object<Real>(*start, *code_);
   if (code_->unknowns > 0) substep.history = make_history<Real>(code_->unknowns);
 }
 
@@ -76,30 +76,32 @@ typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Ob
 template <class Real>
 typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Object<Real>& z,
                                                            Object<Real>& carry) {
-  Object<Real> dz = make_object<Real>(*code_->record("State"));
-  Object<Real> rest = make_object<Real>(*code_->record("State"));
+  Object<Real> dz = make_object<Real>(*code_->record("State"), *code_);
+  Object<Real> rest = make_object<Real>(*code_->record("State"), *code_);
   const bool extrapolates = code_->unknowns > 0;
-  bool known = false;
+  // start.value is what its numbers begin with.
+  const auto value = [&] {
+    return std::span(substep.start.numbers).first(static_cast<std::size_t>(code_->unknowns));
+  };
+  bool known = code_->retries && substep.start.flags.at("known") != 0;
   if (extrapolates) {
     known = substep.history->known();
-    substep.start.flags["known"] = known;
-    std::vector<Real>& value = substep.start.numbers;
-    if (known) substep.history->extrapolate(value);
+    substep.start.flags["known"] = known ? 1 : 0;
+    if (known) substep.history->extrapolate(value());
   }
   Report report = solve(substep, z, carry, dz, rest);
   if (!report.converged && known) {
     const long long wasted = report.iterations;
-    substep.start = make_object<Real>(*code_->record("Start"));
+    if (extrapolates) substep.start = make_object<Real>(*code_->record("Start"), *code_);
     report = solve(substep, z, carry, dz, rest);
     report.iterations += wasted;
   }
   if (!report.converged) return report;
   if (extrapolates) {
     for (const RuleOfNewton& rule : code_->rules) {
-      substep.start.rules.at(rule.name)->watch(*substep.history, substep.start.numbers, rule.first,
-                                               rule.count);
+      substep.start.rules.at(rule.name)->watch(*substep.history, value(), rule.first, rule.count);
     }
-    substep.history->record(substep.start.numbers);
+    substep.history->record(value());
   }
   for (std::size_t i = 0; i < z.numbers.size(); ++i) {
     if (code_->has_rest()) {

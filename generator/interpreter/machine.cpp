@@ -1,6 +1,8 @@
 #include "generator/interpreter/machine.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <span>
 
 #include "generator/base/diagnostic.hpp"
 
@@ -23,29 +25,80 @@ bool is_finite(Real sum_of_squares) {
 
 }  // namespace
 
+namespace {
+
+// The numbers in "FixedPointRule<12, 2>".
+std::vector<int> template_arguments(const std::string& type) {
+  std::vector<int> values;
+  for (std::size_t i = type.find('<'); i < type.size(); ++i) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(type[i])) != 0;
+    if (!digit) continue;
+    std::size_t length = 0;
+    values.push_back(std::stoi(type.substr(i), &length));
+    i += length;
+  }
+  return values;
+}
+
+template <class Real>
+void add_block(Object<Real>& object, const Field& field, const StepCode& code) {
+  const std::vector<int> sizes = template_arguments(field.type);
+  if (field.type == "Matrix") {
+    object.matrices[field.name] = make_matrix<Real>(code.matrix->size);
+  } else if (field.type.starts_with("NewtonRule")) {
+    object.rules[field.name] = make_newton_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("FixedPointRule")) {
+    object.contractions[field.name] = make_fixed_point_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("ImpatientRule")) {
+    object.contractions[field.name] = make_impatient_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("SimplifiedNewtonRule")) {
+    object.simplified[field.name] = make_simplified_newton_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("Refinement")) {
+    object.refinements[field.name] = make_refinement<Real>(sizes.at(0), sizes.at(1));
+  } else {
+    internal_error("no block " + field.type);
+  }
+}
+
+}  // namespace
+
+std::vector<Field> numeric_fields(const Record& record) {
+  std::vector<Field> fields;
+  for (const Field& field : record.fields) {
+    if (field.type == "Real") fields.push_back(field);
+    if (!field.type.starts_with("Refinement")) continue;
+    for (const char* part : {".slope", ".change"}) {
+      fields.push_back({.name = field.name + part, .sizes = {template_arguments(field.type).at(1)}});
+    }
+  }
+  return fields;
+}
+
 long offset_of(const Record& record, const std::string& field) {
   long offset = 0;
-  for (const Field& candidate : record.fields) {
+  for (const Field& candidate : numeric_fields(record)) {
     if (candidate.name == field) return offset;
-    if (candidate.type == "Real") offset += product(candidate.sizes);
+    offset += product(candidate.sizes);
   }
+  if (std::ranges::find(record.fields, field, &Field::name) != record.fields.end()) return 0;
   internal_error("no field " + field + " in " + record.name);
 }
 
 template <class Real>
-Object<Real> make_object(const Record& record) {
+Object<Real> make_object(const Record& record, const StepCode& code) {
   Object<Real> object;
+  for (const Field& field : numeric_fields(record)) {
+    const auto size = static_cast<std::size_t>(product(field.sizes));
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool given = i < field.values.size();
+      object.numbers.push_back(given ? nearest_number<Real>(field.values[i]) : Real(0));
+    }
+  }
   for (const Field& field : record.fields) {
-    if (field.type == "Real") {
-      const auto size = static_cast<std::size_t>(product(field.sizes));
-      for (std::size_t i = 0; i < size; ++i) {
-        const bool given = i < field.values.size();
-        object.numbers.push_back(given ? nearest_number<Real>(field.values[i]) : Real(0));
-      }
-    } else if (field.type == "bool") {
-      object.flags[field.name] = !field.values.empty() && field.values[0] != 0;
-    } else {
-      object.rules[field.name] = make_newton_rule<Real>(field.type == "NewtonRule<1>" ? 1 : 2);
+    if (field.type == "bool" || field.type == "int") {
+      object.flags[field.name] = !field.values.empty() && field.values[0] != 0 ? 1 : 0;
+    } else if (field.type != "Real") {
+      add_block(object, field, code);
     }
   }
   return object;
@@ -65,7 +118,7 @@ class Machine<Real>::Compiler {
       declare(argument.name, argument.record.empty() ? nullptr : code_.record(argument.record),
               argument.sizes);
     }
-    m_.argument_count_ = routine_.arguments.size();
+    for (const Argument& argument : routine_.arguments) m_.arguments_.push_back(argument.name);
     declare_all(routine_.body);
     if (const Record* result = code_.record(routine_.result.type)) {
       declare(routine_.result.object, result, {});
@@ -109,15 +162,23 @@ class Machine<Real>::Compiler {
   }
   Step operator()(const Matrix& matrix) {
     return [this, matrix] {
-      m_.matrices_[matrix.name] = make_matrix<Real>(matrix.size);
+      std::unique_ptr<AnyMatrix<Real>>& own = m_.own_matrices_[matrix.name];
+      if (own) {
+        own->clear();
+      } else {
+        own = make_matrix<Real>(matrix.size);
+      }
+      m_.matrices_[matrix.name] = own.get();
       return true;
     };
   }
   Step operator()(const Copy& copy) {
     const int to = index_of(copy.to);
     if (copy.from.empty()) {
-      return [this, to] {
-        std::ranges::fill(object(to).numbers, Real(0));
+      const Record* record = code_.record(copy.record);
+      return [this, to, record] {
+        object(to) = make_object<Real>(*record, code_);
+        m_.frame_.objects[static_cast<std::size_t>(to)] = object(to).numbers.data();
         return true;
       };
     }
@@ -128,12 +189,18 @@ class Machine<Real>::Compiler {
       return true;
     };
   }
+  Step operator()(const Clear& clear) {
+    return [this, matrix = matrix_at(clear.matrix)] {
+      matrix().clear();
+      return true;
+    };
+  }
   Step operator()(const Put& put) {
     const Address row = index_address(put.row);
     const Address column = index_address(put.column);
-    return [this, name = put.matrix, row, column, value = compiled(put.value)] {
-      m_.matrices_.at(name)->put(static_cast<int>(evaluate(row)),
-                                 static_cast<int>(evaluate(column)), value(m_.frame_));
+    return [this, matrix = matrix_at(put.matrix), row, column, value = compiled(put.value)] {
+      matrix().put(static_cast<int>(evaluate(row)), static_cast<int>(evaluate(column)),
+                   value(m_.frame_));
       return true;
     };
   }
@@ -161,36 +228,42 @@ class Machine<Real>::Compiler {
   }
   Step operator()(const If& branch) {
     return [this, branch, target = index_of(branch.flag.object), body = steps(branch.then)] {
-      return object(target).flags.at(branch.flag.field) != branch.set || run_all(body);
+      return (object(target).flags.at(branch.flag.field) != 0) != branch.set || run_all(body);
     };
   }
   Step operator()(const Call& call) {
-    Machine* other = others_.at(call.routine).get();
-    std::vector<Address> places;
-    for (const Place& place : call.arguments) places.push_back(address(place));
-    return [this, other, places] {
-      std::vector<Given<Real>> given;
-      for (const Address& place : places) {
-        given.push_back(
-            {&m_.frame_.at(place), m_.objects_[static_cast<std::size_t>(place.object)]});
+    return [this, run = called(call), call] {
+      const MachineReport<Real> report = run();
+      return report.converged || !call.must_succeed;
+    };
+  }
+  Step operator()(const Alternate& alternate) {
+    const auto first = called(alternate.first);
+    const auto second = called(alternate.second);
+    const int target = index_of(alternate.patience.object);
+    return [this, first, second, target, alternate, between = steps(alternate.between)] {
+      int& patience = object(target).flags.at(alternate.patience.field);
+      if (patience == 0 && !first().converged) {
+        if (!run_all(between)) return false;
+        patience = alternate.steps;
       }
-      other->run(given);
-      return true;
+      if (patience == 0) return true;
+      --patience;
+      return second().converged;
     };
   }
   Step operator()(const Factorise& factorise) {
-    return [this, name = factorise.matrix] {
-      if (m_.matrices_.at(name)->factorise()) return true;
+    return [this, matrix = matrix_at(factorise.matrix)] {
+      if (matrix().factorise()) return true;
       m_.report_.iterations += m_.iteration_;
       return false;
     };
   }
   Step operator()(const SolveFactorised& solve) {
-    const Address vector{index_of(solve.vector), 0, {}};
-    const auto size = static_cast<std::size_t>(
-        product(m_.shapes_[static_cast<std::size_t>(vector.object)].sizes));
-    return [this, name = solve.matrix, vector, size] {
-      m_.matrices_.at(name)->solve({&m_.frame_.at(vector), size});
+    const Address vector = address(solve.vector);
+    const auto size = static_cast<std::size_t>(product(sizes_of(solve.vector)));
+    return [this, matrix = matrix_at(solve.matrix), vector, size] {
+      matrix().solve({&m_.frame_.at(vector), size});
       return true;
     };
   }
@@ -208,8 +281,8 @@ class Machine<Real>::Compiler {
           (&m_.frame_.at(inverse))[i * size + c] = column[static_cast<std::size_t>(i)];
         }
       }
-      bool& flag = object(target).flags.at(invert.regular.field);
-      flag = regular && flag;
+      int& flag = object(target).flags.at(invert.regular.field);
+      flag = regular && flag != 0 ? 1 : 0;
       return true;
     };
   }
@@ -225,7 +298,7 @@ class Machine<Real>::Compiler {
     const Address memory = address(Place{"start", "value"});
     const Steps body = steps(iterate.body);
     return [this, unknowns, start, memory, body, newton, name = iterate.name] {
-      const bool known = object(start).flags.at("known");
+      const bool known = object(start).flags.at("known") != 0;
       Real* kept = &m_.frame_.at(memory);
       for (const Compiled& u : unknowns) {
         m_.frame_.at(u.target) = known ? kept[u.memory] : u.start(m_.frame_);
@@ -237,6 +310,58 @@ class Machine<Real>::Compiler {
         kept[u.memory] = m_.frame_.at(u.target);
         if (newton) kept[u.memory] += u.correction(m_.frame_);
       }
+      return true;
+    };
+  }
+  Step operator()(const IterateArray& iterate) {
+    std::vector<Array2> unknowns;
+    for (const UnknownArray& u : iterate.unknowns) {
+      unknowns.push_back({address(u.value), address(u.increment),
+                          u.length.empty() ? Address{} : address(u.length), compiled(u.beside)});
+    }
+    const UnknownArray& front = iterate.unknowns.front();
+    const Place& increments = routine_.places.at(front.increment);
+    const Whole moved = whole(Place{increments.object, increments.field});
+    Whole lengths;
+    if (!front.length.empty()) {
+      const Place& place = routine_.places.at(front.length);
+      lengths = whole(Place{place.object, place.field});
+    }
+    std::vector<Range> ranges;
+    for (const KernelRange& range : iterate.ranges) ranges.push_back(range_of(range));
+    const Address residual =
+        iterate.residual.empty() ? Address{} : address(iterate.residual);
+    const int start = index_of("start");
+    const std::string flag = iterate.factorised ? iterate.factorised->field : "";
+    const Steps body = steps(iterate.body);
+    return [this, unknowns, moved, lengths, ranges, residual, start, flag, body,
+            rule = iterate.rule, name = iterate.name] {
+      Object<Real>& memory = object(start);
+      const auto each = [&](const std::function<void(const Array2&)>& use) {
+        for_all(ranges, 0, [&] {
+          for (const Array2& u : unknowns) use(u);
+        });
+      };
+      if (rule == Rule::newton) return run_newton_on(*memory.rules.at(name), each, body);
+      return run_contraction(memory, name, flag, each, body, moved, lengths, residual);
+    };
+  }
+  Step operator()(const RefineArray& refine) {
+    const Whole point = whole(refine.point);
+    const Whole lack = whole(refine.lack);
+    const Whole gradient = whole(refine.gradient);
+    const std::string& name = refine.refinement.field;
+    const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
+    const Whole change = whole(Place{refine.refinement.object, name + ".change"});
+    const int target = index_of(refine.refinement.object);
+    return [this, point, lack, gradient, slope, change, target, name, body = steps(refine.body)] {
+      AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
+      for (bool more = true; more;) {
+        if (!run_all(body)) return false;
+        more = refinement(span(point), span(lack), span(gradient));
+      }
+      refinement.get_slope(span(slope));
+      refinement.get_change(span(change));
       return true;
     };
   }
@@ -302,17 +427,16 @@ class Machine<Real>::Compiler {
     }
     std::vector<Address> finite;
     for (const std::string& symbol : end.finite) finite.push_back(address(symbol));
-    std::vector<std::pair<std::size_t, Address>> ranges;
-    std::vector<Address> lower;
-    for (const KernelRange& range : end.ranges) {
-      ranges.emplace_back(static_cast<std::size_t>(loop_index(range.index)),
-                          index_address(range.upper));
-      lower.push_back(index_address(range.lower));
-    }
+    std::vector<Range> ranges;
+    for (const KernelRange& range : end.ranges) ranges.push_back(range_of(range));
     const int target = end.flag ? index_of(end.flag->object) : 0;
-    return [this, end, finite, ranges, lower, target] {
+    return [this, end, finite, ranges, target] {
       Real length = 0;
-      sum_squares(length, finite, ranges, lower, 0);
+      for_all(ranges, 0, [&] {
+        Real sum = 0;
+        for (const Address& place : finite) sum += m_.frame_.at(place) * m_.frame_.at(place);
+        length += sum;
+      });
       m_.report_.converged = end.success && is_finite(length);
       if (end.success && !m_.report_.converged) m_.report_.increment = length;
       if (end.flag) object(target).flags.at(end.flag->field) = m_.report_.converged;
@@ -327,21 +451,159 @@ class Machine<Real>::Compiler {
     int memory = 0;
   };
 
-  void sum_squares(Real& length, const std::vector<Address>& finite,
-                   const std::vector<std::pair<std::size_t, Address>>& ranges,
-                   const std::vector<Address>& lower, std::size_t depth) const {
-    if (depth == ranges.size()) {
-      Real sum = 0;
-      for (const Address& place : finite) sum += m_.frame_.at(place) * m_.frame_.at(place);
-      length += sum;
-      return;
+  struct Range {
+    std::size_t index = 0;
+    Address lower, upper;
+  };
+  Range range_of(const KernelRange& range) {
+    return {static_cast<std::size_t>(loop_index(range.index)), index_address(range.lower),
+            index_address(range.upper)};
+  }
+  void for_all(const std::vector<Range>& ranges, std::size_t depth,
+               const std::function<void()>& use) const {
+    if (depth == ranges.size()) return use();
+    const Range& range = ranges[depth];
+    const long last = evaluate(range.upper);
+    for (long i = evaluate(range.lower); i <= last; ++i) {
+      m_.frame_.indices[range.index] = i;
+      for_all(ranges, depth + 1, use);
     }
-    const auto& [index, upper] = ranges[depth];
-    const long last = evaluate(upper);
-    for (long i = evaluate(lower[depth]); i <= last; ++i) {
-      m_.frame_.indices[index] = i;
-      sum_squares(length, finite, ranges, lower, depth + 1);
+  }
+
+  // Unknowns in arrays, and whole arrays.
+  struct Array2 {
+    Address value, increment, length;
+    CompiledExpression<Real> beside;
+  };
+  struct Whole {
+    Address first;
+    std::size_t size = 0;
+  };
+  Whole whole(const Place& place) {
+    return {address(place), static_cast<std::size_t>(product(sizes_of(place)))};
+  }
+  [[nodiscard]] std::span<Real> span(const Whole& array) const {
+    return {&m_.frame_.at(array.first), array.size};
+  }
+
+  template <class Each>
+  bool run_newton_on(AnyNewtonRule<Real>& rule, const Each& each, const Steps& body) const {
+    rule.begin();
+    for (m_.iteration_ = 1;; ++m_.iteration_) {
+      if (!run_all(body)) return false;
+      Real size = 0;
+      Real scale = 0;
+      each([&](const Array2& u) {
+        size += magnitude(m_.frame_.at(u.increment));
+        scale += magnitude(m_.frame_.at(u.value)) + magnitude(u.beside(m_.frame_));
+      });
+      const Answer answer = rule(size, scale, static_cast<int>(m_.iteration_));
+      if (answer != Answer::go_on) m_.report_.iterations += m_.iteration_;
+      if (answer == Answer::failed) m_.report_.increment = size;
+      if (answer != Answer::go_on) return answer == Answer::done;
+      each([&](const Array2& u) { m_.frame_.at(u.value) += m_.frame_.at(u.increment); });
     }
+  }
+
+  template <class Each>
+  bool run_contraction(Object<Real>& memory, const std::string& name, const std::string& flag,
+                       const Each& each, const Steps& body, const Whole& moved,
+                       const Whole& lengths, const Address& residual) const {
+    const bool newton = !flag.empty();
+    if (newton) {
+      memory.simplified.at(name)->begin(memory.flags.at(flag) != 0);
+    } else {
+      memory.contractions.at(name)->begin();
+    }
+    for (m_.iteration_ = 1;; ++m_.iteration_) {
+      if (!run_all(body)) return false;
+      Real scale = 0;
+      each([&](const Array2& u) {
+        Real& value = m_.frame_.at(u.value);
+        Real& length = m_.frame_.at(u.length);
+        length = magnitude(value) + magnitude(u.beside(m_.frame_));
+        scale += length;
+        value += m_.frame_.at(u.increment);
+      });
+      const auto iteration = static_cast<int>(m_.iteration_);
+      Answer answer = Answer::go_on;
+      Real size = 0;
+      if (newton) {
+        bool factorised = memory.flags.at(flag) != 0;
+        AnySimplifiedNewtonRule<Real>& rule = *memory.simplified.at(name);
+        answer = rule(span(moved), span(lengths), scale, m_.frame_.at(residual), factorised,
+                      iteration);
+        memory.flags.at(flag) = factorised ? 1 : 0;
+        size = rule.size();
+      } else {
+        AnyFixedPointRule<Real>& rule = *memory.contractions.at(name);
+        answer = rule(span(moved), span(lengths), scale, iteration);
+        size = rule.size();
+      }
+      if (answer == Answer::go_on) continue;
+      m_.report_.iterations += m_.iteration_;
+      if (answer == Answer::failed) m_.report_.increment = size;
+      return answer == Answer::done;
+    }
+  }
+
+  // What runs the routine that is called.
+  std::function<MachineReport<Real>()> called(const Call& call) {
+    Machine* other = others_.at(call.routine).get();
+    const std::vector<Argument>& arguments = code_.routine(call.routine)->arguments;
+    struct Slot {
+      Address place;
+      std::function<AnyMatrix<Real>&()> matrix;
+      bool is_report = false;
+    };
+    std::vector<Slot> slots;
+    bool reports = call.record == "StepReport";
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      Slot slot;
+      if (arguments[i].record == "Matrix") {
+        slot.matrix = matrix_at(call.arguments[i]);
+      } else if (arguments[i].record == "StepReport") {
+        slot.is_report = true;
+        reports = true;
+      } else {
+        slot.place = address(call.arguments[i]);
+      }
+      slots.push_back(std::move(slot));
+    }
+    const int result =
+        call.object.empty() || call.record == "StepReport" ? 0 : index_of(call.object);
+    return [this, other, slots, reports, result] {
+      std::vector<Given<Real>> given;
+      for (const Slot& slot : slots) {
+        if (slot.matrix) {
+          given.push_back({nullptr, nullptr, &slot.matrix()});
+        } else if (slot.is_report) {
+          given.push_back({});
+        } else {
+          given.push_back(
+              {&m_.frame_.at(slot.place), m_.objects_[static_cast<std::size_t>(slot.place.object)]});
+        }
+      }
+      const MachineReport<Real> report = other->run(given);
+      if (reports) m_.report_.iterations += report.iterations;
+      if (reports) m_.report_.increment = report.increment;
+      if (result > 0) {
+        object(result).numbers = other->result().numbers;
+        object(result).flags = other->result().flags;
+        m_.frame_.objects[static_cast<std::size_t>(result)] = object(result).numbers.data();
+      }
+      return report;
+    };
+  }
+
+  // The matrix at a place, when it is wanted.
+  std::function<AnyMatrix<Real>&()> matrix_at(const Place& place) {
+    if (place.field.empty()) {
+      return [this, name = place.object]() -> AnyMatrix<Real>& { return *m_.matrices_.at(name); };
+    }
+    return [this, target = index_of(place.object), field = place.field]() -> AnyMatrix<Real>& {
+      return *object(target).matrices.at(field);
+    };
   }
 
   bool run_newton(AnyNewtonRule<Real>& rule, const std::vector<Compiled>& unknowns,
@@ -416,6 +678,10 @@ class Machine<Real>::Compiler {
       }
       const auto* copy = std::get_if<Copy>(&instruction.value);
       if (copy != nullptr && copy->declares) declare(copy->to, code_.record(copy->record), {});
+      const auto* call = std::get_if<Call>(&instruction.value);
+      if (call != nullptr && !call->object.empty()) {
+        declare(call->object, code_.record(call->record), {});
+      }
       for (const Body* inner : inner_bodies(instruction)) declare_all(*inner);
     }
   }
@@ -447,7 +713,10 @@ class Machine<Real>::Compiler {
   [[nodiscard]] std::vector<int> sizes_of(const Place& place) const {
     const Shape& shape = m_.shapes_[static_cast<std::size_t>(index_of(place.object))];
     if (place.field.empty() || shape.record == nullptr) return shape.sizes;
-    return std::ranges::find(shape.record->fields, place.field, &Field::name)->sizes;
+    for (const Field& field : numeric_fields(*shape.record)) {
+      if (field.name == place.field) return field.sizes;
+    }
+    return {};
   }
   [[nodiscard]] int size_of(const Place& place) const { return sizes_of(place).front(); }
 
@@ -457,6 +726,7 @@ class Machine<Real>::Compiler {
       index.object = kIndex;
       return index;
     }
+    if (!m_.object_index_.contains(place.object)) return address(place.object);  // a local
     Address result{index_of(place.object), 0, {}};
     const Shape& shape = m_.shapes_[static_cast<std::size_t>(result.object)];
     if (!place.field.empty() && shape.record != nullptr)
@@ -521,9 +791,9 @@ template <class Real>
 Machine<Real>::Machine(const Routine& routine, const StepCode& code, const Others& others)
     : compiler_(std::make_unique<Compiler>(*this, routine, code, others)) {
   compiler_->compile();
-  for (std::size_t i = 1 + argument_count_; i < shapes_.size(); ++i) {
+  for (std::size_t i = 1 + arguments_.size(); i < shapes_.size(); ++i) {
     own_[i] = std::make_unique<Object<Real>>();
-    if (shapes_[i].record != nullptr) *own_[i] = make_object<Real>(*shapes_[i].record);
+    if (shapes_[i].record != nullptr) *own_[i] = make_object<Real>(*shapes_[i].record, code);
     if (shapes_[i].record == nullptr) {
       own_[i]->numbers.resize(static_cast<std::size_t>(product(shapes_[i].sizes)));
     }
@@ -542,9 +812,10 @@ Machine<Real>::~Machine() = default;
 
 template <class Real>
 MachineReport<Real> Machine<Real>::run(const std::vector<Given<Real>>& arguments) {
-  for (std::size_t i = 0; i < argument_count_; ++i) {
+  for (std::size_t i = 0; i < arguments_.size(); ++i) {
     objects_[1 + i] = arguments[i].object;
     frame_.objects[1 + i] = arguments[i].numbers;
+    if (arguments[i].matrix != nullptr) matrices_[arguments_[i]] = arguments[i].matrix;
   }
   report_ = {};
   iteration_ = 0;
@@ -557,10 +828,10 @@ const Object<Real>& Machine<Real>::result() const {
   return *own_.back();
 }
 
-template Object<float> make_object(const Record&);
-template Object<double> make_object(const Record&);
-template Object<long double> make_object(const Record&);
-template Object<Quad> make_object(const Record&);
+template Object<float> make_object(const Record&, const StepCode&);
+template Object<double> make_object(const Record&, const StepCode&);
+template Object<long double> make_object(const Record&, const StepCode&);
+template Object<Quad> make_object(const Record&, const StepCode&);
 template class Machine<float>;
 template class Machine<double>;
 template class Machine<long double>;

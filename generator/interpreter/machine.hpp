@@ -17,12 +17,18 @@ namespace hamgen {
 template <class Real>
 struct Object {
   std::vector<Real> numbers;
-  std::map<std::string, bool> flags;
+  std::map<std::string, int> flags;
   std::map<std::string, std::unique_ptr<AnyNewtonRule<Real>>> rules;
+  std::map<std::string, std::unique_ptr<AnyFixedPointRule<Real>>> contractions;
+  std::map<std::string, std::unique_ptr<AnySimplifiedNewtonRule<Real>>> simplified;
+  std::map<std::string, std::unique_ptr<AnyRefinement<Real>>> refinements;
+  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices;
 };
-// With the values its fields begin with.
+// With the values its fields begin with.  A field "Matrix" has the size of the code's.
 template <class Real>
-[[nodiscard]] Object<Real> make_object(const Record& record);
+[[nodiscard]] Object<Real> make_object(const Record& record, const StepCode& code);
+// The fields that are numbers, a Refinement's slope and change among them.
+[[nodiscard]] std::vector<Field> numeric_fields(const Record& record);
 // Where the numbers of a field begin.
 [[nodiscard]] long offset_of(const Record& record, const std::string& field);
 
@@ -31,6 +37,7 @@ template <class Real>
 struct Given {
   Real* numbers = nullptr;
   Object<Real>* object = nullptr;
+  AnyMatrix<Real>* matrix = nullptr;
 };
 
 template <class Real>
@@ -76,14 +83,15 @@ class Machine {
   std::vector<Shape> shapes_;
   std::vector<Object<Real>*> objects_;  // of this run
   std::vector<std::unique_ptr<Object<Real>>> own_;
-  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices_;
+  std::map<std::string, AnyMatrix<Real>*> matrices_;  // locals and arguments
+  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> own_matrices_;
   std::map<std::string, int> local_index_;
   std::map<std::string, int> loop_index_;
   std::vector<Real> locals_;
   Frame<Real> frame_;
   MachineReport<Real> report_;
   long long iteration_ = 0;  // of the iteration that is going on
-  std::size_t argument_count_ = 0;
+  std::vector<std::string> arguments_;
   std::unique_ptr<Compiler> compiler_;  // what the steps point into
   Steps steps_;
 };

@@ -67,9 +67,10 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   typename NumericsOf<Real>::template Newton<Power> rule_;
 };
 
-template <class Real, int Size>
+template <class Real, int Size, class Rule>
 class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
  public:
+  void begin() override { rule_.begin(); }
   Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
                     int iteration) override {
     return answer(rule_(Padded<Real, Size>(moved).padded, Padded<Real, Size>(length).padded, scale,
@@ -78,7 +79,22 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
   [[nodiscard]] Real size() const override { return rule_.size; }
 
  private:
-  typename NumericsOf<Real>::template FixedPoint<Size> rule_;
+  Rule rule_;
+};
+
+template <class Real, int Size>
+class SimplifiedNewtonRuleOf final : public AnySimplifiedNewtonRule<Real> {
+ public:
+  void begin(bool factorised) override { rule_.begin(factorised); }
+  Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
+                    Real residual, bool& factorised, int iteration) override {
+    return answer(rule_(Padded<Real, Size>(moved).padded, Padded<Real, Size>(length).padded, scale,
+                        residual, factorised, iteration));
+  }
+  [[nodiscard]] Real size() const override { return rule_.size; }
+
+ private:
+  typename NumericsOf<Real>::template Simplified<Size> rule_;
 };
 
 template <class Real, int Size>
@@ -96,6 +112,9 @@ class RefinementOf final : public AnyRefinement<Real> {
   void get_change(std::span<Real> change) const override {
     std::copy_n(refinement_.change, change.size(), change.begin());
   }
+  void get_slope(std::span<Real> slope) const override {
+    std::copy_n(refinement_.slope, slope.size(), slope.begin());
+  }
 
  private:
   typename NumericsOf<Real>::template Refined<Size> refinement_;
@@ -104,8 +123,10 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(int size) {
-    for (int i = size; i < Size; ++i) matrix_.put(i, i, 1);
+  explicit MatrixOf(int size) : size_(size) { clear(); }
+  void clear() override {
+    matrix_.clear();
+    for (int i = size_; i < Size; ++i) matrix_.put(i, i, 1);
   }
   void put(int row, int column, Real value) override { matrix_.put(row, column, value); }
   [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
@@ -116,6 +137,7 @@ class MatrixOf final : public AnyMatrix<Real> {
   }
 
  private:
+  int size_;
   typename NumericsOf<Real>::template Dense<Size> matrix_;
 };
 
@@ -147,7 +169,25 @@ std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power) {
 template <class Real>
 std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size) {
   return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyFixedPointRule<Real>> {
-    return std::make_unique<FixedPointRuleOf<Real, decltype(n)::value>>();
+    constexpr int kSize = decltype(n)::value;
+    using Rule = typename NumericsOf<Real>::template FixedPoint<kSize>;
+    return std::make_unique<FixedPointRuleOf<Real, kSize, Rule>>();
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule(int size) {
+  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyFixedPointRule<Real>> {
+    constexpr int kSize = decltype(n)::value;
+    using Rule = typename NumericsOf<Real>::template Impatient<kSize>;
+    return std::make_unique<FixedPointRuleOf<Real, kSize, Rule>>();
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule(int size) {
+  return at_least<256>(size, [](auto n) -> std::unique_ptr<AnySimplifiedNewtonRule<Real>> {
+    return std::make_unique<SimplifiedNewtonRuleOf<Real, decltype(n)::value>>();
   });
 }
 
@@ -186,5 +226,13 @@ template std::unique_ptr<AnyMatrix<float>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<double>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<long double>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<Quad>> make_matrix(int);
+template std::unique_ptr<AnyFixedPointRule<float>> make_impatient_rule(int);
+template std::unique_ptr<AnySimplifiedNewtonRule<float>> make_simplified_newton_rule(int);
+template std::unique_ptr<AnyFixedPointRule<double>> make_impatient_rule(int);
+template std::unique_ptr<AnySimplifiedNewtonRule<double>> make_simplified_newton_rule(int);
+template std::unique_ptr<AnyFixedPointRule<long double>> make_impatient_rule(int);
+template std::unique_ptr<AnySimplifiedNewtonRule<long double>> make_simplified_newton_rule(int);
+template std::unique_ptr<AnyFixedPointRule<Quad>> make_impatient_rule(int);
+template std::unique_ptr<AnySimplifiedNewtonRule<Quad>> make_simplified_newton_rule(int);
 
 }  // namespace hamgen

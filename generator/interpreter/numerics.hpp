@@ -66,11 +66,21 @@ struct AnyNewtonRule {
                      int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration) = 0;
 };
+// FixedPointRule, and ImpatientRule.
 template <class Real>
 struct AnyFixedPointRule {
   virtual ~AnyFixedPointRule() = default;
+  virtual void begin() = 0;
   virtual Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
                             int iteration) = 0;
+  [[nodiscard]] virtual Real size() const = 0;
+};
+template <class Real>
+struct AnySimplifiedNewtonRule {
+  virtual ~AnySimplifiedNewtonRule() = default;
+  virtual void begin(bool factorised) = 0;
+  virtual Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
+                            Real residual, bool& factorised, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
 };
 template <class Real>
@@ -81,10 +91,12 @@ struct AnyRefinement {
                           std::span<const Real> slope) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   virtual void get_change(std::span<Real> change) const = 0;
+  virtual void get_slope(std::span<Real> slope) const = 0;
 };
 template <class Real>
 struct AnyMatrix {
   virtual ~AnyMatrix() = default;
+  virtual void clear() = 0;
   virtual void put(int row, int column, Real value) = 0;
   [[nodiscard]] virtual bool factorise() = 0;
   virtual void solve(std::span<Real> vector) const = 0;
@@ -97,6 +109,10 @@ template <class Real>
 [[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power);
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size);
+template <class Real>
+[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule(int size);
+template <class Real>
+[[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule(int size);
 // For up to twice as many components of the gradient as unknowns.
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components);

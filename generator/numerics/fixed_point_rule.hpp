@@ -10,6 +10,12 @@ struct FixedPointRule {
   Real size = 0;                 // of the last increment
   int stuck = 0;
 
+  void begin() {
+    for (auto& cycle : least) {
+      for (Real& smallest : cycle) smallest = 0;
+    }
+    stuck = 0;
+  }
   // moved, length: of each component, its increment and what that was rounded with; scale: the sum
   // of what all were rounded with.
   Verdict operator()(const Real (&moved)[Size], const Real (&length)[Size], Real scale,

@@ -63,6 +63,7 @@ void build_hessian(Program& program, const Mechanics& mechanics) {
 }  // namespace
 
 Program with_tangent(Program program) {
+  program.tangent = true;
   const StepEquations& equations = program.plan.equations;
   const bool solved = equations.scheme.has_member() && !program.plan.sweeps;
   if (program.plan.arrays) {

@@ -31,8 +31,9 @@ struct Reader {
   }
   void operator()(const Matrix&) const {}
   void operator()(const Copy& copy) const { found.objects.insert({copy.from, copy.to}); }
+  void operator()(const Clear& clear) const { found.objects.insert(clear.matrix.object); }
   void operator()(const Put& put) const {
-    found.objects.insert(put.matrix);
+    found.objects.insert(put.matrix.object);
     mention(put.value, found);
   }
   void operator()(const SetFlag& set) const { found.objects.insert(set.flag.object); }
@@ -60,14 +61,34 @@ struct Reader {
   void operator()(const Call& call) const {
     for (const Place& place : call.arguments) found.objects.insert(place.object);
   }
-  void operator()(const Factorise& factorise) const { found.objects.insert(factorise.matrix); }
+  void operator()(const Alternate& alternate) const {
+    (*this)(alternate.first);
+    (*this)(alternate.second);
+    found.objects.insert(alternate.patience.object);
+    mention(alternate.between, found);
+  }
+  void operator()(const Factorise& factorise) const {
+    found.objects.insert(factorise.matrix.object);
+  }
   void operator()(const SolveFactorised& solve) const {
-    found.objects.insert({solve.matrix, solve.vector});
+    found.objects.insert({solve.matrix.object, solve.vector.object});
   }
   void operator()(const Iterate& iterate) const {
-    found.objects.insert("start");
+    found.objects.insert({"start", "report"});
     mention(iterate.unknowns, found);
     mention(iterate.body, found);
+  }
+  void operator()(const IterateArray& iterate) const {
+    found.objects.insert({"start", "report"});
+    for (const UnknownArray& u : iterate.unknowns) {
+      found.written.insert({u.value, u.increment, u.length});
+      mention(u.beside, found);
+    }
+    mention(iterate.body, found);
+  }
+  void operator()(const RefineArray& refine) const {
+    found.objects.insert(refine.refinement.object);
+    mention(refine.body, found);
   }
   void operator()(const Refine& refine) const {
     mention(refine.unknowns, found);
@@ -96,9 +117,24 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* scope = std::get_if<Scope>(&instruction.value)) return {&scope->body};
   if (const auto* branch = std::get_if<If>(&instruction.value)) return {&branch->then};
   if (const auto* iterate = std::get_if<Iterate>(&instruction.value)) return {&iterate->body};
+  if (const auto* iterate = std::get_if<IterateArray>(&instruction.value)) return {&iterate->body};
   if (const auto* refine = std::get_if<Refine>(&instruction.value)) return {&refine->body};
+  if (const auto* refine = std::get_if<RefineArray>(&instruction.value)) return {&refine->body};
+  if (const auto* two = std::get_if<Alternate>(&instruction.value)) return {&two->between};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
   return {};
+}
+
+std::set<std::string> called_routines(const Body& body) {
+  std::set<std::string> found;
+  for (const Instruction& instruction : body) {
+    if (const auto* call = std::get_if<Call>(&instruction.value)) found.insert(call->routine);
+    if (const auto* two = std::get_if<Alternate>(&instruction.value)) {
+      found.insert({two->first.routine, two->second.routine});
+    }
+    for (const Body* inner : inner_bodies(instruction)) found.merge(called_routines(*inner));
+  }
+  return found;
 }
 
 void collect_symbols(const Body& body, std::set<std::string>& names) {

@@ -24,7 +24,7 @@ struct Field {
   std::vector<int> sizes = {};  // of an array
   std::string remark = {};
   std::vector<Rational> values = {};  // to begin with; empty: zeros
-  std::string type = "Real";          // or "bool", "NewtonRule<2>"
+  std::string type = "Real";          // or "bool", "Matrix", "NewtonRule<2>"
   bool operator==(const Field&) const = default;
 };
 
@@ -64,6 +64,7 @@ struct Matrix {
   std::string name;
   int size = 0;
   bool large = false;
+  bool patterned = false;  // of the type that StepCode::matrix describes
 };
 // to = from, both records of one type; `declares` a local of it.  Without `from` zeros.
 struct Copy {
@@ -85,9 +86,13 @@ struct Accumulate {
   std::string symbol;
   Expression value;
 };
+// All entries become zero.
+struct Clear {
+  Place matrix;
+};
 // matrix(row, column) += value
 struct Put {
-  std::string matrix;
+  Place matrix;
   AffineIndex row, column;
   Expression value;
 };
@@ -112,14 +117,26 @@ struct If {
 struct Call {
   std::string routine;
   std::vector<Place> arguments;  // objects, or whole fields of theirs
+  // The record that it returns, and the local that this one becomes.
+  std::string record = {}, object = {};
+  bool must_succeed = false;  // the routine ends without success where the other one does
+};
+// Calls one of two routines that may fail: the first, and where that fails the second, which then
+// serves `steps` times before the first is tried again.  Where the second fails the routine ends
+// without success.
+struct Alternate {
+  Call first, second;
+  Place patience;  // times that are left to the second
+  int steps = 0;
+  Body between;  // before the second takes over
 };
 // Factorises a matrix.  Where it is singular the routine ends without success.
 struct Factorise {
-  std::string matrix;
+  Place matrix;
 };
 // The solution of matrix x = vector with the factors, left in the array `vector`.
 struct SolveFactorised {
-  std::string matrix, vector;
+  Place matrix, vector;
 };
 // The inverse of a matrix that is wanted many times; the flag is cleared where there is none.
 struct Invert {
@@ -134,7 +151,7 @@ struct Unknown {
   Expression correction;  // known after the body
   int memory = 0;         // where in start.value its solution is kept
 };
-enum class Rule { newton, fixed_point };
+enum class Rule { newton, simplified_newton, fixed_point };
 // The body over and over, until the rule is content.  The last correction of Newton is not made:
 // what follows takes it into account.
 struct Iterate {
@@ -143,6 +160,25 @@ struct Iterate {
   std::vector<Unknown> unknowns;
   Body body;
   std::vector<std::string> kept;  // symbols of the body that what follows uses
+};
+// Unknowns that stand in arrays: over the ranges each `value` moves by its `increment`, and was
+// rounded with `beside` as well.
+struct UnknownArray {
+  std::string value, increment;
+  std::string length;  // of a fixed point: where the sum of their sizes is left
+  Expression beside;
+};
+// As Iterate, for arrays whose values are there before it begins.  The body leaves the increments.
+// The rule is a field of start.
+struct IterateArray {
+  Rule rule = Rule::newton;
+  std::string name;
+  std::vector<KernelRange> ranges;
+  std::vector<UnknownArray> unknowns;
+  Body body;
+  // Of a simplified Newton: whether its matrix serves, and what the equations lacked.
+  std::optional<Place> factorised = {};
+  std::string residual = {};
 };
 // What a fixed point lacks below the last place of its unknowns: see numerics/refinement.hpp.  The
 // values of the body stay those at the unknowns; element j of the object's `change` is what the
@@ -153,6 +189,14 @@ struct Refine {
   Body body;
   std::vector<std::string> kept;
   std::vector<Expression> gradient;
+};
+// The same for unknowns in an array: the body leaves the gradient in an array of so many elements
+// and what the unknowns lack in another.  `refinement` is a field of start.
+struct RefineArray {
+  Place refinement, point, lack, gradient;
+  int count = 0;       // of unknowns
+  int components = 0;  // of the gradient
+  Body body;
 };
 // The body a fixed number of times; then the unknowns are `results`.
 struct Sweep {
@@ -172,14 +216,14 @@ struct Return {
 };
 
 struct Instruction {
-  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Put, SetFlag, For, Scope, If,
-               Call, Factorise, SolveFactorised, Invert, Iterate, Refine, Sweep, Return>
+  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Clear, Put, SetFlag, For,
+               Scope, If, Call, Alternate, Factorise, SolveFactorised, Invert, Iterate,
+               IterateArray, Refine, RefineArray, Sweep, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
 };
 
-// A record by reference, an array of numbers, or a number.  The record "Put" takes what Put gives
-// it: put(row, column, value).
+// A record by reference, an array of numbers, or a number.
 struct Argument {
   std::string name;
   std::string record = {};
@@ -206,6 +250,8 @@ struct Routine {
 
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
+// The names of what is called.
+[[nodiscard]] std::set<std::string> called_routines(const Body& body);
 // Every symbol that the instructions read.
 void collect_symbols(const Body& body, std::set<std::string>& names);
 // Does the routine read or change the object: at a place, or in what it calls?

@@ -40,9 +40,10 @@ class Printer {
     line(fmt::format("matrix {}[{}][{}] = 0", matrix.name, matrix.size, matrix.size));
   }
   void operator()(const Copy& copy) { line(fmt::format("{} <- {}", copy.to, copy.from)); }
+  void operator()(const Clear& clear) { line(to_text(clear.matrix) + " <- 0"); }
   void operator()(const Put& put) {
-    line(fmt::format("{}[{}][{}] += {}", put.matrix, to_text(put.row), to_text(put.column),
-                     to_text(put.value)));
+    line(fmt::format("{}[{}][{}] += {}", to_text(put.matrix), to_text(put.row),
+                     to_text(put.column), to_text(put.value)));
   }
   void operator()(const SetFlag& set) {
     line(fmt::format("{} <- {}", to_text(set.flag), set.value));
@@ -76,19 +77,40 @@ class Printer {
   void operator()(const Call& call) {
     std::vector<std::string> arguments;
     for (const Place& place : call.arguments) arguments.push_back(to_text(place));
-    line(fmt::format("{}({})", call.routine, list_of(arguments)));
+    line(fmt::format("{}{}({})", call.object.empty() ? "" : call.object + " <- ", call.routine,
+                     list_of(arguments)));
+  }
+  void operator()(const Alternate& alternate) {
+    line("try:");
+    inside({{alternate.first}});
+    line(fmt::format("else, for {} steps:", alternate.steps));
+    inside(alternate.between);
+    inside({{alternate.second}});
   }
   void operator()(const Factorise& factorise) {
-    line(fmt::format("factorise {}", factorise.matrix));
+    line(fmt::format("factorise {}", to_text(factorise.matrix)));
   }
   void operator()(const SolveFactorised& solve) {
-    line(fmt::format("solve {} x = {}", solve.matrix, solve.vector));
+    line(fmt::format("solve {} x = {}", to_text(solve.matrix), to_text(solve.vector)));
   }
   void operator()(const Iterate& iterate) {
-    line(iterate.rule == Rule::newton ? "iterate with Newton's rule:"
-                                      : "iterate to the fixed point:");
+    line(rule_text(iterate.rule));
     inside(iterate.body);
     unknowns(iterate.unknowns, iterate.rule == Rule::newton ? "correct" : "next");
+  }
+  void operator()(const IterateArray& iterate) {
+    line(rule_text(iterate.rule));
+    inside(iterate.body);
+    ++depth_;
+    for (const UnknownArray& u : iterate.unknowns) {
+      line(fmt::format("correct {} by {}, beside {}", u.value, u.increment, to_text(u.beside)));
+    }
+    --depth_;
+  }
+  void operator()(const RefineArray& refine) {
+    line(fmt::format("refine the fixed point {}, {}:", to_text(refine.point),
+                     to_text(refine.refinement)));
+    inside(refine.body);
   }
   void operator()(const Refine& refine) {
     line(fmt::format("refine the fixed point, {}:", refine.name));
@@ -109,6 +131,17 @@ class Printer {
   }
 
  private:
+  static const char* rule_text(Rule rule) {
+    switch (rule) {
+      case Rule::newton:
+        return "iterate with Newton's rule:";
+      case Rule::simplified_newton:
+        return "iterate with Newton's rule, the matrix of an earlier step:";
+      case Rule::fixed_point:
+        break;
+    }
+    return "iterate to the fixed point:";
+  }
   void line(const std::string& text) {
     text_.append(static_cast<std::size_t>(2 * depth_), ' ');
     text_ += text + '\n';

@@ -10,16 +10,20 @@ bool is_inverted(const Solve& solve) {
   return solve.constant_matrix && solve.linear_solver != LinearSolver::written_out;
 }
 
-void put_matrix(Body& body, const std::string& name, const Solve& solve) {
-  const auto size = static_cast<int>(solve.matrix.size());
-  body.push_back({Matrix{name, size, solve.linear_solver == LinearSolver::eigen_dense}});
+void put_matrix(Body& body, const std::string& name,
+                const std::vector<std::vector<Expression>>& entries, bool large) {
+  const auto size = static_cast<int>(entries.size());
+  body.push_back({Matrix{name, size, large}});
   for (int i = 0; i < size; ++i) {
     for (int j = 0; j < size; ++j) {
-      const Expression& entry =
-          solve.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      if (!entry.is_zero()) body.push_back({Put{name, {i, {}}, {j, {}}, entry}});
+      const Expression& entry = entries[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+      if (!entry.is_zero()) body.push_back({Put{{name}, {i, {}}, {j, {}}, entry}});
     }
   }
+}
+
+void put_matrix(Body& body, const std::string& name, const Solve& solve) {
+  put_matrix(body, name, solve.matrix, solve.linear_solver == LinearSolver::eigen_dense);
 }
 
 Coefficients coefficients_of(const Environment& environment, const Program& program,

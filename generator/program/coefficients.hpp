@@ -36,6 +36,8 @@ struct ScaledNumbers {
 [[nodiscard]] bool is_inverted(const Solve& solve);
 
 // matrix = the entries that are not zero.
+void put_matrix(Body& body, const std::string& name,
+                const std::vector<std::vector<Expression>>& entries, bool large);
 void put_matrix(Body& body, const std::string& name, const Solve& solve);
 
 }  // namespace hamgen

@@ -12,23 +12,22 @@ namespace hamgen {
 
 namespace {
 
-// A loop's index: the user's name, unless the functions here use it themselves.
-std::string loop_index(const std::string& name) {
-  constexpr const char* kTaken[] = {"par", "q", "p", "z", "sum", "dq", "dp", "put", "n"};
-  return std::ranges::find(kTaken, name) != std::end(kTaken) ? name + "_index" : identifier(name);
-}
-
-AffineIndex renamed(const AffineIndex& index) {
-  AffineIndex result{index.constant, {}};
-  for (const auto& [name, factor] : index.factors) result.factors[loop_index(name)] = factor;
-  return result;
-}
-
 class KernelRoutine {
  public:
   KernelRoutine(const Environment& environment, const Mechanics& mechanics, Part part)
       : mechanics_(mechanics), n_(environment.degrees_of_freedom), part_(part) {
     routine_.arguments.push_back(parameters_argument());
+    environment.bind_parameters(routine_);
+  }
+  // Goes on in a routine that somebody else has begun.
+  KernelRoutine(const Environment& environment, const Mechanics& mechanics, Part part,
+                Routine begun, const Place& q, const Place& p)
+      : mechanics_(mechanics),
+        n_(environment.degrees_of_freedom),
+        part_(part),
+        q_(q),
+        p_(p),
+        routine_(std::move(begun)) {
     environment.bind_parameters(routine_);
   }
 
@@ -37,7 +36,8 @@ class KernelRoutine {
     routine_.remark = {"H(q, p)."};
     routine_.result = {.type = "Real"};
     routine_.arguments.push_back(state_argument("z"));
-    state_ = "z";
+    q_ = {"z", "q"};
+    p_ = {"z", "p"};
     const std::string sum = "(sum)";
     routine_.body.push_back({Let{sum, Expression(0), true}});
     add_kernels([&](const Kernel& kernel, Body& body) {
@@ -92,12 +92,7 @@ class KernelRoutine {
     return std::move(routine_);
   }
 
-  Routine hessian() {
-    routine_.name = "hessian";
-    routine_.remark = {
-        "put(row, column, value) for the second derivatives, repeated entries to be added."};
-    add_state();
-    routine_.arguments.push_back({.name = "put", .record = "Put"});
+  Routine entries(const UseEntry& use) {
     add_kernels([&](const Kernel& kernel, Body& body) {
       std::vector<Expression> values;
       for (const auto& [slots, value] : kernel.hessian) values.push_back(value);
@@ -106,16 +101,16 @@ class KernelRoutine {
       int named = 0;
       for (const auto& [slots, value] : kernel.hessian) {
         Expression entry = results[k++];
-        const AffineIndex row = renamed(kernel.slots[slots.first].position);
-        const AffineIndex column = renamed(kernel.slots[slots.second].position);
+        const Slot& row = kernel.slots[slots.first];
+        const Slot& column = kernel.slots[slots.second];
         const bool twice = slots.first != slots.second;
-        if (twice && !is_trivial(entry)) {
+        if (!is_trivial(entry)) {
           const std::string symbol = fmt::format("entry({})", ++named);
           body.push_back({Let{symbol, entry}});
           entry = Expression::symbol(symbol, kRankOfTemporary);
         }
-        body.push_back({Put{"put", row, column, entry}});
-        if (twice) body.push_back({Put{"put", column, row, entry}});
+        use(routine_, body, {element_of(row), element_of(column), entry});
+        if (twice) use(routine_, body, {element_of(column), element_of(row), entry});
       }
     });
     return std::move(routine_);
@@ -146,17 +141,35 @@ class KernelRoutine {
     return symbol;
   }
 
+  // A loop's index: the user's name, unless the routine has something of that name.
+  [[nodiscard]] std::string loop_index(const std::string& name) const {
+    const bool taken =
+        name == "n" || name == "sum" ||
+        std::ranges::find(routine_.arguments, name, &Argument::name) != routine_.arguments.end();
+    return taken ? name + "_index" : identifier(name);
+  }
+  [[nodiscard]] AffineIndex renamed(const AffineIndex& index) const {
+    AffineIndex result{index.constant, {}};
+    for (const auto& [name, factor] : index.factors) result.factors[loop_index(name)] = factor;
+    return result;
+  }
+
   [[nodiscard]] AffineIndex position(const Slot& slot) const {
     AffineIndex result = renamed(slot.position);
     if (slot.is_momentum) result.constant -= n_;
     return result;
   }
 
+  [[nodiscard]] StateElement element_of(const Slot& slot) const {
+    return {slot.is_momentum, position(slot)};
+  }
   // Where an element of the state stands.
   [[nodiscard]] Place element(const Slot& slot) const {
-    const char* array = slot.is_momentum ? "p" : "q";
-    if (state_.empty()) return {.object = array, .indices = {position(slot)}};
-    return {.object = state_, .field = array, .indices = {position(slot)}};
+    Place place = slot.is_momentum ? p_ : q_;
+    AffineIndex index = position(slot);
+    if (!place.indices.empty()) index.constant += place.indices.front().constant;
+    place.indices = {index};
+    return place;
   }
   std::string slope_of(const Slot& slot) {
     const char* array = slot.is_momentum ? "dp" : "dq";
@@ -228,7 +241,7 @@ class KernelRoutine {
   const Mechanics& mechanics_;
   int n_;
   Part part_;
-  std::string state_;  // the record that holds q and p, if they are no arguments
+  Place q_{"q"}, p_{"p"};  // the arrays of the state
   Routine routine_;
 };
 
@@ -251,8 +264,8 @@ Routine both_gradients(const Environment& environment) {
     routine.arguments.push_back(
         {.name = name, .sizes = {n}, .changes = name[0] == 'd', .decays = true});
   }
-  routine.body.push_back({Call{"potential_gradient", {{"par"}, {"q"}, {"dq"}}}});
-  routine.body.push_back({Call{"kinetic_gradient", {{"par"}, {"p"}, {"dp"}}}});
+  routine.body.push_back({Call{.routine = "potential_gradient", .arguments = {{"par"}, {"q"}, {"dq"}}}});
+  routine.body.push_back({Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"p"}, {"dp"}}}});
   return routine;
 }
 
@@ -261,11 +274,12 @@ Routine array_vector_field(const Environment& environment) {
   Routine routine{.name = "vector_field",
                   .remark = {"J grad H at a state (q, p)."},
                   .arguments = {parameters_argument(),
-                                {.name = "x", .sizes = {2 * n}},
-                                {.name = "f", .sizes = {2 * n}, .changes = true}}};
+                                {.name = "x", .sizes = {2 * n}, .decays = true},
+                                {.name = "f", .sizes = {2 * n}, .changes = true, .decays = true}}};
   const Place second_x{.object = "x", .indices = {{n, {}}}};
   const Place second_f{.object = "f", .indices = {{n, {}}}};
-  routine.body.push_back({Call{"gradient", {{"par"}, {"x"}, second_x, second_f, {"f"}}}});
+  routine.body.push_back(
+      {Call{.routine = "gradient", .arguments = {{"par"}, {"x"}, second_x, second_f, {"f"}}}});
   routine.places["f(n+i)"] = {.object = "f", .indices = {{n, {{"i", 1}}}}};
   Body turn{{Assign{"f(n+i)", -Expression::symbol("f(n+i)")}}};
   routine.body.push_back({For{{"i", {0, {}}, {n - 1, {}}}, std::move(turn)}});
@@ -276,8 +290,29 @@ Routine kernel_masses(const Environment& environment, const Mechanics& mechanics
   return KernelRoutine(environment, mechanics, Part::kinetic).masses();
 }
 
-Routine kernel_hessian(const Environment& environment, const Mechanics& mechanics, Part part) {
-  return KernelRoutine(environment, mechanics, part).hessian();
+Routine kernel_entries(const Environment& environment, const Mechanics& mechanics, Part part,
+                       Routine begun, const Place& q, const Place& p, const UseEntry& use) {
+  return KernelRoutine(environment, mechanics, part, std::move(begun), q, p).entries(use);
+}
+
+Routine array_hessian(const Environment& environment, const Mechanics& mechanics) {
+  const int n = environment.degrees_of_freedom;
+  Routine begun{.name = "hessian",
+                .remark = {"The second derivatives of H at a state (q, p), added to values."},
+                .arguments = {parameters_argument(),
+                              {.name = "x", .sizes = {2 * n}, .decays = true},
+                              {.name = "values", .sizes = {2 * n, 2 * n}, .changes = true}}};
+  const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
+    Place place{.object = "values"};
+    for (const StateElement* element : {&entry.row, &entry.column}) {
+      place.indices.push_back(element->index);
+      if (element->is_momentum) place.indices.back().constant += n;
+    }
+    routine.places.insert_or_assign(to_text(place), place);
+    body.push_back({Accumulate{to_text(place), entry.value}});
+  };
+  return kernel_entries(environment, mechanics, Part::all, std::move(begun), {"x"},
+                        {"x", {}, {{n, {}}}}, use);
 }
 
 }  // namespace hamgen

@@ -2,9 +2,10 @@
 //   energy(par, z)
 //   potential_gradient(par, q, dq), kinetic_gradient(par, p, dp), gradient(par, q, p, dq, dp)
 //   masses(par, dp)                  d2H/dp_i^2, which is constant
-//   hessian(par, [q, p,] put)        put(row, column, value), repeated entries to be added
+// and what somebody does with the entries of the Hessian, one after the other.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "generator/program/environment.hpp"
@@ -22,7 +23,26 @@ enum class Part { all, potential, kinetic };
 // vector_field(par, x, f): J grad H at the state as one array.
 [[nodiscard]] Routine array_vector_field(const Environment& environment);
 [[nodiscard]] Routine kernel_masses(const Environment& environment, const Mechanics& mechanics);
-[[nodiscard]] Routine kernel_hessian(const Environment& environment, const Mechanics& mechanics,
-                                     Part part);
+
+// q_index or p_index.
+struct StateElement {
+  bool is_momentum = false;
+  AffineIndex index;
+};
+// d2H / d row d column; repeated entries are to be added.
+struct HessianEntry {
+  StateElement row, column;
+  Expression value;
+};
+// Adds instructions to the body, which is one of the routine.
+using UseEntry = std::function<void(Routine&, Body&, const HessianEntry&)>;
+// Goes on in the routine `begun` with all entries at the state that has its arrays at q and p, with
+// an index for their first elements.
+[[nodiscard]] Routine kernel_entries(const Environment& environment, const Mechanics& mechanics,
+                                     Part part, Routine begun, const Place& q, const Place& p,
+                                     const UseEntry& use);
+
+// hessian(par, x, values) of the state as one array, added to values.
+[[nodiscard]] Routine array_hessian(const Environment& environment, const Mechanics& mechanics);
 
 }  // namespace hamgen

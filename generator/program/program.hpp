@@ -13,6 +13,9 @@
 
 namespace hamgen {
 
+// product_error(x, y): x y less its rounded value, zero in exact arithmetic.
+inline constexpr const char* kProductError = "product_error";
+
 // A variable of a solver's loop.
 struct LoopVariable {
   std::string name;       // "bar(q)", or "H(q)" for sweeps
@@ -79,7 +82,8 @@ struct Program {
   Evaluation vector_field = {};
   // What stands around the instructions.
   Sequence sequence = {};
-  // For the tangent map of a member that is solved.
+  bool tangent = false;  // is the tangent map wanted?
+  // For that of a member that is solved.
   std::optional<Linearisation> linearisation = {};
   // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the
   // Hessian at `hessian_places`, i <= j.

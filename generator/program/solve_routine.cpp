@@ -158,8 +158,8 @@ class SolveRoutine {
     if (solve.constant_matrix) {
       multiply(body, s, size);
     } else {
-      body.push_back({Factorise{"matrix"}});
-      body.push_back({SolveFactorised{"matrix", "vector"}});
+      body.push_back({Factorise{{"matrix"}}});
+      body.push_back({SolveFactorised{{"matrix"}, {"vector"}}});
     }
     for (std::size_t j = 0; j < solve.corrections.size(); ++j) {
       const char* solution = solve.constant_matrix ? "product" : "vector";

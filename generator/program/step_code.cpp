@@ -7,9 +7,12 @@
 #include "generator/program/coefficients.hpp"
 #include "generator/program/function_routines.hpp"
 #include "generator/program/kernel_routines.hpp"
+#include "generator/program/loop_member.hpp"
+#include "generator/program/method_tangents.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
+#include "generator/program/stage_routines.hpp"
 #include "generator/program/tangent_routine.hpp"
 
 namespace hamgen {
@@ -79,12 +82,10 @@ void add_kernel_functions(StepCode& code, const Environment& environment, const 
   }
   if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
     code.routines.push_back(array_vector_field(environment));
+    code.routines.push_back(array_hessian(environment, mechanics));
   }
   if (arrays.reduced && !arrays.mass)
     code.routines.push_back(kernel_masses(environment, mechanics));
-  const bool potential = arrays.matrix && arrays.reduced;
-  code.routines.push_back(
-      kernel_hessian(environment, mechanics, potential ? Part::potential : Part::all));
 }
 
 // The functions of the state of a system that is written out.
@@ -128,12 +129,10 @@ void add_member(StepCode& code, const Environment& environment, const Program& p
   const Coefficients coefficients = coefficients_of(environment, program);
   std::vector<const Solve*> solves;
   SolveParts parts{.coefficients = !coefficients.empty()};
-  bool large = false;
   for (const Stage& stage : program.stages) {
     solves.push_back(stage.solve ? &*stage.solve : nullptr);
     if (!stage.solve) continue;
     parts.inverse = parts.inverse || is_inverted(*stage.solve);
-    large = large || stage.solve->linear_solver == LinearSolver::eigen_dense;
     if (stage.solve->sweeps) continue;
     code.unknowns += static_cast<int>(stage.solve->variables.size());
   }
@@ -145,12 +144,38 @@ void add_member(StepCode& code, const Environment& environment, const Program& p
   if (parts.start) code.records.push_back(start_record(solves, code.unknowns));
   code.routines.push_back(solve_routine(environment, program, parts, coefficients.places));
   code.rules = rules_of(code.routines.back());
-  const bool composed = !program.sequence.substeps.empty();
-  if (program.linearisation) {
-    code.routines.push_back(tangent_routine(environment, composed ? "substep_tangent" : "tangent",
-                                            *program.linearisation, large));
+  code.retries = code.unknowns > 0;
+}
+
+// The tangent map of the whole step.
+void add_tangent(StepCode& code, const Environment& environment, const Program& program) {
+  const SolvePlan& plan = program.plan;
+  const Method& method = plan.equations.scheme.method;
+  const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
+  if (plan.arrays) add(curvature_routine(environment, plan.equations.mechanics));
+  if (std::holds_alternative<Splitting>(method)) return add(splitting_tangent(environment, program));
+  if (std::holds_alternative<RungeKutta>(method)) {
+    return add(plan.stage_solver ? stages_tangent(environment, program, code)
+                                 : explicit_runge_kutta_tangent(environment, program));
   }
-  if (!composed) return;
+  const bool composed = !program.sequence.substeps.empty();
+  const char* name = composed ? "substep_tangent" : "tangent";
+  if (plan.sweeps) {
+    add(sweeps_tangent(environment, program, name));
+  } else if (plan.arrays) {
+    add(loop_member_tangent(environment, program, code, name));
+  } else {
+    const bool large = std::ranges::any_of(program.stages, [](const Stage& stage) {
+      return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
+    });
+    add(tangent_routine(environment, name, *program.linearisation, large));
+  }
+  if (composed) add(composition_tangent(environment, program, code));
+}
+
+// Of a composition.
+void add_substeps(StepCode& code, const Program& program) {
+  if (program.sequence.substeps.empty()) return;
   code.substeps.clear();
   for (const Substep& substep : program.sequence.substeps) {
     code.substeps.push_back(numeric_value(substep.length));
@@ -208,6 +233,16 @@ const Routine* StepCode::routine(std::string_view name) const {
   return it == routines.end() ? nullptr : &*it;
 }
 
+std::set<std::string> callees(const StepCode& code, const std::string& name) {
+  const Routine* routine = code.routine(name);
+  if (routine == nullptr) return {};
+  std::set<std::string> found = {name};
+  for (const std::string& called : called_routines(routine->body)) {
+    found.merge(callees(code, called));
+  }
+  return found;
+}
+
 StepCode step_code(const Program& program) {
   const StepEquations& equations = program.plan.equations;
   const Scheme& scheme = equations.scheme;
@@ -231,10 +266,19 @@ StepCode step_code(const Program& program) {
   if (std::holds_alternative<Splitting>(scheme.method)) {
     add_splitting(code, environment, program);
   } else if (scheme.has_member()) {
-    if (!arrays) add_member(code, environment, program);
-  } else if (!program.plan.stage_solver) {
+    if (arrays) {
+      add_loop_member(code, environment, program);
+    } else {
+      add_member(code, environment, program);
+    }
+    add_substeps(code, program);
+  } else if (program.plan.stage_solver) {
+    add_stages(code, environment, program);
+    code.retries = true;
+  } else {
     code.routines.push_back(explicit_runge_kutta_routine(environment, program.sequence.stages));
   }
+  if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);
   return code;
 }

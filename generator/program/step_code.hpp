@@ -30,7 +30,9 @@ struct StepCode {
   int unknowns =
       0;  // of the implicit equations, whose solutions are extrapolated from step to step
   std::vector<RuleOfNewton> rules = {};
-  std::vector<Place> changed;  // fields of State that a step may change
+  bool retries = false;  // is a step that failed tried again without what start remembers?
+  std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
+  std::vector<Place> changed;              // fields of State that a step may change
   std::vector<std::string>
       parameters;  // in the order of their record; E0 last, if the step uses it
 
@@ -40,6 +42,9 @@ struct StepCode {
   [[nodiscard]] const Record* record(std::string_view name) const;
   [[nodiscard]] const Routine* routine(std::string_view name) const;
 };
+
+// The routine of this name, if there is one, and those that it calls.
+[[nodiscard]] std::set<std::string> callees(const StepCode& code, const std::string& routine);
 
 [[nodiscard]] StepCode step_code(const Program& program);
 

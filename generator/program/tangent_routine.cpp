@@ -2,26 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/coefficients.hpp"
+
 namespace hamgen {
 
 namespace {
 
 std::string numbered(const char* stem, std::size_t s) { return fmt::format("{}_{}", stem, s); }
-
-// The matrix of a stage, the same for all displacements.
-void add_matrix(Body& body, std::size_t s, const LinearisedSolve& solve, bool large) {
-  const auto size = static_cast<int>(solve.matrix.size());
-  const std::string name = numbered("matrix", s);
-  body.push_back({Matrix{name, size, large}});
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) {
-      const Expression& entry =
-          solve.matrix[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      if (!entry.is_zero()) body.push_back({Put{name, {i, {}}, {j, {}}, entry}});
-    }
-  }
-  body.push_back({Factorise{name}});
-}
 
 }  // namespace
 
@@ -55,7 +42,9 @@ Routine tangent_routine(const Environment& environment, std::string name,
   append(routine.body, linearisation.once);
   for (std::size_t s = 0; s < linearisation.stages.size(); ++s) {
     const auto& solve = linearisation.stages[s].solve;
-    if (solve) add_matrix(routine.body, s, *solve, large);
+    if (!solve) continue;
+    put_matrix(routine.body, numbered("matrix", s), solve->matrix, large);
+    routine.body.push_back({Factorise{{numbered("matrix", s)}}});
   }
   const AffineIndex column{0, {{"column", 1}}};
   Body each;
@@ -68,7 +57,7 @@ Routine tangent_routine(const Environment& environment, std::string name,
     const LinearisedSolve& solve = *stage.solve;
     const std::string vector = numbered("vector", s);
     each.push_back({Array{vector, {static_cast<int>(solve.solution.size())}, solve.right_side}});
-    each.push_back({SolveFactorised{numbered("matrix", s), vector}});
+    each.push_back({SolveFactorised{{numbered("matrix", s)}, {vector}}});
     for (std::size_t j = 0; j < solve.solution.size(); ++j) {
       each.push_back(
           {Let{solve.solution[j], bind_element(routine, vector, {static_cast<int>(j)})}});

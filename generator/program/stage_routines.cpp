@@ -1,0 +1,391 @@
+#include "generator/program/stage_routines.hpp"
+
+#include <fmt/format.h>
+
+#include "generator/program/routine_builder.hpp"
+#include "generator/program/stage_numbers.hpp"
+
+namespace hamgen {
+
+namespace {
+
+class StageRoutines {
+ public:
+  StageRoutines(StepCode& code, const Environment& environment, const Program& program)
+      : code_(code),
+        environment_(environment),
+        program_(program),
+        solver_(*program.plan.stage_solver),
+        stages_(static_cast<int>(program.sequence.stages.weight.size())),
+        n_(environment.degrees_of_freedom),
+        dimension_(2 * n_) {}
+
+  void add() {
+    Coefficients coefficients = stage_coefficients(program_);
+    code_.records.push_back(std::move(coefficients.record));
+    code_.routines.push_back(std::move(coefficients.prepare));
+    code_.records.push_back(start());
+    code_.routines.push_back(evaluate());
+    if (has_newton()) code_.routines.push_back(differentiate());
+    if (solver_ == StageSolver::both) {
+      code_.routines.push_back(fixed_point());
+      code_.routines.push_back(newton());
+    }
+    code_.routines.push_back(solve());
+    if (has_newton()) {
+      code_.matrix = ArrayMatrix{.kind = MatrixKind::dense, .size = unknowns()};
+    }
+  }
+
+ private:
+  [[nodiscard]] int unknowns() const { return stages_ * dimension_; }
+  [[nodiscard]] bool has_newton() const { return solver_ != StageSolver::fixed_point; }
+  [[nodiscard]] bool has_fixed_point() const { return solver_ != StageSolver::newton; }
+
+  [[nodiscard]] Record start() const {
+    Record record{.name = "Start",
+                  .fields = {},
+                  .remark = {"The stages, one after the other, and what is remembered of them."}};
+    const auto array = [&](const char* name, int size, const char* remark) {
+      record.fields.push_back({.name = name, .sizes = {size}, .remark = remark});
+    };
+    array("state", dimension_, "z as an array");
+    array("small", dimension_, "the carry");
+    array("value", unknowns(), "Y_i");
+    array("slope", unknowns(), "L_i = h b_i f(Y_i)");
+    record.fields.push_back(
+        {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
+    array("lack", unknowns(), "of the equations at Y_i, then the increment");
+    array("length", unknowns(), "what Y_i is rounded with");
+    if (has_fixed_point()) {
+      const char* rule = solver_ == StageSolver::both ? "ImpatientRule<{}>" : "FixedPointRule<{}, 2>";
+      record.fields.push_back(
+          {.name = "rule", .type = fmt::format(fmt::runtime(rule), unknowns())});
+    }
+    if (has_newton()) {
+      record.fields.push_back(
+          {.name = "newton", .type = fmt::format("SimplifiedNewtonRule<{}>", unknowns())});
+      record.fields.push_back({.name = "matrix", .type = "Matrix"});
+      record.fields.push_back({.name = "factorised", .values = {0}, .type = "bool"});
+      record.fields.push_back({.name = "residual"});
+    }
+    if (solver_ == StageSolver::both) {
+      record.fields.push_back(
+          {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
+    }
+    record.fields.push_back(
+        {.name = "refinement", .type = fmt::format("Refinement<{0}, {0}>", unknowns())});
+    return record;
+  }
+
+  // --- elements of the arrays: of stage i or of a numbered one, component j -------------------
+
+  [[nodiscard]] AffineIndex row() const { return {0, {{"i", dimension_}, {"j", 1}}}; }
+  [[nodiscard]] AffineIndex row_of(int stage) const {
+    return affine("j", static_cast<long>(stage) * dimension_);
+  }
+  [[nodiscard]] KernelRange all_stages() const { return counting("i", stages_); }
+  [[nodiscard]] KernelRange all_components() const { return counting("j", dimension_); }
+  [[nodiscard]] Instruction for_all(Body each) const {
+    Body inner;
+    inner.push_back(for_each(all_components(), std::move(each)));
+    return for_each(all_stages(), std::move(inner));
+  }
+  static Expression of_start(RoutineBuilder& b, const char* field, const AffineIndex& index) {
+    return b.at("start", field, {index});
+  }
+  // sum_m k.table[i][m] L_m
+  Expression combination(RoutineBuilder& b, const char* table) const {
+    Expression sum(0);
+    for (int m = 0; m < stages_; ++m) {
+      sum += b.at("k", table, {affine("i"), affine(m)}) * of_start(b, "slope", row_of(m));
+    }
+    return sum;
+  }
+
+  [[nodiscard]] static std::vector<Argument> with_start(bool report) {
+    std::vector<Argument> list = {parameters_argument(),
+                                  {.name = "k", .record = "Coefficients"},
+                                  {.name = "start", .record = "Start", .changes = true}};
+    if (report) list.push_back({.name = "report", .record = "StepReport", .changes = true});
+    return list;
+  }
+  [[nodiscard]] static Call call(const char* routine, bool report = false) {
+    Call result{.routine = routine, .arguments = {{"par"}, {"k"}, {"start"}}};
+    if (report) result.arguments.push_back({"report"});
+    return result;
+  }
+
+  // --- routines ---------------------------------------------------------------------------------
+
+  [[nodiscard]] Routine evaluate() const {
+    RoutineBuilder b({.name = "evaluate",
+                      .remark = {"L_i at the stages, and what these lack of z + sum coupling L."},
+                      .arguments = with_start(false)});
+    const AffineIndex first = affine("i", 0, dimension_);
+    Body stage;
+    stage.push_back({Call{.routine = "vector_field",
+                          .arguments = {{"par"},
+                                        {"start", "value", {first}},
+                                        {"start", "slope", {first}}}}});
+    const Expression slope = of_start(b, "slope", row());
+    Body scale{{Assign{slope.name(), b.at("k", "scaled", {affine("i")}) * slope}}};
+    stage.push_back(for_each(all_components(), std::move(scale)));
+    b.body().push_back(for_each(all_stages(), std::move(stage)));
+    Body each;
+    const Expression state = of_start(b, "state", affine("j"));
+    const Expression value = of_start(b, "value", row());
+    const Expression sum = b.let(each, "moved", combination(b, "coupling"));
+    const Expression small = of_start(b, "small", affine("j"));
+    each.push_back({Assign{of_start(b, "lack", row()).name(), state - value + sum + small}});
+    b.body().push_back(for_all(std::move(each)));
+    return b.take();
+  }
+
+  // I - coupling h b J H'' with the Hessian at the mean of the stages.
+  [[nodiscard]] Routine differentiate() const {
+    RoutineBuilder b(
+        {.name = "differentiate",
+         .remark = {"1 - coupling h b J H'', the derivative of what the stages lack, with the "
+                    "Hessian at their mean."},
+         .arguments = with_start(false)});
+    b.body().push_back({Array{"mean", {dimension_}}});
+    Expression sum(0);
+    for (int m = 0; m < stages_; ++m) sum += of_start(b, "value", row_of(m));
+    Body mean{{Assign{b.at("mean", "", {affine("j")}).name(),
+                      sum * Expression(Rational(1, stages_))}}};
+    b.body().push_back(for_each(all_components(), std::move(mean)));
+    b.body().push_back({Array{"values", {dimension_, dimension_}}});
+    b.body().push_back(
+        {Call{.routine = "hessian", .arguments = {{"par"}, {"mean"}, {"values"}}}});
+    const Place matrix{"start", "matrix"};
+    b.body().push_back({Clear{matrix}});
+    Body one{{Put{matrix, affine("j"), affine("j"), Expression(1)}}};
+    b.body().push_back(for_each(counting("j", unknowns()), std::move(one)));
+    // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
+    Body entries;
+    const Expression weight =
+        b.let(entries, "weight",
+              b.at("k", "coupling", {affine("i"), affine("m")}) * b.at("k", "scaled", {affine("m")}));
+    const AffineIndex column{0, {{"m", dimension_}, {"c", 1}}};
+    Body each;
+    each.push_back({Put{matrix,
+                        {0, {{"i", dimension_}, {"j", 1}}},
+                        column,
+                        -weight * b.at("values", "", {affine("j", n_), affine("c")})}});
+    each.push_back({Put{matrix,
+                        {n_, {{"i", dimension_}, {"j", 1}}},
+                        column,
+                        weight * b.at("values", "", {affine("j"), affine("c")})}});
+    Body columns;
+    columns.push_back(for_each(counting("c", dimension_), std::move(each)));
+    entries.push_back(for_each(counting("j", n_), std::move(columns)));
+    Body pairs;
+    pairs.push_back(for_each(counting("m", stages_), std::move(entries)));
+    b.body().push_back(for_each(all_stages(), std::move(pairs)));
+    return b.take();
+  }
+
+  [[nodiscard]] IterateArray iteration(RoutineBuilder& b, Rule rule, Body body) const {
+    IterateArray iterate{
+        .rule = rule,
+        .name = rule == Rule::fixed_point ? "rule" : "newton",
+        .ranges = {all_stages(), all_components()},
+        .unknowns = {{.value = of_start(b, "value", row()).name(),
+                      .increment = of_start(b, "lack", row()).name(),
+                      .length = of_start(b, "length", row()).name(),
+                      .beside = of_start(b, "state", affine("j"))}},
+        .body = std::move(body)};
+    if (rule == Rule::fixed_point) return iterate;
+    iterate.factorised = Place{"start", "factorised"};
+    iterate.residual = b.at("start", "residual").name();
+    return iterate;
+  }
+
+  void add_fixed_point(RoutineBuilder& b) const {
+    Body body{{call("evaluate")}};
+    b.body().push_back({iteration(b, Rule::fixed_point, std::move(body))});
+  }
+
+  // One elimination serves until it contracts slowly, over many steps.
+  void add_newton(RoutineBuilder& b) const {
+    const Place flag{"start", "factorised"};
+    const Place matrix{"start", "matrix"};
+    Body fresh;
+    fresh.push_back({call("differentiate")});
+    fresh.push_back({Factorise{matrix}});
+    fresh.push_back({SetFlag{flag, true}});
+    Body body{{call("evaluate")}};
+    body.push_back({If{flag, false, std::move(fresh)}});
+    const Expression residual = b.at("start", "residual");
+    body.push_back({Assign{residual.name(), Expression(0)}});
+    Body size{{Accumulate{residual.name(),
+                          Expression::apply("abs", {of_start(b, "lack", affine("j"))})}}};
+    body.push_back(for_each(counting("j", unknowns()), std::move(size)));
+    body.push_back({SolveFactorised{matrix, {"start", "lack"}}});
+    b.body().push_back({iteration(b, Rule::simplified_newton, std::move(body))});
+  }
+
+  [[nodiscard]] Routine fixed_point() const {
+    RoutineBuilder b({.name = "fixed_point",
+                      .remark = {"False if it contracts slowly or not at all."},
+                      .result = {.type = "bool"},
+                      .arguments = with_start(true)});
+    add_fixed_point(b);
+    b.body().push_back({Return{}});
+    return b.take();
+  }
+  [[nodiscard]] Routine newton() const {
+    RoutineBuilder b({.name = "newton",
+                      .remark = {"Newton with a matrix that serves until it contracts slowly, over "
+                                 "many steps."},
+                      .result = {.type = "bool"},
+                      .arguments = with_start(true)});
+    add_newton(b);
+    b.body().push_back({Return{}});
+    return b.take();
+  }
+
+  // The stages of the polynomial through those of the last step, or the state.
+  void add_start_values(RoutineBuilder& b) const {
+    read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
+    read_state(b, b.body(), environment_, "carry", {"start", "small"}, is_array());
+    const Place known{"start", "known"};
+    Body ahead;
+    Body each;
+    const Expression state = of_start(b, "state", affine("j"));
+    const Expression moved = b.let(each, "moved", combination(b, "ahead"));
+    each.push_back({Assign{of_start(b, "value", row()).name(), state + moved}});
+    ahead.push_back(for_all(std::move(each)));
+    b.body().push_back({If{known, true, std::move(ahead)}});
+    b.body().push_back({If{known, false, at_state(b)}});
+    b.body().push_back({SetFlag{known, false}});
+  }
+  [[nodiscard]] Body at_state(RoutineBuilder& b) const {
+    Body each{
+        {Assign{of_start(b, "value", row()).name(), of_start(b, "state", affine("j"))}}};
+    Body all;
+    all.push_back(for_all(std::move(each)));
+    return all;
+  }
+
+  [[nodiscard]] Routine solve() const {
+    RoutineBuilder b({.name = "solve",
+                      .remark = {"dz + rest = Z - z for one step from z + carry; rest is small."},
+                      .result = {.type = "StepReport", .object = "report"},
+                      .arguments = {parameters_argument(),
+                                    {.name = "k", .record = "Coefficients"},
+                                    state_argument("z"),
+                                    state_argument("carry"),
+                                    {.name = "start", .record = "Start", .changes = true},
+                                    state_argument("dz", true),
+                                    state_argument("rest", true)}});
+    add_start_values(b);
+    switch (solver_) {
+      case StageSolver::fixed_point:
+        add_fixed_point(b);
+        break;
+      case StageSolver::newton:
+        add_newton(b);
+        break;
+      case StageSolver::both:
+        b.body().push_back({Alternate{.first = call("fixed_point", true),
+                                      .second = call("newton", true),
+                                      .patience = {"start", "patience"},
+                                      .steps = 32,
+                                      .between = at_state(b)},
+                            {"Newton where the fixed point contracts slowly, and then for 32 steps."}});
+        break;
+    }
+    Body again{{call("evaluate")}};
+    if (has_newton()) {
+      Body contract{{SolveFactorised{{"start", "matrix"}, {"start", "lack"}}}};
+      again.push_back({If{{"start", "factorised"}, true, std::move(contract)}});
+    }
+    b.body().push_back(
+        {RefineArray{.refinement = {"start", "refinement"},
+                     .point = {"start", "value"},
+                     .lack = {"start", "lack"},
+                     .gradient = {"start", "slope"},
+                     .count = unknowns(),
+                     .components = unknowns(),
+                     .body = std::move(again)},
+         {"The stages are rounded to the side that the iteration came from, at every step alike.  "
+          "What",
+          "the equations lack there is solved for too."}});
+    add_result(b);
+    return b.take();
+  }
+
+  void add_result(RoutineBuilder& b) const {
+    Return end{.flag = Place{"start", "known"}};
+    Body each;
+    const int components = is_array() ? 2 : dimension_;
+    for (int c = 0; c < components; ++c) {
+      // Of a system in loops the elements of q, then those of p.
+      const auto index = [&](int stage) {
+        const long first = static_cast<long>(stage) * dimension_;
+        return is_array() ? affine("j", first + (c == 0 ? 0 : n_)) : affine(first + c);
+      };
+      const auto component = [&](const char* state) {
+        if (!is_array()) return b.at(environment_.place(state, c));
+        return b.at(state, c == 0 ? "q" : "p", {affine("j")});
+      };
+      Expression dz(0);
+      Expression rest = component("carry");
+      for (int m = 0; m < stages_; ++m) {
+        dz += of_start(b, "refinement.slope", index(m));
+        rest += of_start(b, "refinement.change", index(m));
+      }
+      each.push_back({Assign{component("dz").name(), dz}});
+      each.push_back({Assign{component("rest").name(), rest}});
+      end.finite.push_back(component("dz").name());
+      end.finite.push_back(component("rest").name());
+    }
+    if (is_array()) {
+      end.ranges = {counting("j", n_)};
+      b.body().push_back(for_each(counting("j", n_), std::move(each)));
+    } else {
+      for (Instruction& instruction : each) b.body().push_back(std::move(instruction));
+    }
+    // The slopes that the next step starts from.
+    const Expression slope = of_start(b, "slope", affine("j"));
+    Body keep{{Assign{slope.name(), of_start(b, "refinement.slope", affine("j"))}}};
+    b.body().push_back(for_each(counting("j", unknowns()), std::move(keep)));
+    b.body().push_back({std::move(end)});
+  }
+
+  [[nodiscard]] bool is_array() const { return program_.plan.arrays.has_value(); }
+
+  StepCode& code_;
+  const Environment& environment_;
+  const Program& program_;
+  StageSolver solver_;
+  int stages_, n_, dimension_;
+};
+
+}  // namespace
+
+void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
+                const std::string& state, const Place& array, bool arrays) {
+  const int n = environment.degrees_of_freedom;
+  const auto element = [&](const AffineIndex& index) {
+    return b.at(array.object, array.field, {index}).name();
+  };
+  if (arrays) {
+    Body each;
+    each.push_back({Assign{element(affine("j")), b.at(state, "q", {affine("j")})}});
+    each.push_back({Assign{element(affine("j", n)), b.at(state, "p", {affine("j")})}});
+    body.push_back(for_each(counting("j", n), std::move(each)));
+    return;
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    body.push_back({Assign{element(affine(i)), b.at(environment.place(state, i))}});
+  }
+}
+
+void add_stages(StepCode& code, const Environment& environment, const Program& program) {
+  StageRoutines(code, environment, program).add();
+}
+
+}  // namespace hamgen

@@ -1,0 +1,23 @@
+// The step of an implicit Runge-Kutta method, as routines.
+//
+// With L_i = h b_i f(Y_i) the stages are Y_i = z + sum coupling_ij L_j and Z = z + sum L_i.  In the
+// routines a stage after the other is one array: start.value the Y_i, start.slope the L_i.
+#pragma once
+
+#include "generator/program/environment.hpp"
+#include "generator/program/environment.hpp"
+#include "generator/program/program.hpp"
+#include "generator/program/routine_builder.hpp"
+#include "generator/program/step_code.hpp"
+
+namespace hamgen {
+
+// Adds the records Coefficients and Start, and solve with what it calls.  There are vector_field
+// and, where Newton is among the solvers, hessian for the state as one array.
+void add_stages(StepCode& code, const Environment& environment, const Program& program);
+
+// The array `name` of 2n numbers is the state.
+void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
+                const std::string& state, const Place& array, bool arrays);
+
+}  // namespace hamgen

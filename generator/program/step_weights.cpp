@@ -1,0 +1,100 @@
+#include "generator/program/step_weights.hpp"
+
+#include <algorithm>
+
+#include "generator/equations/step_equations.hpp"
+#include "generator/program/program.hpp"
+
+namespace hamgen {
+
+namespace {
+
+Expression weight(const std::string& name) {
+  return Expression::symbol("k." + name, kRankOfVariable - 1);
+}
+
+}  // namespace
+
+StepWeights::StepWeights(const FamilyParameters& parameters) : member(parameters) {
+  const Expression h = step_size();
+  const auto named = [&](const Expression& value, const std::string& name,
+                         const std::string& remark) -> std::optional<Expression> {
+    if (value.is_zero()) return {};
+    if (value.is_one()) return h;
+    const bool half = value == Expression(Rational(1, 2));
+    const std::string field = half ? "half_h" : name;
+    if (std::ranges::find(coefficients, field, &NamedWeight::name) == coefficients.end()) {
+      coefficients.push_back({field, h * value, half ? "h/2" : remark});
+    }
+    return weight(field);
+  };
+  const Expression rest = Expression(1) - member.alpha;
+  const auto is_exact = [](const Expression& e) {
+    return e.is_zero() || e.is_one() || e == Expression(Rational(1, 2));
+  };
+  if (is_exact(member.alpha)) {
+    q_by_p = named(member.alpha, "", "");
+    p_by_q = named(rest, "", "");
+  } else {
+    shares = true;
+    q_takes_more = !member.alpha.is_number() || member.alpha.number() > Rational(1, 2);
+    coefficients.push_back({"share", q_takes_more ? member.alpha : rest,
+                            "alpha or 1 - alpha, the larger one"});
+    const Expression more = h * weight("share");
+    q_by_p = q_takes_more ? more : h - more;
+    p_by_q = q_takes_more ? h - more : more;
+  }
+  p_by_p = named(member.beta, "h_beta", "h beta");
+  q_by_q = named(member.gamma, "h_gamma", "h gamma");
+}
+
+bool StepWeights::uses_h() const {
+  return std::ranges::any_of(std::initializer_list{q_by_p, p_by_q, p_by_p, q_by_q},
+                             [](const auto& w) { return w && depends_on(*w, "h"); });
+}
+
+void StepWeights::bind(Routine& routine) const {
+  for (const NamedWeight& c : coefficients) routine.places["k." + c.name] = {"k", c.name};
+}
+
+void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q,
+                            const Expression& slope) const {
+  const auto& by = is_q ? q_by_p : p_by_q;
+  if (!by) return;
+  const std::string stem = is_q ? "q_" : "p_";
+  const Expression sign(is_q ? 1 : -1);
+  if (!shares) {
+    row.large.push_back(sign * b.let(body, stem + "push", *by * slope));
+    return;
+  }
+  const Expression flow = b.let(body, stem + "flow", step_size() * slope);
+  const Expression share = weight("share");
+  const Expression part = b.let(body, stem + "part", share * flow);
+  const Expression lost =
+      b.let(body, stem + "lost", Expression::apply(kProductError, {share, flow}));
+  if (is_q == q_takes_more) {
+    row.large.push_back(sign * part);
+    row.small += sign * lost;
+  } else {
+    row.large.push_back(sign * b.let(body, stem + "left", flow - part));
+    row.small += -sign * lost;
+  }
+}
+
+StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at) const {
+  StageRow row;
+  bind(b.routine());
+  add_share(b, body, row, true, at.by_p);
+  if (q_by_q) row.large.push_back(b.let(body, "q_turn", *q_by_q * at.by_q));
+  return row;
+}
+
+StageRow StepWeights::row_of_p(RoutineBuilder& b, Body& body, const Gradient& at) const {
+  StageRow row;
+  bind(b.routine());
+  add_share(b, body, row, false, at.by_q);
+  if (p_by_p) row.large.push_back(-b.let(body, "p_turn", *p_by_p * at.by_p));
+  return row;
+}
+
+}  // namespace hamgen
