@@ -26,7 +26,7 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
   // What iterations declare.
   for (const char* local :
        {"size", "scale", "iteration", "verdict", "progress", "length", "increment", "sweep", "part",
-        "i", "j", "rule", "more", "lack", "slope", "point"}) {
+        "i", "j", "rule", "more", "lack", "slope", "point", "distance"}) {
     names_.reserve(local);
   }
   for (const Argument& argument : routine.arguments) names_.reserve(argument.name);

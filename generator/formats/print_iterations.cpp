@@ -163,25 +163,22 @@ void RoutinePrinter::end_newton() {
 }
 
 void RoutinePrinter::fixed_point(const Iterate& iterate) {
-  const std::size_t m = iterate.unknowns.size();
-  out_.line(fmt::format("FixedPointRule<{}, 2> {};", m, iterate.name));
+  out_.line(fmt::format("FixedPointRule<2> {};", iterate.name));
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   std::vector<std::string> values;
-  std::vector<std::string> lengths;
-  std::vector<std::string> parts;
   for (const Unknown& u : iterate.unknowns) {
     values.push_back(cpp_(u.correction - Expression::symbol(u.symbol)));
-    lengths.push_back(length(u));
-    parts.push_back(fmt::format("length[{}]", parts.size()));
   }
-  out_.line(fmt::format("const Real increment[{}] = {{{}}};", m, joined_texts(values, ", ")));
-  out_.line(fmt::format("const Real length[{}] = {{{}}};", m, joined_texts(lengths, ", ")));
-  out_.line("const Real scale = " + joined_texts(parts, " + ") + ";");
-  for (std::size_t j = 0; j < m; ++j) {
-    out_.line(fmt::format("{} += increment[{}];", names_.local(iterate.unknowns[j].symbol), j));
+  out_.line(fmt::format("const Real increment[{}] = {{{}}};", values.size(),
+                        joined_texts(values, ", ")));
+  out_.line("Distance distance;");
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const Unknown& u = iterate.unknowns[j];
+    out_.line(fmt::format("distance.add(magnitude(increment[{}]), {});", j, length(u)));
+    out_.line(fmt::format("{} += increment[{}];", names_.local(u.symbol), j));
   }
-  out_.line("const Verdict verdict = " + iterate.name + "(increment, length, scale, iteration);");
+  out_.line("const Verdict verdict = " + iterate.name + "(distance, iteration);");
   end_contraction(iterate.name);
 }
 
@@ -193,15 +190,12 @@ void RoutinePrinter::contraction(const IterateArray& iterate) {
   out_.line(newton ? fmt::format("{}.begin({});", rule, served) : rule + ".begin();");
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
-  out_.line("Real scale = 0;");
+  out_.line("Distance distance;");
   for_elements(iterate, [&](const UnknownArray& u) {
-    out_.line(fmt::format("{} = {};", name(u.length), length(u)));
-    out_.line("scale += " + name(u.length) + ";");
+    out_.line(fmt::format("distance.add({}, {});", magnitude(name(u.increment)), length(u)));
     out_.line(fmt::format("{} += {};", name(u.value), name(u.increment)));
   });
-  const UnknownArray& first = iterate.unknowns.front();
-  out_.line(fmt::format("const Verdict verdict = {}({}, {}, scale, {}iteration);", rule,
-                        whole(first.increment), whole(first.length),
+  out_.line(fmt::format("const Verdict verdict = {}(distance, {}iteration);", rule,
                         newton ? name(iterate.residual) + ", " + served + ", " : ""));
   end_contraction(rule);
 }
@@ -232,11 +226,6 @@ std::string RoutinePrinter::scale(const Iterate& iterate) {
   std::vector<std::string> parts;
   for (const Unknown& u : iterate.unknowns) parts.push_back(length(u));
   return joined_texts(parts, " + ");
-}
-
-std::string RoutinePrinter::whole(const std::string& element) const {
-  const Place& place = routine_.places.at(element);
-  return text(Place{place.object, place.field});
 }
 
 std::string RoutinePrinter::kept_name(const Refine& refine) {

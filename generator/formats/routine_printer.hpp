@@ -64,8 +64,6 @@ class RoutinePrinter {
   [[nodiscard]] std::string length(const Unknown& u);
   [[nodiscard]] std::string length(const UnknownArray& u);
   [[nodiscard]] std::string scale(const Iterate& iterate);
-  // The array that an element belongs to.
-  [[nodiscard]] std::string whole(const std::string& element) const;
   // Where the values of the body at the rounded unknowns wait: kept_0 beside refinement_0.
   [[nodiscard]] static std::string kept_name(const Refine& refine);
 

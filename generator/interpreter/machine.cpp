@@ -48,11 +48,11 @@ void add_block(Object<Real>& object, const Field& field, const StepCode& code) {
   } else if (field.type.starts_with("NewtonRule")) {
     object.rules[field.name] = make_newton_rule<Real>(sizes.at(0));
   } else if (field.type.starts_with("FixedPointRule")) {
-    object.contractions[field.name] = make_fixed_point_rule<Real>(sizes.at(0));
+    object.contractions[field.name] = make_fixed_point_rule<Real>();
   } else if (field.type.starts_with("ImpatientRule")) {
-    object.contractions[field.name] = make_impatient_rule<Real>(sizes.at(0));
+    object.contractions[field.name] = make_impatient_rule<Real>();
   } else if (field.type.starts_with("SimplifiedNewtonRule")) {
-    object.simplified[field.name] = make_simplified_newton_rule<Real>(sizes.at(0));
+    object.simplified[field.name] = make_simplified_newton_rule<Real>();
   } else if (field.type.starts_with("Refinement")) {
     object.refinements[field.name] = make_refinement<Real>(sizes.at(0), sizes.at(1));
   } else {
@@ -316,16 +316,7 @@ class Machine<Real>::Compiler {
   Step operator()(const IterateArray& iterate) {
     std::vector<Array2> unknowns;
     for (const UnknownArray& u : iterate.unknowns) {
-      unknowns.push_back({address(u.value), address(u.increment),
-                          u.length.empty() ? Address{} : address(u.length), compiled(u.beside)});
-    }
-    const UnknownArray& front = iterate.unknowns.front();
-    const Place& increments = routine_.places.at(front.increment);
-    const Whole moved = whole(Place{increments.object, increments.field});
-    Whole lengths;
-    if (!front.length.empty()) {
-      const Place& place = routine_.places.at(front.length);
-      lengths = whole(Place{place.object, place.field});
+      unknowns.push_back({address(u.value), address(u.increment), compiled(u.beside)});
     }
     std::vector<Range> ranges;
     for (const KernelRange& range : iterate.ranges) ranges.push_back(range_of(range));
@@ -334,8 +325,8 @@ class Machine<Real>::Compiler {
     const int start = index_of("start");
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
-    return [this, unknowns, moved, lengths, ranges, residual, start, flag, body,
-            rule = iterate.rule, name = iterate.name] {
+    return [this, unknowns, ranges, residual, start, flag, body, rule = iterate.rule,
+            name = iterate.name] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -343,7 +334,7 @@ class Machine<Real>::Compiler {
         });
       };
       if (rule == Rule::newton) return run_newton_on(*memory.rules.at(name), each, body);
-      return run_contraction(memory, name, flag, each, body, moved, lengths, residual);
+      return run_contraction(memory, name, flag, each, body, residual);
     };
   }
   Step operator()(const RefineArray& refine) {
@@ -470,9 +461,10 @@ class Machine<Real>::Compiler {
     }
   }
 
+  using Distance = typename NumericsOf<Real>::Moved;
   // Unknowns in arrays, and whole arrays.
   struct Array2 {
-    Address value, increment, length;
+    Address value, increment;
     CompiledExpression<Real> beside;
   };
   struct Whole {
@@ -507,8 +499,7 @@ class Machine<Real>::Compiler {
 
   template <class Each>
   bool run_contraction(Object<Real>& memory, const std::string& name, const std::string& flag,
-                       const Each& each, const Steps& body, const Whole& moved,
-                       const Whole& lengths, const Address& residual) const {
+                       const Each& each, const Steps& body, const Address& residual) const {
     const bool newton = !flag.empty();
     if (newton) {
       memory.simplified.at(name)->begin(memory.flags.at(flag) != 0);
@@ -517,13 +508,12 @@ class Machine<Real>::Compiler {
     }
     for (m_.iteration_ = 1;; ++m_.iteration_) {
       if (!run_all(body)) return false;
-      Real scale = 0;
+      Distance distance;
       each([&](const Array2& u) {
         Real& value = m_.frame_.at(u.value);
-        Real& length = m_.frame_.at(u.length);
-        length = magnitude(value) + magnitude(u.beside(m_.frame_));
-        scale += length;
-        value += m_.frame_.at(u.increment);
+        const Real increment = m_.frame_.at(u.increment);
+        distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame_)));
+        value += increment;
       });
       const auto iteration = static_cast<int>(m_.iteration_);
       Answer answer = Answer::go_on;
@@ -531,13 +521,12 @@ class Machine<Real>::Compiler {
       if (newton) {
         bool factorised = memory.flags.at(flag) != 0;
         AnySimplifiedNewtonRule<Real>& rule = *memory.simplified.at(name);
-        answer = rule(span(moved), span(lengths), scale, m_.frame_.at(residual), factorised,
-                      iteration);
+        answer = rule(distance, m_.frame_.at(residual), factorised, iteration);
         memory.flags.at(flag) = factorised ? 1 : 0;
         size = rule.size();
       } else {
         AnyFixedPointRule<Real>& rule = *memory.contractions.at(name);
-        answer = rule(span(moved), span(lengths), scale, iteration);
+        answer = rule(distance, iteration);
         size = rule.size();
       }
       if (answer == Answer::go_on) continue;
@@ -634,22 +623,19 @@ class Machine<Real>::Compiler {
   }
 
   bool run_fixed_point(const std::vector<Compiled>& unknowns, const Steps& body) const {
-    const auto rule = make_fixed_point_rule<Real>(static_cast<int>(unknowns.size()));
+    const auto rule = make_fixed_point_rule<Real>();
     for (m_.iteration_ = 1;; ++m_.iteration_) {
       if (!run_all(body)) return false;
-      std::vector<Real> increment;
-      std::vector<Real> length;
-      Real scale = 0;
-      for (const Compiled& u : unknowns) {
-        const Real value = m_.frame_.at(u.target);
-        increment.push_back(u.correction(m_.frame_));
-        length.push_back(magnitude(value) + magnitude(u.start(m_.frame_)));
-        scale += length.back();
-      }
+      std::vector<Real> increments;
+      for (const Compiled& u : unknowns) increments.push_back(u.correction(m_.frame_));
+      Distance distance;
       for (std::size_t j = 0; j < unknowns.size(); ++j) {
-        m_.frame_.at(unknowns[j].target) += increment[j];
+        Real& value = m_.frame_.at(unknowns[j].target);
+        distance.add(magnitude(increments[j]),
+                     magnitude(value) + magnitude(unknowns[j].start(m_.frame_)));
+        value += increments[j];
       }
-      const Answer answer = (*rule)(increment, length, scale, static_cast<int>(m_.iteration_));
+      const Answer answer = (*rule)(distance, static_cast<int>(m_.iteration_));
       if (answer == Answer::go_on) continue;
       m_.report_.iterations += m_.iteration_;
       if (answer == Answer::failed) m_.report_.increment = rule->size();

@@ -67,14 +67,12 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   typename NumericsOf<Real>::template Newton<Power> rule_;
 };
 
-template <class Real, int Size, class Rule>
+template <class Real, class Rule>
 class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
  public:
   void begin() override { rule_.begin(); }
-  Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
-                    int iteration) override {
-    return answer(rule_(Padded<Real, Size>(moved).padded, Padded<Real, Size>(length).padded, scale,
-                        iteration));
+  Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) override {
+    return answer(rule_(moved, iteration));
   }
   [[nodiscard]] Real size() const override { return rule_.size; }
 
@@ -82,19 +80,18 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
   Rule rule_;
 };
 
-template <class Real, int Size>
+template <class Real>
 class SimplifiedNewtonRuleOf final : public AnySimplifiedNewtonRule<Real> {
  public:
   void begin(bool factorised) override { rule_.begin(factorised); }
-  Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
-                    Real residual, bool& factorised, int iteration) override {
-    return answer(rule_(Padded<Real, Size>(moved).padded, Padded<Real, Size>(length).padded, scale,
-                        residual, factorised, iteration));
+  Answer operator()(const typename NumericsOf<Real>::Moved& moved, Real residual, bool& factorised,
+                    int iteration) override {
+    return answer(rule_(moved, residual, factorised, iteration));
   }
   [[nodiscard]] Real size() const override { return rule_.size; }
 
  private:
-  typename NumericsOf<Real>::template Simplified<Size> rule_;
+  typename NumericsOf<Real>::Simplified rule_;
 };
 
 template <class Real, int Size>
@@ -167,28 +164,20 @@ std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power) {
 }
 
 template <class Real>
-std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size) {
-  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyFixedPointRule<Real>> {
-    constexpr int kSize = decltype(n)::value;
-    using Rule = typename NumericsOf<Real>::template FixedPoint<kSize>;
-    return std::make_unique<FixedPointRuleOf<Real, kSize, Rule>>();
-  });
+std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule() {
+  using Rule = typename NumericsOf<Real>::FixedPoint;
+  return std::make_unique<FixedPointRuleOf<Real, Rule>>();
 }
 
 template <class Real>
-std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule(int size) {
-  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyFixedPointRule<Real>> {
-    constexpr int kSize = decltype(n)::value;
-    using Rule = typename NumericsOf<Real>::template Impatient<kSize>;
-    return std::make_unique<FixedPointRuleOf<Real, kSize, Rule>>();
-  });
+std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule() {
+  using Rule = typename NumericsOf<Real>::Impatient;
+  return std::make_unique<FixedPointRuleOf<Real, Rule>>();
 }
 
 template <class Real>
-std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule(int size) {
-  return at_least<256>(size, [](auto n) -> std::unique_ptr<AnySimplifiedNewtonRule<Real>> {
-    return std::make_unique<SimplifiedNewtonRuleOf<Real, decltype(n)::value>>();
-  });
+std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule() {
+  return std::make_unique<SimplifiedNewtonRuleOf<Real>>();
 }
 
 template <class Real>
@@ -214,10 +203,10 @@ template std::unique_ptr<AnyNewtonRule<float>> make_newton_rule(int);
 template std::unique_ptr<AnyNewtonRule<double>> make_newton_rule(int);
 template std::unique_ptr<AnyNewtonRule<long double>> make_newton_rule(int);
 template std::unique_ptr<AnyNewtonRule<Quad>> make_newton_rule(int);
-template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule(int);
-template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule(int);
-template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule(int);
-template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule(int);
+template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule();
+template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule();
+template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule();
+template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule();
 template std::unique_ptr<AnyRefinement<float>> make_refinement(int, int);
 template std::unique_ptr<AnyRefinement<double>> make_refinement(int, int);
 template std::unique_ptr<AnyRefinement<long double>> make_refinement(int, int);
@@ -226,13 +215,13 @@ template std::unique_ptr<AnyMatrix<float>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<double>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<long double>> make_matrix(int);
 template std::unique_ptr<AnyMatrix<Quad>> make_matrix(int);
-template std::unique_ptr<AnyFixedPointRule<float>> make_impatient_rule(int);
-template std::unique_ptr<AnySimplifiedNewtonRule<float>> make_simplified_newton_rule(int);
-template std::unique_ptr<AnyFixedPointRule<double>> make_impatient_rule(int);
-template std::unique_ptr<AnySimplifiedNewtonRule<double>> make_simplified_newton_rule(int);
-template std::unique_ptr<AnyFixedPointRule<long double>> make_impatient_rule(int);
-template std::unique_ptr<AnySimplifiedNewtonRule<long double>> make_simplified_newton_rule(int);
-template std::unique_ptr<AnyFixedPointRule<Quad>> make_impatient_rule(int);
-template std::unique_ptr<AnySimplifiedNewtonRule<Quad>> make_simplified_newton_rule(int);
+template std::unique_ptr<AnyFixedPointRule<float>> make_impatient_rule();
+template std::unique_ptr<AnySimplifiedNewtonRule<float>> make_simplified_newton_rule();
+template std::unique_ptr<AnyFixedPointRule<double>> make_impatient_rule();
+template std::unique_ptr<AnySimplifiedNewtonRule<double>> make_simplified_newton_rule();
+template std::unique_ptr<AnyFixedPointRule<long double>> make_impatient_rule();
+template std::unique_ptr<AnySimplifiedNewtonRule<long double>> make_simplified_newton_rule();
+template std::unique_ptr<AnyFixedPointRule<Quad>> make_impatient_rule();
+template std::unique_ptr<AnySimplifiedNewtonRule<Quad>> make_simplified_newton_rule();
 
 }  // namespace hamgen

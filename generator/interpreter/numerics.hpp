@@ -70,17 +70,17 @@ struct AnyNewtonRule {
 template <class Real>
 struct AnyFixedPointRule {
   virtual ~AnyFixedPointRule() = default;
+  using Distance = typename NumericsOf<Real>::Moved;
   virtual void begin() = 0;
-  virtual Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
-                            int iteration) = 0;
+  virtual Answer operator()(const Distance& moved, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
 };
 template <class Real>
 struct AnySimplifiedNewtonRule {
   virtual ~AnySimplifiedNewtonRule() = default;
   virtual void begin(bool factorised) = 0;
-  virtual Answer operator()(std::span<const Real> moved, std::span<const Real> length, Real scale,
-                            Real residual, bool& factorised, int iteration) = 0;
+  virtual Answer operator()(const typename NumericsOf<Real>::Moved& moved, Real residual,
+                            bool& factorised, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
 };
 template <class Real>
@@ -108,11 +108,11 @@ template <class Real>
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power);
 template <class Real>
-[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule(int size);
+[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule();
 template <class Real>
-[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule(int size);
+[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule();
 template <class Real>
-[[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule(int size);
+[[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule();
 // For up to twice as many components of the gradient as unknowns.
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components);

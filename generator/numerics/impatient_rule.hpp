@@ -1,8 +1,7 @@
 // When to stop a fixed point that something else can take over from: as FixedPointRule, and with a
 // failure where three times in a row it contracts by less than a half.
-template <int Size>
 struct ImpatientRule {
-  FixedPointRule<Size, 2> rule;
+  FixedPointRule<2> rule;
   Real size = 0;  // of the last increment
   int slow = 0;
 
@@ -11,10 +10,9 @@ struct ImpatientRule {
     size = 0;
     slow = 0;
   }
-  Verdict operator()(const Real (&moved)[Size], const Real (&length)[Size], Real scale,
-                     int iterations) {
-    const Verdict verdict = rule(moved, length, scale, iterations);
-    const bool visible = rule.size > 4096 * epsilon * scale;
+  Verdict operator()(const Distance& moved, int iterations) {
+    const Verdict verdict = rule(moved, iterations);
+    const bool visible = rule.size > 4096 * epsilon * moved.scale;
     slow = iterations > 1 && visible && 2 * rule.size > size ? slow + 1 : 0;
     size = rule.size;
     return verdict == Verdict::go_on && slow >= 3 ? Verdict::failed : verdict;

@@ -1,8 +1,7 @@
 // When to stop Newton's iteration with a matrix that serves over many iterations and steps, and when
 // the matrix has served.
-template <int Size>
 struct SimplifiedNewtonRule {
-  FixedPointRule<Size, 1> rule;
+  FixedPointRule<1> rule;
   Real size = 0;  // of the last increment
   int age = 0;    // of the matrix, in iterations of this step
 
@@ -11,20 +10,19 @@ struct SimplifiedNewtonRule {
     size = 0;
     age = factorised ? 1 : 0;
   }
-  // moved, length, scale: as for FixedPointRule; residual: the sum of what the equations lacked.
-  // Clears the flag where the next iteration wants a matrix of its own.
-  Verdict operator()(const Real (&moved)[Size], const Real (&length)[Size], Real scale,
-                     Real residual, bool& factorised, int iterations) {
-    const Verdict verdict = rule(moved, length, scale, iterations);
+  // residual: the sum of what the equations lacked before the increment.  Clears the flag where the
+  // next iteration wants a matrix of its own.
+  Verdict operator()(const Distance& moved, Real residual, bool& factorised, int iterations) {
+    const Verdict verdict = rule(moved, iterations);
     const Real before = size;
     size = rule.size;
     // Where the Hessian is huge the increments are small, far from any solution.
-    if (verdict == Verdict::done && 16 * residual <= scale) return Verdict::done;
+    if (verdict == Verdict::done && 16 * residual <= moved.scale) return Verdict::done;
     if (verdict != Verdict::go_on) {
       factorised = false;
       return Verdict::failed;
     }
-    const bool visible = size > 4096 * epsilon * scale;
+    const bool visible = size > 4096 * epsilon * moved.scale;
     if (before > 0 && visible && 4 * size > before && age > 1) {
       factorised = false;
       age = 0;

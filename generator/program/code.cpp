@@ -81,7 +81,7 @@ struct Reader {
   void operator()(const IterateArray& iterate) const {
     found.objects.insert({"start", "report"});
     for (const UnknownArray& u : iterate.unknowns) {
-      found.written.insert({u.value, u.increment, u.length});
+      found.written.insert({u.value, u.increment});
       mention(u.beside, found);
     }
     mention(iterate.body, found);

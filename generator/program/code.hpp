@@ -165,7 +165,6 @@ struct Iterate {
 // rounded with `beside` as well.
 struct UnknownArray {
   std::string value, increment;
-  std::string length;  // of a fixed point: where the sum of their sizes is left
   Expression beside;
 };
 // As Iterate, for arrays whose values are there before it begins.  The body leaves the increments.

@@ -48,6 +48,7 @@ class LoopMember {
     if (arrays_.matrix) code_.routines.push_back(differentiate());
     code_.routines.push_back(solve());
     if (solved) code_.unknowns = unknowns();
+    code_.retries = solved;
     if (newton()) code_.rules = {{"rule", 0, unknowns()}};
     code_.matrix = arrays_.matrix;
   }
@@ -150,9 +151,7 @@ class LoopMember {
       }
     }
     if (fixed_point()) {
-      array("length", unknowns(), "what the values are rounded with");
-      start.fields.push_back(
-          {.name = "rule", .type = fmt::format("FixedPointRule<{}, 2>", unknowns())});
+      start.fields.push_back({.name = "rule", .type = "FixedPointRule<2>"});
       start.fields.push_back(
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }
@@ -466,7 +465,6 @@ class LoopMember {
       const std::vector<AffineIndex> index = {affine("i", first)};
       list.push_back({.value = b.at("start", "value", index).name(),
                       .increment = b.at("start", "lack", index).name(),
-                      .length = fixed_point() ? b.at("start", "length", index).name() : "",
                       .beside = state(b, "z", first == 0 ? "q" : "p")});
     }
     return list;

@@ -56,15 +56,13 @@ class StageRoutines {
     record.fields.push_back(
         {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
     array("lack", unknowns(), "of the equations at Y_i, then the increment");
-    array("length", unknowns(), "what Y_i is rounded with");
     if (has_fixed_point()) {
-      const char* rule = solver_ == StageSolver::both ? "ImpatientRule<{}>" : "FixedPointRule<{}, 2>";
+      const bool impatient = solver_ == StageSolver::both;
       record.fields.push_back(
-          {.name = "rule", .type = fmt::format(fmt::runtime(rule), unknowns())});
+          {.name = "rule", .type = impatient ? "ImpatientRule" : "FixedPointRule<2>"});
     }
     if (has_newton()) {
-      record.fields.push_back(
-          {.name = "newton", .type = fmt::format("SimplifiedNewtonRule<{}>", unknowns())});
+      record.fields.push_back({.name = "newton", .type = "SimplifiedNewtonRule"});
       record.fields.push_back({.name = "matrix", .type = "Matrix"});
       record.fields.push_back({.name = "factorised", .values = {0}, .type = "bool"});
       record.fields.push_back({.name = "residual"});
@@ -193,7 +191,6 @@ class StageRoutines {
         .ranges = {all_stages(), all_components()},
         .unknowns = {{.value = of_start(b, "value", row()).name(),
                       .increment = of_start(b, "lack", row()).name(),
-                      .length = of_start(b, "length", row()).name(),
                       .beside = of_start(b, "state", affine("j"))}},
         .body = std::move(body)};
     if (rule == Rule::fixed_point) return iterate;

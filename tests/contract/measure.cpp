@@ -45,22 +45,19 @@ std::string inside(const Case& c, const std::string& name_space, const std::stri
 std::string adapter(const std::string& name, const std::string& name_space, const std::string& text,
                     const ScalarType& scalar) {
   const bool loops = text.find("Real* dq, Real* dp)") != std::string::npos;
-  const std::string substep = text.find("class Substep") != std::string::npos
-                                  ? "  using Substep = " + name_space + "::Substep;\n"
-                                  : "";
   return fmt::format(R"(struct {0} {{
   using Real = {1}::Real;
   using State = {1}::State;
   using Parameters = {1}::Parameters;
   using Propagator = {1}::Propagator;
-{2}  static constexpr Real epsilon = {3};
+  static constexpr Real epsilon = {2};
   static void gradient(const Parameters& par, const State& z, Real* g) {{
     constexpr int size = sizeof(State) / sizeof(Real);
-    {4}
+    {3}
   }}
 }};
 )",
-                     name, name_space, substep, scalar.cpp == "__float128" ? "0" : scalar.epsilon,
+                     name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon,
                      loops
                          ? fmt::format("{}::gradient(par, z.q, z.p, g, g + size / 2);", name_space)
                          : fmt::format("Real values[size];\n    {}::gradient(par, z, values);\n"
@@ -94,8 +91,8 @@ std::string call(const Case& c, std::size_t i, bool runge_kutta) {
   }
   const std::string equations =
       runge_kutta ? fmt::format(
-                        "contract::runge_kutta(case_{0}::exact::coupling, "
-                        "case_{0}::exact::weight)",
+                        "contract::runge_kutta(case_{0}::exact::prepare("
+                        "case_{0}::exact::Parameters(), 1))",
                         i)
                   : fmt::format(
                         "contract::member({}, contract::Quad({}), contract::Quad({}), "
@@ -135,7 +132,7 @@ std::string program(const std::vector<Case>& cases,
     std::string code = inside(cases[i], measured, std::string(scalar.name));
     if (edit) code = edit(std::move(code));
     const std::string quad = inside(cases[i], exact, "quad");
-    const bool runge_kutta = code.find("coupling[stages][stages]") != std::string::npos;
+    const bool runge_kutta = code.find("k.coupling[") != std::string::npos;
     text += code + quad + adapter(fmt::format("Measured_{}", i), measured, code, scalar) +
             adapter(fmt::format("Exact_{}", i), exact, quad, find_scalar("quad"));
     calls += call(cases[i], i, runge_kutta);

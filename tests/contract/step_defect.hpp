@@ -127,9 +127,11 @@ inline Equations member(std::size_t n, Quad alpha, Quad beta, Quad gamma) {
   return e;
 }
 
-// a_ij = coupling_ij b_j.
-template <class Coupling, class Weight>
-Equations runge_kutta(const Coupling& coupling, const Weight& weight) {
+// a_ij = coupling_ij b_j, from the coefficients of a step h = 1.
+template <class Coefficients>
+Equations runge_kutta(const Coefficients& k) {
+  const auto& coupling = k.coupling;
+  const auto& weight = k.scaled;
   const std::size_t s = sizeof(weight) / sizeof(weight[0]);
   Equations e{Matrix(s, Vector(s)), Vector(s), Vector(s), {}};
   Matrix transposed(s, Vector(s));
@@ -231,13 +233,15 @@ class Watch {
   std::vector<Vector> stages(const Vector& z, const Vector& Z, const Stepper& stepper) const {
     const std::size_t size = z.size();
     std::vector<Vector> y(equations_.stages(), z);
-    if constexpr (requires { stepper.increment_; }) {
-      for (std::size_t i = 0; i < y.size(); ++i) {
-        for (std::size_t k = 0; k < size; ++k) y[i][k] += stepper.increment_[i][k];
+    for (std::size_t k = 0; k < size; ++k) {
+      for (std::size_t l = 0; l < equations_.c.size(); ++l) {
+        y[0][k] += equations_.c[k][l] * (Z[l] - z[l]);
       }
-    } else {
-      for (std::size_t k = 0; k < size; ++k) {
-        for (std::size_t l = 0; l < size; ++l) y[0][k] += equations_.c[k][l] * (Z[l] - z[l]);
+    }
+    if constexpr (requires { stepper.start_.value; }) {
+      if (!equations_.c.empty()) return y;
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        for (std::size_t k = 0; k < size; ++k) y[i][k] = stepper.start_.value[i * size + k];
       }
     }
     return y;
@@ -379,20 +383,7 @@ Defects run(const typename Code::Parameters& par, const Equations& equations, ty
   Watch<Code, Exact> watch(par, equations);
   Defects defects;
   for (defects.steps = 0; defects.steps < steps; ++defects.steps) {
-    if constexpr (requires { propagator.substep_; }) {
-      auto z = propagator.z_;
-      auto carry = propagator.carry_;
-      for (auto& substep : propagator.substep_) {
-        substep.begin_at(z, carry);
-        defects.failed = !watch.template solve<typename Code::Substep, typename Exact::Substep>(
-            substep, substep.h_, defects);
-        if (defects.failed) return defects;
-        z = substep.state();
-        carry = substep.carry();
-      }
-      propagator.z_ = z;
-      propagator.carry_ = carry;
-    } else if constexpr (requires { Code::Propagator::substeps; }) {
+    if constexpr (requires { Code::Propagator::substeps; }) {
       using State = typename Code::State;
       SubstepOf<typename Code::Propagator, State> substep{propagator, 0, propagator.z_,
                                                           propagator.carry_};

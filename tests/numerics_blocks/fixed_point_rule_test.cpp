@@ -10,15 +10,17 @@ class FixedPointRule : public ::testing::Test {
   using Number = typename Blocks::Scalar;
   using Answer = typename Blocks::Answer;
 
-  // The iteration at which a rule of one component stops that is shown these increments, in units
-  // of rounding of a solution 1; 0 if it never does.
+  // The iteration at which a rule stops that is shown these increments, in units of rounding of a
+  // solution 1; 0 if it never does.  They are those of an unknown of this length, beside one that
+  // stands still.
   template <int Cycle, class Increment>
-  static int stop(const Increment& increment, Answer expected = Answer::done) {
-    typename Blocks::template FixedPoint<1, Cycle> rule;
+  static int stop(const Increment& increment, Answer expected = Answer::done, double own = 0) {
+    typename Blocks::template FixedPoint<Cycle> rule;
     for (int iteration = 1; iteration <= 1000; ++iteration) {
-      const Number moved[1] = {Number(increment(iteration)) * Blocks::unit};
-      const Number length[1] = {1};
-      const Answer verdict = rule(moved, length, Number(1), iteration);
+      typename Blocks::Moved distance;
+      distance.add(Blocks::absolute(Number(increment(iteration)) * Blocks::unit), Number(own));
+      distance.add(0, 1);
+      const Answer verdict = rule(distance, iteration);
       if (verdict == Answer::go_on) continue;
       EXPECT_EQ(verdict, expected) << iteration;
       return iteration;
@@ -57,21 +59,13 @@ TYPED_TEST(FixedPointRule, EvenAndOddIterationsAreTwoSequences) {
   EXPECT_GT(this->template stop<2>(two), 16);
 }
 
-// A component that moves by less than an eighth of its rounding decreases for ever by chance.
-TYPED_TEST(FixedPointRule, WhatFlickersBelowRoundingDoesNotCount) {
-  using Real = typename TypeParam::Scalar;
+// What is left from there on is solved for otherwise, but of every unknown measured by itself.
+TYPED_TEST(FixedPointRule, WhatIsCloseToItsEndIsThere) {
+  const auto constant = [](double units) { return [units](int) { return units; }; };
   using Verdict = typename TypeParam::Answer;
-  typename TypeParam::template FixedPoint<2, 2> rule;
-  Verdict verdict = Verdict::go_on;
-  int iteration = 0;
-  while (verdict == Verdict::go_on) {
-    ++iteration;
-    const Real moved[2] = {4 * TypeParam::unit, TypeParam::unit / Real(9 + iteration)};
-    const Real length[2] = {1, 1};
-    verdict = rule(moved, length, Real(2), iteration);
-  }
-  EXPECT_EQ(verdict, Verdict::done);
-  EXPECT_EQ(iteration, 4);
+  EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 1), 1);
+  EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 0.5), 4);
+  EXPECT_EQ(this->template stop<2>(constant(70), Verdict::done, 1), 5);
 }
 
 // 0.99 a time, and 500 times are not enough: what has become small is not what is missing.
@@ -100,25 +94,27 @@ TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
 }
 
-// x -> r x + (1 - r) from 0 in the scalar itself.  The error left is that of rounding, a unit or
-// two of x and of the product, summed over the 1/(1 - |r|) iterations that remember it.
-TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToItsRounding) {
+// x -> r x + (1 - r) from 0 in the scalar itself.  The last increment is 64 units or less, and r of
+// it is what the next one would be; r/(1 - r) is the sum of all that would follow.  Rounding adds a
+// unit or two of x and of the product, over the 1/(1 - |r|) iterations that remember it.
+TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToWhereTheRestIsSolvedFor) {
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
   for (const double ratio : {0.5, -0.5, 0.75, -0.75}) {
-    typename TypeParam::template FixedPoint<1, 2> rule;
+    typename TypeParam::template FixedPoint<2> rule;
     Real x = 0;
     Verdict verdict = Verdict::go_on;
     for (int iteration = 1; verdict == Verdict::go_on; ++iteration) {
       const Real next = Real(ratio) * x + Real(1 - ratio);
-      const Real moved[1] = {next - x};
+      typename TypeParam::Moved distance;
+      distance.add(TypeParam::absolute(next - x), TypeParam::absolute(x));
       x = next;
-      const Real length[1] = {TypeParam::absolute(x)};
-      verdict = rule(moved, length, length[0], iteration);
+      verdict = rule(distance, iteration);
     }
     EXPECT_EQ(verdict, Verdict::done) << ratio;
     const Real error = TypeParam::absolute(x - 1) / TypeParam::unit;
-    EXPECT_LE(static_cast<double>(error), 2 / (1 - (ratio < 0 ? -ratio : ratio))) << ratio;
+    const double r = ratio < 0 ? -ratio : ratio;
+    EXPECT_LE(static_cast<double>(error), (64 * r + 2) / (1 - r)) << ratio;
   }
 }
 

@@ -1,0 +1,101 @@
+// The rules of two solvers that share the stages of a Runge-Kutta method.
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+template <class Blocks>
+class StageRules : public ::testing::Test {
+ protected:
+  using Number = typename Blocks::Scalar;
+  using Answer = typename Blocks::Answer;
+
+  // One unknown 1 that moves by so many units of rounding.
+  static typename Blocks::Moved moved(double units) {
+    typename Blocks::Moved distance;
+    distance.add(Number(units) * Blocks::unit, 1);
+    return distance;
+  }
+};
+TYPED_TEST_SUITE(StageRules, EveryScalar);
+
+TYPED_TEST(StageRules, ASlowFixedPointGivesUpAfterThreeSlowIterations) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Impatient rule;
+  rule.begin();
+  double units = 1e6;
+  for (int iteration = 1; iteration <= 3; ++iteration, units *= 0.6) {
+    EXPECT_EQ(rule(this->moved(units), iteration), Verdict::go_on) << iteration;
+  }
+  EXPECT_EQ(rule(this->moved(units), 4), Verdict::failed);
+}
+
+TYPED_TEST(StageRules, AFastOneGoesToItsEnd) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Impatient rule;
+  rule.begin();
+  double units = 1e6;
+  Verdict verdict = Verdict::go_on;
+  int iteration = 0;
+  for (; verdict == Verdict::go_on; units *= 0.4) verdict = rule(this->moved(units), ++iteration);
+  EXPECT_EQ(verdict, Verdict::done);
+  EXPECT_EQ(iteration, 12);  // 1e6 0.4^11 < 64 < 1e6 0.4^10
+}
+
+// What is not seen above rounding is not slow.
+TYPED_TEST(StageRules, SlowNextToRoundingIsNotSlow) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Impatient rule;
+  rule.begin();
+  for (int iteration = 1; iteration <= 4; ++iteration) {
+    EXPECT_EQ(rule(this->moved(3000 - iteration), iteration), Verdict::go_on) << iteration;
+  }
+}
+
+TYPED_TEST(StageRules, AnOldMatrixThatContractsSlowlyIsReplaced) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Simplified rule;
+  bool factorised = true;
+  rule.begin(factorised);
+  EXPECT_EQ(rule(this->moved(1e6), 0, factorised, 1), Verdict::go_on);
+  EXPECT_TRUE(factorised);
+  EXPECT_EQ(rule(this->moved(5e5), 0, factorised, 2), Verdict::go_on);
+  EXPECT_FALSE(factorised);
+  // A new one has two iterations to show itself.
+  factorised = true;
+  EXPECT_EQ(rule(this->moved(4e5), 0, factorised, 3), Verdict::go_on);
+  EXPECT_TRUE(factorised);
+}
+
+TYPED_TEST(StageRules, AFastMatrixStays) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Simplified rule;
+  bool factorised = true;
+  rule.begin(factorised);
+  double units = 1e7;
+  Verdict verdict = Verdict::go_on;
+  int iteration = 0;
+  for (; verdict == Verdict::go_on; units /= 5) {
+    verdict = rule(this->moved(units), 0, factorised, ++iteration);
+  }
+  EXPECT_EQ(verdict, Verdict::done);
+  EXPECT_TRUE(factorised);
+}
+
+// Where the Hessian is huge the increments are small, far from any solution.
+TYPED_TEST(StageRules, ASmallIncrementOfEquationsThatDoNotHoldIsAFailure) {
+  using Number = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Simplified rule;
+  bool factorised = true;
+  rule.begin(factorised);
+  EXPECT_EQ(rule(this->moved(10), Number(0.5), factorised, 1), Verdict::failed);
+  EXPECT_FALSE(factorised);
+  rule.begin(true);
+  factorised = true;
+  EXPECT_EQ(rule(this->moved(10), Number(0.01), factorised, 1), Verdict::done);
+  EXPECT_TRUE(factorised);
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
