@@ -1,9 +1,10 @@
-// What a fixed point lacks below the last place of its unknowns.  A rounded iteration ends at one
-// of two neighbours, on the side that it came from, and that is the same step after step: a bias,
-// and no chance.  What the equations lack there is small, and known without an error.  Over that
-// distance they are linear; their change along it is found by a difference over one `amplifier`
-// times as long: what is not linear, and what a difference loses, are both far below a unit of
-// rounding.
+// The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
+// rounded map takes to themselves it ends at one on the side it came from, and at one where the
+// rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
+// point close by, some ten units of rounding from the solution.  What the equations lack there is
+// small, and known without an error.  Over that distance they are linear, and their change along it
+// is found by a difference over one `amplifier` times as long: what is not linear, and what a
+// difference loses, are both far below a unit of rounding.
 template <int Size, int Components>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
@@ -18,6 +19,8 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real least = 0;                // of what a round moved all together
+  int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
 
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
@@ -25,7 +28,7 @@ struct Refinement {
   // rounded one again.
   bool operator()(Real (&point)[Size], const Real (&lack)[Size],
                   const Real (&gradient)[Components]) {
-    Real size = 0;
+    bool open = false;
     Real last = 0;
     for (int j = 0; j < Size; ++j) {
       if (rounds == 0) {
@@ -35,14 +38,19 @@ struct Refinement {
       }
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       moved[j] += error;
-      size += magnitude(moved[j]);
       last += magnitude(error);
+      // What is cut off is a bias: a 2^-13th of a unit.
+      open =
+          open || magnitude(error) * 8192 > epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
     }
     for (int k = 0; k < Components; ++k) {
       if (rounds == 0) slope[k] = gradient[k];
       change[k] = (gradient[k] - slope[k]) / amplifier;
     }
-    const bool more = last * 64 > size && rounds < 8;
+    // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+    stuck = rounds == 0 || last < least ? 0 : stuck + 1;
+    if (stuck == 0) least = last;
+    const bool more = open && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
