@@ -327,9 +327,10 @@ class RoutinePrinter {
       out_.line(fmt::format("{} += increment[{}];", names_.local(iterate.unknowns[j].symbol), j));
     }
     out_.line("const Verdict verdict = " + iterate.name + "(increment, length, scale, iteration);");
-    out_.line("if (verdict == Verdict::go_on) continue;");
+    out_.line("if (verdict == Verdict::go_on && " + iterate.name +
+              ".size > 64 * epsilon * scale) continue;");
     out_.line("report.iterations += iteration;");
-    out_.line("if (verdict == Verdict::done) break;");
+    out_.line("if (verdict != Verdict::failed) break;");
     out_.line("report.increment = " + iterate.name + ".size;");
     out_.line("return report;");
     out_.close();

@@ -388,10 +388,11 @@ class Machine<Real>::Compiler {
         m_.frame_.at(unknowns[j].target) += increment[j];
       }
       const Answer answer = (*rule)(increment, length, scale, static_cast<int>(m_.iteration_));
-      if (answer == Answer::go_on) continue;
+      const bool close = rule->size() <= 64 * NumericsOf<Real>::unit * scale;
+      if (answer == Answer::go_on && !close) continue;
       m_.report_.iterations += m_.iteration_;
       if (answer == Answer::failed) m_.report_.increment = rule->size();
-      return answer == Answer::done;
+      return answer != Answer::failed;
     }
   }
 
