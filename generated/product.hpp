@@ -11,7 +11,7 @@
 //   solve     quadratic equation for q, root in closed form
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per step: 22 + - *, 1 /, 1 sqrt and functions
+//   cost      per step: 23 + - *, 1 /, 1 sqrt and functions
 #pragma once
 #include <cmath>
 
@@ -79,7 +79,7 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real q = z.q;
   const Real p = z.p;
   const Real p_bar = p + carry.p;
-  const Real c0_q = -h * p_bar * (1.0 + q * q);
+  const Real c0_q = -(carry.q + h * p_bar * (1.0 + q * q));
   const Real c1_q = 1.0 + q * p_bar * k.c1;
   const Real c2_q = -h * p_bar;
   const Real q_bar = q - 2.0 * c0_q / (c1_q + std::sqrt(c1_q * c1_q - 4.0 * c0_q * c2_q));

@@ -24,6 +24,7 @@ std::string CppExpression::operator()(const Expression& e) const {
 }
 
 std::string CppExpression::call(const std::string& function, const std::string& arguments) const {
+  if (function == kProductError) return function + "(" + arguments + ")";
   functions_.insert(function);
   const Function* row = find_function(function);
   if (scalar_.digits == 113) {

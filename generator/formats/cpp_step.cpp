@@ -7,6 +7,7 @@
 
 #include "generator/formats/cpp_matrices.hpp"
 #include "generator/formats/numerics.hpp"
+#include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
 
@@ -382,9 +383,22 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
   out.close(";");
 }
 
+bool takes_product_errors(const Routine* routine) {
+  return routine != nullptr && any(routine->body, [](const Instruction& i) {
+           const auto* let = std::get_if<Let>(&i.value);
+           const auto* assign = std::get_if<Assign>(&i.value);
+           const Expression* value = let != nullptr      ? &let->value
+                                     : assign != nullptr ? &assign->value
+                                                         : nullptr;
+           return value != nullptr && value->kind() == Kind::function &&
+                  value->name() == kProductError;
+         });
+}
+
 bool needs_vocabulary(const CppContext& context) {
   return any_written(context, [](const Routine* routine) {
-    return has<Matrix>(routine) || has<Iterate>(routine) || has<IterateArray>(routine);
+    return has<Matrix>(routine) || has<Iterate>(routine) || has<IterateArray>(routine) ||
+           takes_product_errors(routine);
   });
 }
 
@@ -411,6 +425,7 @@ void write_solver(CodeWriter& out, CppContext& context) {
   }
   if (needs_eigen(context)) out.lines(cpp_numerics("eigen_dense_matrix"));
   if (has<Invert>(prepare)) out.lines(cpp_numerics("inverse"));
+  if (any_written(context, takes_product_errors)) out.lines(cpp_numerics("product_error"));
   if (prepare != nullptr) {
     write_record(out, *context.code.record("Coefficients"), context.scalar);
     out.line();

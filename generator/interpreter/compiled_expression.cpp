@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/interpreter/numerics.hpp"
 
 namespace hamgen {
 
@@ -18,7 +19,7 @@ struct Row {
   NumericFunction<Real> function;
 };
 
-// One row a function of the language, sqrt and pow.
+// One row a function of the language, sqrt, pow and product_error.
 template <class Real>
 constexpr Row<Real> kRows[] = {
     {"abs", [](Real x, Real) { return Real(std::fabs(x)); }},
@@ -34,6 +35,7 @@ constexpr Row<Real> kRows[] = {
     {"exp", [](Real x, Real) { return Real(std::exp(x)); }},
     {"log", [](Real x, Real) { return Real(std::log(x)); }},
     {"pow", [](Real x, Real y) { return Real(std::pow(x, y)); }},
+    {kProductError, NumericsOf<Real>::lost_of_product},
     {"sin", [](Real x, Real) { return Real(std::sin(x)); }},
     {"sinh", [](Real x, Real) { return Real(std::sinh(x)); }},
     {"sqrt", [](Real x, Real) { return Real(std::sqrt(x)); }},
@@ -57,6 +59,7 @@ constexpr Row<Quad> kRows<Quad>[] = {
     {"exp", [](Quad x, Quad) { return expq(x); }},
     {"log", [](Quad x, Quad) { return logq(x); }},
     {"pow", [](Quad x, Quad y) { return powq(x, y); }},
+    {kProductError, NumericsOf<Quad>::lost_of_product},
     {"sin", [](Quad x, Quad) { return sinq(x); }},
     {"sinh", [](Quad x, Quad) { return sinhq(x); }},
     {"sqrt", [](Quad x, Quad) { return sqrtq(x); }},

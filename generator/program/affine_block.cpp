@@ -32,34 +32,34 @@ void StepBuilder::add_affine(const Block& block) {
   for (const int x : block.unknowns) {
     for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
   }
-  std::vector<Expression> lacking;
+  std::vector<Expression> lack;
   for (std::size_t i = 0; i < block.unknowns.size(); ++i) {
     const int x = block.unknowns[i];
-    lacking.push_back(name_value(residual_name(block, i) + ")",
-                                 stage_value_[index(x)] - row(x, newton.where), newton.where));
+    lack.push_back(name_value(residual_name(block, i) + ")",
+                              lacking(x, stage_value_[index(x)], newton.where), newton.where));
   }
-  for (std::size_t i = 0; i < lacking.size(); ++i) {
+  for (std::size_t i = 0; i < lack.size(); ++i) {
     newton.increments.push_back(increment_symbol(block.unknowns[i]));
-    define(newton.increments[i], -product(newton.inverse[i], lacking), newton.where);
+    define(newton.increments[i], -product(newton.inverse[i], lack), newton.where);
   }
   correct_solution(newton);
-  if (block.constant_matrix) multiply_out(newton, lacking);
+  if (block.constant_matrix) multiply_out(newton, lack);
 }
 
 // The corrections of the gradient by what the equations lack, their factors constant.
-void StepBuilder::multiply_out(NewtonBlock& newton, const std::vector<Expression>& lacking) {
+void StepBuilder::multiply_out(NewtonBlock& newton, const std::vector<Expression>& lack) {
   for (const int k : newton.evaluated) {
     if (correction_[index(k)].second.is_zero()) continue;
     std::vector<Expression> terms;
-    for (std::size_t i = 0; i < lacking.size(); ++i) {
+    for (std::size_t i = 0; i < lack.size(); ++i) {
       std::vector<Expression> factor;
       for (const int v : newton.members) {
         const Expression slope = second_derivative(newton, k, v);
-        for (std::size_t j = 0; j < lacking.size(); ++j) {
+        for (std::size_t j = 0; j < lack.size(); ++j) {
           factor.push_back(-(slope * newton.slopes.at(v)[j] * newton.inverse[j][i]));
         }
       }
-      terms.push_back(Expression::sum(std::move(factor)) * lacking[i]);
+      terms.push_back(Expression::sum(std::move(factor)) * lack[i]);
     }
     correction_[index(k)].second = Expression::sum(std::move(terms));
   }

@@ -9,13 +9,17 @@
 
 namespace hamgen {
 
+// product_error(x, y) is what rounding takes from x y: zero in exact arithmetic, and no function of
+// the language.
+inline constexpr const char* kProductError = "product_error";
+
 enum class Operation { number, symbol, negate, add, subtract, multiply, divide, call };
 
 struct Arithmetic {
   Operation operation = Operation::number;
   Rational number;   // of a number, never negative
-  std::string name;  // of a symbol; of the function that is called, "pow" and "sqrt"
-                     // among them
+  std::string name;  // of a symbol; of the function that is called: "pow", "sqrt" and
+                     // product_error too
   std::vector<Arithmetic> operands;  // one to negate, two of + - * /, the arguments of a call
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "generator/program/arithmetic.hpp"
 #include "generator/program/program.hpp"
 
 namespace hamgen {
@@ -21,7 +22,12 @@ void add_cost(const Expression& e, Cost& total) {
       total.additions += static_cast<int>(e.operands().size()) - 1;
       return;
     case Kind::function:
-      ++total.functions;
+      if (e.name() == kProductError) {
+        total.additions += 10;
+        total.multiplications += 7;
+      } else {
+        ++total.functions;
+      }
       return;
     case Kind::power:
       if (e.operands()[1] == Expression(-1)) {

@@ -22,7 +22,7 @@ Lowering::Lowering(std::vector<Section> sections) : sections_(std::move(sections
 void Lowering::declare(const std::string& name, int section) { levels_[name] = section; }
 
 void Lowering::define(std::string name, Expression value, int section, Keep keep) {
-  definitions_.push_back({std::move(name), std::move(value), section, keep == Keep::yes});
+  definitions_.push_back({std::move(name), std::move(value), section, keep});
 }
 
 std::size_t Lowering::want(Expression value, int section) {
@@ -44,7 +44,7 @@ void Lowering::inline_trivial() {
     const Expression& value = definition.value;
     // A multiple of one symbol is cheaper used than stored.
     const auto [coefficient, rest] = value.split_coefficient();
-    if (is_trivial(value) || (rest.kind() == Kind::symbol && !definition.keep)) {
+    if (is_trivial(value) || (rest.kind() == Kind::symbol && definition.keep == Keep::no)) {
       replacements[definition.name] = value;
     } else {
       kept.push_back(std::move(definition));
@@ -253,7 +253,8 @@ void Lowering::run() {
   for (const WantedValue& definition : definitions_) {
     const int where = place(definition.value, definition.section);
     const Expression symbol = Expression::symbol(definition.name, kRankOfTemporary);
-    if (const auto known = named_.find(definition.value); known != named_.end()) {
+    const bool apart = definition.keep == Keep::apart;
+    if (const auto known = named_.find(definition.value); known != named_.end() && !apart) {
       aliases_[definition.name] = known->second;
       levels_[definition.name] = level(known->second);
       continue;
@@ -266,7 +267,7 @@ void Lowering::run() {
     }
     output_[static_cast<std::size_t>(where)].push_back({definition.name, value});
     levels_[definition.name] = where;
-    named_.try_emplace(definition.value, symbol);
+    if (!apart) named_.try_emplace(definition.value, symbol);
   }
   for (Want& want : wants_) want.result = rewrite(want.value, want.section);
 }

@@ -18,8 +18,10 @@ struct Section {
 struct WantedValue {
   std::string name;
   Expression value;
-  int section = 0;    // where it is wanted; it moves up if it depends on less
-  bool keep = false;  // a number of its own, though it is a multiple of another
+  int section = 0;  // where it is wanted; it moves up if it depends on less
+  // Of `yes` a number of its own, though it is a multiple of another; of `apart` one that has
+  // nothing to do with others of the same value.
+  enum class Keep { no, yes, apart } keep = Keep::no;
 };
 
 class Lowering {
@@ -29,7 +31,7 @@ class Lowering {
   // Declares a symbol that exists from a section on (state, parameters, loop variables).
   void declare(const std::string& name, int section);
   // Adds definitions whose values are wanted; results are rewritten in place by `run`.
-  enum class Keep { no, yes };
+  using Keep = WantedValue::Keep;
   void define(std::string name, Expression value, int section, Keep keep = Keep::no);
   // An expression evaluated in a section but not named (increments, residuals).
   std::size_t want(Expression value, int section);

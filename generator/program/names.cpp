@@ -73,6 +73,11 @@ constexpr std::string_view kOurs[] = {"std",
                                       "magnitude",
                                       "largest",
                                       "two_sum",
+                                      "add",
+                                      "collect",
+                                      "product_error",
+                                      "Refinement",
+                                      "rest",
                                       "carry",
                                       "invariants",
                                       "modified_energies",
@@ -84,7 +89,8 @@ constexpr std::string_view kOurs[] = {"std",
                                       "Verdict",
                                       "History",
                                       "NewtonRule",
-                                      "FixedPointRule"};
+                                      "FixedPointRule",
+                                      "Distance"};
 
 // rule_0, matrix_1: what the emitted functions number themselves.
 bool is_numbered(std::string_view name) {

@@ -86,7 +86,7 @@ void StepBuilder::add_newton(const Block& block) {
     for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
   }
   for (const int x : block.unknowns) {
-    newton.residual.push_back(stage_value_[index(x)] - row(x, newton.where));
+    newton.residual.push_back(lacking(x, stage_value_[index(x)], newton.where));
     add_matrix_row(newton, x);
   }
   solve_linear_system(newton, pending);
@@ -133,7 +133,8 @@ void StepBuilder::tear_value(NewtonBlock& newton, int t) {
     define(stage_value_[index(t)], row(t, newton.where), newton.where);
     return;
   }
-  // Affine in itself: solved for.
+  // Affine in itself: solved for, and then for what its row lacks there, as in Note [affine
+  // blocks].
   const Substitution zero{{equations_.stage(t).name(), Expression(0)}};
   std::vector<Expression> terms{carry_symbol(t)};
   for (const int k : equations_.row_gradients(t)) {
@@ -141,7 +142,23 @@ void StepBuilder::tear_value(NewtonBlock& newton, int t) {
   }
   const Expression known = equations_.mechanics.variable(t) +
                            named_rest(name_of(t), Expression::sum(std::move(terms)), newton.where);
-  define(stage_value_[index(t)], known / own_slope(t), newton.where);
+  const Expression first =
+      name_value("first(" + name_of(t) + ")", known / own_slope(t), newton.where);
+  const std::vector<Expression> gradient = gradient_;
+  const Expression stage = stage_value_[index(t)];
+  for (const int k : equations_.row_gradients(t)) {
+    if (equations_.stage_hessian(k, t).is_zero()) {
+      evaluate_gradient(newton, k);
+      continue;
+    }
+    stage_value_[index(t)] = first;
+    const Expression value = at_stage(equations_.stage_gradient(k));
+    stage_value_[index(t)] = stage;
+    gradient_[index(k)] = name_once(gradient_[index(k)].name() + " at first", value, newton.where);
+  }
+  const Expression lack = lacking(t, first, newton.where);
+  for (const int k : equations_.row_gradients(t)) gradient_[index(k)] = gradient[index(k)];
+  define(stage, first - lack / own_slope(t), newton.where);
 }
 
 void StepBuilder::tear_slopes(NewtonBlock& newton, int t) {

@@ -13,9 +13,6 @@
 
 namespace hamgen {
 
-// product_error(x, y): x y less its rounded value, zero in exact arithmetic.
-inline constexpr const char* kProductError = "product_error";
-
 // A variable of a solver's loop.
 struct LoopVariable {
   std::string name;       // "bar(q)", or "H(q)" for sweeps

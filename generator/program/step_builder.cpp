@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+
+#include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
 
@@ -15,6 +18,11 @@ std::vector<Expression> terms_of(const Expression& e) {
   std::vector<Expression> terms;
   for (const Expression& term : rest.operands()) terms.push_back(Expression(coefficient) * term);
   return terms;
+}
+
+bool is_exact_weight(const Expression& e) {
+  return e.is_one() || e == Expression(Rational(1, 2)) || e == Expression(-1) ||
+         e == Expression(Rational(-1, 2));
 }
 
 std::vector<Section> sections(const SolvePlan& plan) {
@@ -41,7 +49,8 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
     stage_value_.push_back(equations_.stage(i));
     gradient_.push_back(equations_.gradient_symbol(i));
   }
-  name_weights();
+  keeps_gradients_ = std::ranges::any_of(
+      equations_.stage_matrix, [](const auto& entry) { return !is_exact_weight(entry.second); });
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -132,50 +141,75 @@ Expression StepBuilder::at_stage(const Expression& e) const {
 
 Expression StepBuilder::row(int i, int section) {
   std::vector<Expression> terms{carry_symbol(i)};
+  std::vector<Expression> small = terms;
   for (const int k : equations_.row_gradients(i)) {
-    terms.push_back(weight(i, k) * gradient_[index(k)]);
+    const auto [large, lost] = row_terms(i, k, section);
+    terms.push_back(large);
+    small.push_back(lost);
+  }
+  if (keeps_gradients_) {
+    terms[0] = named_rest("carry of " + name_of(i), Expression::sum(std::move(small)), section);
   }
   return equations_.mechanics.variable(i) +
          named_rest(name_of(i), Expression::sum(std::move(terms)), section);
 }
 
 Expression StepBuilder::weight(int i, int k) const {
-  const auto it = weights_.find({i, k});
-  return it != weights_.end() ? it->second : step_size() * equations_.stage_matrix.at({i, k});
+  return step_size() * equations_.stage_matrix.at({i, k});
 }
 
-void StepBuilder::name_weights() {
-  const auto is_exact = [](const Expression& e) {
-    return e.is_zero() || e.is_one() || e == Expression(Rational(1, 2));
-  };
-  ExpressionMap<std::pair<Expression, Expression>> pairs;
-  for (int i = 0; i < n_; ++i) {
-    const auto q = equations_.stage_matrix.find({i, n_ + i});
-    const auto p = equations_.stage_matrix.find({n_ + i, i});
-    if (q == equations_.stage_matrix.end() || p == equations_.stage_matrix.end()) continue;
-    // Of a C that is not in sp(2n) they need not sum to h.
-    const bool complementary =
-        q->second - p->second == Expression(1) || p->second == -(Expression(1) - q->second);
-    if (is_exact(q->second) || !complementary) continue;
-    auto pair = pairs.find(q->second);
-    if (pair == pairs.end()) {
-      const auto named = [&](const std::string& what, const Expression& value) {
-        const Expression symbol =
-            Expression::symbol(fmt::format("{}({})", what, to_text(q->second)), kRankOfTemporary);
-        lowering_.define(symbol.name(), value, kCoefficients, Lowering::Keep::yes);
-        return symbol;
-      };
-      const Expression first = named("weight", step_size() * q->second);
-      const Expression of_p = named("1 - weight", step_size() - first);
-      const Expression of_q = named("weight*", step_size() - of_p);
-      pair = pairs.emplace(q->second, std::pair(of_q, of_p)).first;
-    }
-    weights_[{i, n_ + i}] = pair->second.first;
-    weights_[{n_ + i, i}] = -pair->second.second;
-  }
-  keeps_gradients_ = std::ranges::any_of(equations_.stage_matrix, [&](const auto& entry) {
-    return !is_exact(entry.second) && !is_exact(-entry.second);
+Expression StepBuilder::name_once(const std::string& name, const Expression& value, int section,
+                                  Lowering::Keep keep) {
+  const Expression symbol = Expression::symbol(name, kRankOfTemporary);
+  if (named_.insert(name).second) lowering_.define(name, value, section, keep);
+  return symbol;
+}
+
+Expression StepBuilder::lacking(int i, const Expression& value, int section) {
+  if (!keeps_gradients_) return value - row(i, section);
+  // The largest weights first: these differences cancel, and have no error.
+  std::vector<int> components = equations_.row_gradients(i);
+  std::ranges::stable_sort(components, std::greater<>(), [&](int k) {
+    const Expression& entry = equations_.stage_matrix.at({i, k});
+    return entry.is_number() ? Rational(abs(entry.number())) : Rational(1, 4);
   });
+  Expression difference =
+      named_rest("lack " + name_of(i), value - equations_.mechanics.variable(i), section);
+  std::vector<Expression> small{carry_symbol(i)};
+  for (const int k : components) {
+    const auto [large, lost] = row_terms(i, k, section);
+    difference = named_rest("lack " + name_of(i), difference - large, section);
+    small.push_back(lost);
+  }
+  return difference -
+         named_rest("carry of " + name_of(i), Expression::sum(std::move(small)), section);
+}
+
+std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, int section) {
+  const Expression entry = equations_.stage_matrix.at({i, k});
+  if (!keeps_gradients_) return {weight(i, k) * gradient_[index(k)], Expression(0)};
+  const std::string& of = gradient_[index(k)].name();
+  const Expression flow = name_once("h*" + of, step_size() * gradient_[index(k)], section);
+  if (is_exact_weight(entry)) return {entry * flow, Expression(0)};
+  // The larger of two weights that sum to one is multiplied, the smaller is what is left.
+  const Expression sign(i < n_ ? 1 : -1);
+  const bool diagonal = k == (i < n_ ? i + n_ : i - n_);
+  const Expression own = sign * entry;
+  const Expression other = Expression(1) - own;
+  const bool is_smaller = own.is_number() ? own.number() < Rational(1, 2) : i >= n_;
+  const bool is_left = diagonal && is_smaller;
+  Expression factor = is_left ? other : own;
+  if (!factor.is_number()) {
+    factor = name_once("(" + to_text(factor) + ")", factor, kCoefficients);
+  }
+  const std::string text = to_text(factor) + "*" + of;
+  const Expression part =
+      name_once("part(" + text + ")", factor * flow, section, Lowering::Keep::apart);
+  const Expression lost =
+      name_once("lost(" + text + ")", Expression::apply(kProductError, {factor, flow}), section);
+  if (!is_left) return {sign * part, sign * lost};
+  const Expression left = name_once("left(" + text + ")", flow - part, section);
+  return {sign * left, -(sign * lost)};
 }
 
 void StepBuilder::define_gradient(int k, int section) {
@@ -232,7 +266,7 @@ void StepBuilder::add_assignment(int i) {
 void StepBuilder::add_quadratic(int i) {
   const Expression z = equations_.mechanics.variable(i);
   const std::string bar = equations_.stage(i).name();
-  Expression c0(0);
+  Expression c0 = -carry_symbol(i);
   Expression c1(1);
   Expression c2(0);
   for (const int k : equations_.row_gradients(i)) {

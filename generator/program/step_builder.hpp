@@ -81,13 +81,20 @@ class StepBuilder {
   // Z_i - z_i = +-h dH/dz_k with the carry, as a sum of what is large and what is small.
   std::pair<Expression, Expression> increment(int i, int k);
 
-  // Note [weights that sum to h]
-  // A step is symplectic if qbar_i - q_i takes w dH/dp_i and pbar_i - p_i takes -v dH/dq_i with
-  // w + v = h, to the last digit: h alpha and h (1 - alpha), each rounded, do not sum to h, and the
-  // same volume is lost at every step.  So v = h - w and then w = h - v, of which the second is
-  // exact for weights from -h to 2h.  What they multiply must be one number in both rows and in the
-  // increment: a gradient p/3 is not dissolved into constants w/3 and h/3.
-  void name_weights();
+  // Note [weights that sum to one]
+  // A step is symplectic if qbar_i - q_i is w and pbar_i - p_i is w - 1 times what q and p move by,
+  // h dH/dp_i and h dH/dq_i, to the last digit.  Products with rounded weights will not do: where
+  // h, w and constants of H are simple fractions, what rounding takes from w x is not chance but a
+  // pattern of x, and differs from that of (1 - w) x and of x.  So h dH/dz is one number in both
+  // rows and in the increment, its product with the larger weight comes with its error, and with
+  // the smaller it is what is left, a difference without an error for weights from -1 to 2.
+  // Weights that are exact, 1/2 and 1, need none of this.
+  //
+  // The term of row i with dH/dz_k, and what rounding took from it.
+  [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k, int section);
+  // A number of its own, defined once by this name.
+  Expression name_once(const std::string& name, const Expression& value, int section,
+                       Lowering::Keep keep = Lowering::Keep::yes);
   // dH/dz_k at the stage values known now, in this section.
   void define_gradient(int k, int section);
   // dH/dz_k at the stage values known now.
@@ -96,6 +103,8 @@ class StepBuilder {
   [[nodiscard]] Expression at_stage(const Expression& e) const;
   // zbar_i = z_i + h sum_k B_ik dH/dz_k with the gradient's present symbols.
   [[nodiscard]] Expression row(int i, int section);
+  // A stage value less its row.
+  [[nodiscard]] Expression lacking(int i, const Expression& value, int section);
   // h B_ik
   [[nodiscard]] Expression weight(int i, int k) const;
   // Gives a value a new symbol from here on.
@@ -131,7 +140,7 @@ class StepBuilder {
   void add_affine(const Block& block);
   void write_out_inverse(NewtonBlock& newton);
   void start_affine(NewtonBlock& newton);
-  void multiply_out(NewtonBlock& newton, const std::vector<Expression>& lacking);
+  void multiply_out(NewtonBlock& newton, const std::vector<Expression>& lack);
   void correct_solution(NewtonBlock& newton);
   void correct_gradient(int k, const Expression& change, int section);
   template <class Variables>
@@ -155,8 +164,8 @@ class StepBuilder {
   bool solving_done_ = false;
   std::set<std::string> solved_;  // stage values of the blocks so far
   bool sums_exactly_ = false;     // increments and their rests, see Note [affine blocks]
-  bool keeps_gradients_ = false;  // each as a number of its own, see Note [weights that sum to h]
-  std::map<std::pair<int, int>, Expression> weights_;
+  bool keeps_gradients_ = false;  // each as a number, see Note [weights that sum to one]
+  std::set<std::string> named_;
 };
 
 // Sections of the lowering: once per run, then three for each stage.

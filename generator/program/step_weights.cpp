@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "generator/equations/step_equations.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
 

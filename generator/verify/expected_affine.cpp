@@ -81,8 +81,7 @@ void ExpectedStep::affine(const Block& block) {
       evaluate_row(t);
       bar_[at(t)] = define("bar(" + name(t) + ")", row(t));
     } else {
-      bar_[at(t)] = Expression(0);
-      bar_[at(t)] = define("bar(" + name(t) + ")", (row_at_bar(t) + carry(t)) / own[t]);
+      bar_[at(t)] = affine_value(t, own[t]);
       evaluate_row(t);
     }
   }

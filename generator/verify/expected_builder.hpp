@@ -41,6 +41,7 @@ class ExpectedStep {
   void solve(const Block& block);
   void quadratic(int i);
   void newton(const Block& block);
+  Expression affine_value(int t, const Expression& own);
   void affine(const Block& block);
   void simplified_newton(const Block& block);
   void fixed_point(const Block& block);

@@ -16,6 +16,18 @@ Expression ExpectedStep::second(int k, int v) {
   return second_.emplace(std::pair(a, b), symbol).first->second;
 }
 
+// Solved for from 0, and then for what its row lacks there.
+Expression ExpectedStep::affine_value(int t, const Expression& own) {
+  const auto row_at = [&](const Expression& value) {
+    bar_[at(t)] = value;
+    Expression sum = mechanics_.variable(t) + carry(t);
+    for (const auto& [k, weight] : weights_[t]) sum += weight * at_stage(derivatives_.first(k));
+    return sum;
+  };
+  const Expression first = define("first(" + name(t) + ")", row_at(Expression(0)) / own);
+  return define("bar(" + name(t) + ")", first - (first - row_at(first)) / own);
+}
+
 Expression ExpectedStep::along(int i, const std::vector<int>& variables,
                                const std::function<Expression(int)>& value) {
   Expression sum(0);
@@ -55,10 +67,7 @@ void ExpectedStep::newton(const Block& block) {
     Expression b(0);
     for (const auto& [k, weight] : weights_[t]) b += weight * at_stage(derivatives_.second(k, t));
     if (!b.is_zero()) {
-      bar_[at(t)] = Expression(0);
-      Expression a = mechanics_.variable(t) + carry(t);
-      for (const auto& [k, weight] : weights_[t]) a += weight * at_stage(derivatives_.first(k));
-      bar_[at(t)] = define("bar(" + name(t) + ")", a / (Expression(1) - b));
+      bar_[at(t)] = affine_value(t, Expression(1) - b);
       evaluate_row(t);
     } else {
       evaluate_row(t);

@@ -6,6 +6,7 @@
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/program/arithmetic.hpp"
 #include "generator/verify/expected_builder.hpp"
 
 namespace hamgen {
@@ -89,8 +90,35 @@ Expression ExpectedStep::free(const std::string& what, int i) const {
   return Expression::symbol(what + "(" + name(i) + ")", kRankOfVariable + i);
 }
 
+namespace {
+
+// What is free of it is the mathematics.
+bool has_product_error(const Expression& e) {
+  return (e.kind() == Kind::function && e.name() == kProductError) ||
+         std::ranges::any_of(e.operands(), has_product_error);
+}
+
+}  // namespace
+
 void ExpectedStep::add(const std::vector<Statement>& statements) {
-  identities_.emitted.insert(identities_.emitted.end(), statements.begin(), statements.end());
+  // What a product loses is a number of its own, and its rounded value, which stands before it, the
+  // product less that.
+  std::map<std::string, Expression> lost;
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    const Expression& error = statements[i].value;
+    if (error.kind() != Kind::function || error.name() != kProductError) continue;
+    const Expression product = error.operands()[0] * error.operands()[1];
+    for (std::size_t j = i; j-- > 0;) {
+      if (statements[j].value != product) continue;
+      lost.emplace(statements[j].name, Expression::symbol(statements[i].name));
+      break;
+    }
+  }
+  for (const Statement& s : statements) {
+    if (has_product_error(s.value)) continue;
+    const auto it = lost.find(s.name);
+    identities_.emitted.push_back({s.name, it == lost.end() ? s.value : s.value - it->second});
+  }
 }
 void ExpectedStep::claim(std::string what, const Expression& emitted, const Expression& expected) {
   identities_.claims.push_back({std::move(what), emitted, expected});
@@ -175,7 +203,7 @@ void ExpectedStep::quadratic(int i) {
     return at_stage(e);
   };
   const Expression z = mechanics_.variable(i);
-  Expression c0(0);
+  Expression c0 = -carry(i);
   Expression c1(1);
   Expression c2(0);
   for (const auto& [k, weight] : weights_[i]) {

@@ -114,7 +114,7 @@ TEST(Contract, GaussTriesAgainFromTheStateItself) {
       {{"hard_box", "coarse"}}, {"gauss-8", {.scheme = "gauss-8", .solver = "fixed-point"}}, 0);
   expect_kept(all);
   const Defects once = measure(all, [](std::string text) {
-                         const std::string again = "if (!solved && known_)";
+                         const std::string again = "if (!report.converged && known)";
                          const auto at = text.find(again);
                          EXPECT_NE(at, std::string::npos);
                          return text.replace(at, again.size(), "if (false)");

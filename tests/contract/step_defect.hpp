@@ -171,7 +171,7 @@ class Watch {
   Watch(const typename Code::Parameters& par, Equations equations)
       : par_(par), exact_par_(parameters(par)), equations_(std::move(equations)) {}
 
-  // One solve of a stepper (Propagator or Substep) whose length is h; false if it fails.
+  // One solve of a stepper whose length is h; false if it fails.
   template <class Stepper, class ExactStepper>
   bool solve(Stepper& stepper, Quad h, Defects& defects) {
     const Vector z = exact_state(stepper);

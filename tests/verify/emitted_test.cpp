@@ -82,6 +82,21 @@ TEST(EmittedCode, IsTheMathematicsForEverySolver) {
   }
 }
 
+// dH/de = 1: the weight times h dH/de, which is rounded, is a factor of the other rows, too.
+TEST(EmittedCode, MayHoldAProductBothRoundedAndExact) {
+  const Case c{"clock",
+               "coordinate q, s\nmomentum p, e\nH = p^2/2 + (1 + s)*q^2/2 + e\n",
+               "",
+               number(3, 10),
+               Expression(0),
+               Expression(0)};
+  const Mechanics mechanics = mechanics_of(c);
+  const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
+  const Program program = program_of(mechanics, scheme, c.solver);
+  const Finding finding = prove_emitted(mechanics, scheme, program, mechanics.energy);
+  EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
+}
+
 // A mutation may cancel, such as the sign of a factor that is squared later, or matter to rounding
 // alone, as where an affine block starts: those that compute the same must pass, by algebra or at
 // points, all others be refuted.
