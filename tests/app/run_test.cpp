@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/process.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
 
@@ -455,6 +456,41 @@ TEST(Run, GoesOnWithoutAUsableCache) {
   const Result result = hamgen({"run", model, "--steps", "1"}, {"HAMGEN_CACHE=" + file});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.err, "warning")) << result.err;
+}
+
+// A disk of its own for the cache, in a namespace of its own where the system has such.
+Result run_with_cache_of(const std::string& size, const std::string& model,
+                         const std::string& directory) {
+  runtime::ProcessRequest request;
+  request.command = {"unshare",
+                     "-Urm",
+                     "sh",
+                     "-c",
+                     "mount -t tmpfs -o mode=700,size=\"$1\" tmpfs \"$2\" || exit 99; "
+                     "HAMGEN_CACHE=\"$2\" \"$3\" run \"$4\" --steps 10",
+                     "sh",
+                     size,
+                     directory,
+                     HAMGEN_EXECUTABLE,
+                     model};
+  const runtime::ProcessResult result = runtime::run_process(request);
+  return {.status = result.code, .out = "", .err = result.output};
+}
+
+TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string directory = scratch.path("disk");
+  std::filesystem::create_directory(directory);
+  if (run_with_cache_of("64m", model, directory).status != 0)
+    GTEST_SKIP() << "no disk can be mounted here";
+  int warnings = 0;
+  for (const std::string size : {"4k", "20k", "24k", "32k", "40k", "48k", "64k", "128k"}) {
+    const Result result = run_with_cache_of(size, model, directory);
+    EXPECT_EQ(result.status, 0) << size << '\n' << result.err;
+    warnings += contains(result.err, "warning: ") ? 1 : 0;
+  }
+  EXPECT_GE(warnings, 4);
 }
 
 TEST(Cache, ListsAndClears) {
