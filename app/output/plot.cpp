@@ -269,7 +269,9 @@ std::string run_gnuplot(const std::string& script, const std::filesystem::path& 
     if (!is_whole(aside.path())) return "gnuplot did not write all of it: is the disk full?";
     return aside.publish() ? "" : fmt::format("cannot write '{}'", picture.string());
   } catch (const runtime::ToolError& error) {
-    return error.failure().message;
+    const runtime::ToolFailure& failure = error.failure();
+    const bool was_called = !failure.command.empty();
+    return (was_called ? "gnuplot could not be started: " : "") + failure.message;
   }
 }
 
