@@ -11,6 +11,9 @@ namespace hamgen {
 
 namespace {
 
+// Of all sums of a model: as many as one index has at most.
+constexpr long kMostSummands = 1'000'000;
+
 bool is_constant(const GiNaC::ex& e) {
   if (GiNaC::is_a<GiNaC::symbol>(e)) return false;
   for (std::size_t i = 0; i < e.nops(); ++i) {
@@ -212,7 +215,14 @@ long TreeConverter::integer(const NodePtr& node, const Indices& indices) const {
 }
 
 GiNaC::ex TreeConverter::convert_sum(const SumNode& node, std::size_t depth, Indices indices) {
-  if (depth == node.ranges.size()) return convert(node.body, indices);
+  if (depth == node.ranges.size()) {
+    if (++terms_ > kMostSummands) {
+      fail(node.body->span, fmt::format("this is written out more than {} times", kMostSummands),
+           "the terms of nested ranges multiply: sum over fewer, or give the inner sum as a "
+           "formula");
+    }
+    return convert(node.body, indices);
+  }
   const SumRange& range = node.ranges[depth];
   const long lower = integer(range.lower, indices);
   const long upper = integer(range.upper, indices);

@@ -47,6 +47,7 @@ class TreeConverter {
 
   const Model& model_;
   SymbolTable& table_;
+  long terms_ = 0;  // of sums, so far
   std::map<std::string, GiNaC::ex> definitions_;
   std::map<std::string, std::pair<const Variable*, int>> variables_;  // first rank
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;
