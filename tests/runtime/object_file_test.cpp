@@ -1,6 +1,9 @@
 #include "runtime/object_file.hpp"
 
 #include <gtest/gtest.h>
+#include <link.h>
+
+#include <cstddef>
 
 #include "runtime/load_plugin.hpp"
 #include "runtime/tool_error.hpp"
@@ -29,6 +32,16 @@ TEST(ObjectFile, CutOffIsRefusedBeforeItIsLoaded) {
     EXPECT_THROW(Library{cut}, ToolError) << size;
   }
   write_text(cut, whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(object_problem(cut), "it is cut off");
+  // Of one without a table of sections the segments tell.
+  std::string bare = whole;
+  for (std::size_t i = 0; i < sizeof(ElfW(Ehdr)::e_shoff); ++i)
+    bare[offsetof(ElfW(Ehdr), e_shoff) + i] = 0;
+  for (std::size_t i = 0; i < sizeof(ElfW(Ehdr)::e_shnum); ++i)
+    bare[offsetof(ElfW(Ehdr), e_shnum) + i] = 0;
+  write_text(cut, bare);
+  EXPECT_EQ(object_problem(cut), "");
+  write_text(cut, bare.substr(0, bare.size() / 2));
   EXPECT_EQ(object_problem(cut), "it is cut off");
   write_text(cut, whole + "\nmore");  // as the cache's seal
   EXPECT_EQ(object_problem(cut), "");
