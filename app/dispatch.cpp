@@ -103,6 +103,7 @@ int run_command(const std::vector<std::string>& words) {
 
 // Every way to fail, and only here, becomes a message and an exit status.
 int dispatch(const std::vector<std::string>& words) {
+  report_full_files();
   try {
     return run_command(words);
   } catch (const ModelError& error) {

@@ -36,11 +36,11 @@ ReportPicture draw_figure(const Figure& figure, const std::filesystem::path& dir
   const std::filesystem::path svg = directory / (figure.name + ".svg");
   const std::filesystem::path png = directory / (figure.name + ".png");
   const std::filesystem::path script = directory / (figure.name + ".gp");
-  runtime::atomic_write(script, gnuplot_script(figure.plot, png.string()));
-  problem = run_gnuplot(script, &interrupt_flag());
+  const std::string text = gnuplot_script(figure.plot, svg.string());
+  runtime::atomic_write(script, text);
+  problem = run_gnuplot(gnuplot_script(figure.plot, png.string()), png, &interrupt_flag());
   if (!problem.empty()) return picture;
-  runtime::atomic_write(script, gnuplot_script(figure.plot, svg.string()));
-  problem = run_gnuplot(script, &interrupt_flag());
+  problem = run_gnuplot(text, svg, &interrupt_flag());
   if (problem.empty()) picture.svg = runtime::read_file(svg);
   return picture;
 }

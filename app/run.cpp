@@ -107,8 +107,13 @@ int status_of(const runtime::RunSummary& summary) {
       return done;
     case runtime::Status::stopped:
       return interrupted;
+    case runtime::Status::jumped:
+    case runtime::Status::escaped:
     case runtime::Status::not_converged:
-    case runtime::Status::not_finite:
+    case runtime::Status::left_domain:
+    case runtime::Status::overflow:
+    case runtime::Status::out_of_time:
+    case runtime::Status::undefined:
       return numerical_failure;
   }
   internal_error("no such status");
@@ -176,6 +181,7 @@ int run(const RunOptions& options) {
   runtime::IntegrateOptions integrate_options;
   integrate_options.steps = *scene.steps;
   integrate_options.every = table ? every : 0;
+  integrate_options.end_at_jump = true;
   integrate_options.stop = &interrupt_flag();
   if (table) integrate_options.on_record = [&table](const auto& record) { table->add(record); };
   if (!options.quiet)
@@ -186,7 +192,7 @@ int run(const RunOptions& options) {
   report.state = integrator.state();
   report.final_invariants = integrator.invariants();
   if (table) {
-    table->publish(failure_text(report));
+    table->publish(outcome_text(report));
     report.trajectory = trajectory_text(options.output, *table);
   }
   say(report, options);

@@ -120,7 +120,7 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
     const StepEquations& equations = program.plan.equations;
     std::string scheme = equations.scheme.name;
     std::ranges::replace(scheme, '-', '_');
-    options.name_space = identifier(equations.mechanics.name) + "::" + identifier(scheme);
+    options.name_space = namespace_identifier(equations.mechanics.name) + "::" + identifier(scheme);
   }
   return options;
 }

@@ -1,15 +1,14 @@
 #include "runtime/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <random>
 
+#include "runtime/temporary_name.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::runtime {
@@ -22,12 +21,8 @@ constexpr std::size_t kBufferSize = 1 << 16;
 // Opens a new file beside the target; sets `temporary` to its name.
 FileDescriptor open_beside(const fs::path& final_path, const fs::path& target,
                            fs::path& temporary) {
-  std::random_device random;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    // Long names are cut: the temporary name must fit where the target's name fits.
-    temporary = final_path.parent_path() /
-                fmt::format(".{}.{:08x}.tmp", final_path.filename().string().substr(0, 200),
-                            static_cast<unsigned>(random()));
+    temporary = temporary_name(final_path);
     FileDescriptor file(
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
     if (file.is_open()) return file;

@@ -85,6 +85,7 @@ std::filesystem::path compile_sources(const PluginSource& source, const Compiler
   ProcessRequest request{.command = compiler.command,
                          .working_directory = directory,
                          .time_limit = options.time_limit,
+                         .memory_limit = options.memory_limit,
                          .stop = options.stop};
   // Libraries count only after the files that need them.
   for (const std::string& word : {std::string("-o"), std::string(kObject), source.name,

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct CompileOptions {
   std::vector<std::string> extra_flags;  // after the default ones
   std::string eigen_include = "/usr/include/eigen3";
   std::chrono::milliseconds time_limit = std::chrono::seconds(120);
-  const std::atomic<bool>* stop = nullptr;  // gives up the compilation when set
+  std::uint64_t memory_limit = std::uint64_t{8} << 30;  // bytes, of each process of the compiler
+  const std::atomic<bool>* stop = nullptr;              // gives up the compilation when set
 };
 
 // The flags for a source, without file names.  Throws ToolError if an extra flag would change what

@@ -27,7 +27,8 @@ std::vector<double> part(const std::vector<Wide>& values, double Wide::*member) 
   return parts;
 }
 
-Status status_of(const hamgen_report& report) {
+// Before Judge::failure.
+Status reason_of(const hamgen_report& report) {
   switch (report.status) {
     case HAMGEN_DONE:
       return Status::done;
@@ -36,61 +37,77 @@ Status status_of(const hamgen_report& report) {
     case HAMGEN_STOPPED:
       return Status::stopped;
     default:
-      return Status::not_finite;
+      return Status::left_domain;
   }
+}
+
+// The sizes must be known to be right before anything else is made of the values.
+InitialValues checked(const Library& library, const InitialValues& start) {
+  library.check_sizes(start.parameters.size(), start.state.size());
+  check_finite("parameter", start.parameters);
+  check_finite("step size", {&start.h, 1});
+  check_finite("initial state", start.state);
+  return start;
 }
 
 }  // namespace
 
-std::string_view to_text(Status status) {
-  switch (status) {
-    case Status::done:
-      return "done";
-    case Status::not_converged:
-      return "not converged";
-    case Status::not_finite:
-      return "not finite";
-    case Status::stopped:
-      return "stopped";
-  }
-  return {};
-}
-
 Integrator::Integrator(std::shared_ptr<const Library> library, const InitialValues& start)
     : library_(std::move(library)),
+      start_(checked(*library_, start)),
       parameters_(part(start.parameters, &Wide::hi)),
+      judge_(library_, parameters_, part(start.state, &Wide::hi), start.defined_everywhere),
       h_(start.h),
       run_(nullptr, Destroy{&library_->plugin()}) {
-  library_->check_sizes(start.parameters.size(), start.state.size());
-  check_finite("parameter", start.parameters);
-  check_finite("step size", {&start.h, 1});
-  check_finite("initial state", start.state);
-  const std::vector<double> parameters_lo = part(start.parameters, &Wide::lo);
-  const std::vector<double> state = part(start.state, &Wide::hi);
-  const std::vector<double> state_lo = part(start.state, &Wide::lo);
+  go_back_to(0);
+}
+
+void Integrator::go_back_to(long long step) {
+  const std::vector<double> parameters_lo = part(start_.parameters, &Wide::lo);
+  const std::vector<double> state = part(start_.state, &Wide::hi);
+  const std::vector<double> state_lo = part(start_.state, &Wide::lo);
   run_.reset(library_->plugin().create(parameters_.data(), parameters_lo.data(), h_.hi, h_.lo,
                                        state.data(), state_lo.data()));
   if (!run_) throw std::bad_alloc();
+  steps_done_ = 0;
+  if (step > 0) call(step, false);
+}
+
+hamgen_report Integrator::call(long long steps, bool watch_energy) {
+  hamgen_report report{};
+  if (steps == 0) return report;
+  library_->plugin().advance(run_.get(), steps, watch_energy ? 1 : 0, &report);
+  steps_done_ += report.steps_done;
+  return report;
 }
 
 Report Integrator::advance(long long steps, bool watch_energy) {
-  hamgen_report raw{};
-  library_->plugin().advance(run_.get(), steps, watch_energy ? 1 : 0, &raw);
-  Report report{.status = status_of(raw),
+  const long long before = steps_done_;
+  hamgen_report raw = call(steps, watch_energy);
+  if (watch_energy && raw.steps_done > 0 && !std::isfinite(raw.energy_last)) {
+    // The last of these steps ended where there is no H.
+    const hamgen_report failed = raw;
+    go_back_to(before);
+    raw = call(failed.steps_done - 1, true);
+    raw.status = HAMGEN_NOT_FINITE;
+    raw.last_iterations = failed.last_iterations;
+    raw.last_increment = failed.last_increment;
+  }
+  Report report{.status = reason_of(raw),
                 .steps_done = raw.steps_done,
                 .iterations = raw.iterations,
                 .last_iterations = raw.last_iterations,
                 .last_increment = {},
                 .energy = {}};
   if (std::isfinite(raw.last_increment)) report.last_increment = raw.last_increment;
-  if (!watch_energy || raw.steps_done == 0) return report;
-  if (std::isfinite(raw.energy_min) && std::isfinite(raw.energy_max) &&
-      std::isfinite(raw.energy_last)) {
+  if (watch_energy && raw.steps_done > 0) {
     report.energy =
         EnergyRange{.min = raw.energy_min, .max = raw.energy_max, .last = raw.energy_last};
-  } else if (report.status == Status::done) {
-    report.status = Status::not_finite;
+    energy_error_ = std::max(
+        {energy_error_, raw.energy_max - judge_.energy(), judge_.energy() - raw.energy_min});
   }
+  if (report.status != Status::done && report.status != Status::stopped)
+    report.status = judge_.failure(report.status, rounded_state(), energy_error_);
   return report;
 }
 

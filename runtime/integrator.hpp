@@ -3,10 +3,11 @@
 
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "runtime/judge.hpp"
 #include "runtime/library.hpp"
+#include "runtime/status.hpp"
 
 namespace hamgen::runtime {
 
@@ -22,12 +23,9 @@ struct InitialValues {
   std::vector<Wide> parameters;  // parameter_count values
   Wide h;                        // the step; negative goes back in time
   std::vector<Wide> state;       // 2n values: q then p
+  // H and its gradient have a value at every state: what is not finite is an overflow.
+  bool defined_everywhere = false;
 };
-
-enum class Status { done, not_converged, not_finite, stopped };
-
-// "done", "not converged", "not finite", "stopped".
-[[nodiscard]] std::string_view to_text(Status status);
 
 // Over the states after each step of one call.  All are finite.
 struct EnergyRange {
@@ -50,9 +48,14 @@ class Integrator {
   // Throws std::invalid_argument if a size is wrong or a value is not finite.
   Integrator(std::shared_ptr<const Library> library, const InitialValues& start);
 
-  // At most `steps` steps.  On failure the state is the last good one.  An energy that is not
-  // finite is a failure too (Status::not_finite), found at the end of the call.
+  // At most `steps` steps.  On failure the state is the last good one.  With its energy watched, a
+  // step that ends where H is not finite is a failure too, and does not count.
   Report advance(long long steps, bool watch_energy);
+  // Back to where it was after so many steps of those done, bit for bit: it runs anew from the
+  // start.
+  void go_back_to(long long step);
+  // Since the start.
+  [[nodiscard]] long long steps_done() const { return steps_done_; }
 
   [[nodiscard]] std::vector<Wide> state() const;
   // The state rounded to double; 2n values.
@@ -63,6 +66,7 @@ class Integrator {
   [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
   [[nodiscard]] Wide h() const { return h_; }
   [[nodiscard]] const Library& library() const { return *library_; }
+  [[nodiscard]] const Judge& judge() const { return judge_; }
 
  private:
   struct Destroy {
@@ -70,10 +74,16 @@ class Integrator {
     void operator()(hamgen_run* run) const { plugin->destroy(run); }
   };
 
+  hamgen_report call(long long steps, bool watch_energy);
+
   // The run is destroyed before the code that does it is unloaded.
   std::shared_ptr<const Library> library_;
+  InitialValues start_;
   std::vector<double> parameters_;
+  Judge judge_;
   Wide h_;
+  long long steps_done_ = 0;
+  double energy_error_ = 0.0;  // the largest that was watched
   std::unique_ptr<hamgen_run, Destroy> run_;
 };
 

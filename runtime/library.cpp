@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "runtime/arithmetic.hpp"
+#include "runtime/object_file.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::runtime {
@@ -33,6 +34,8 @@ Library::Library(const std::filesystem::path& object) {
     throw_not_loaded(object,
                      "this thread does not round to nearest, or takes subnormal numbers for zero\n"
                      "help: fesetenv(FE_DFL_ENV) before integrators are loaded and run");
+  if (const std::string problem = object_problem(object); !problem.empty())
+    throw_not_loaded(object, problem);
   bool is_ieee_after = false;
   {
     // The object may have been linked with code that changes the environment as it is loaded, as

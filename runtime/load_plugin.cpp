@@ -1,7 +1,11 @@
 #include "runtime/load_plugin.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "runtime/temporary_directory.hpp"
 #include "runtime/tool_error.hpp"
@@ -46,6 +50,37 @@ std::shared_ptr<const Library> load_cached(const Cache& cache, const std::string
   }
 }
 
+// Not even the object of a small model, and what the linker writes beside it, fits surely.
+bool is_nearly_full(const fs::path& directory) {
+  constexpr std::uintmax_t kEnough = 16 << 20;
+  std::error_code failed;
+  const fs::space_info space = fs::space(directory, failed);
+  return !failed && space.available < kEnough;
+}
+
+struct Built {
+  BuildDirectory build;
+  fs::path object;
+};
+
+// In the cache; once more elsewhere if that has no room for what a compiler writes.
+Built compile(const PluginSource& source, const Compiler& compiler, const CompileOptions& options,
+              const Cache& cache, std::vector<std::string>& warnings) {
+  BuildDirectory build = prepare(source, cache, warnings);
+  try {
+    fs::path object = compile_sources(source, compiler, options, build.directory.path());
+    return {.build = std::move(build), .object = std::move(object)};
+  } catch (const ToolError&) {
+    if (!build.in_cache || !is_nearly_full(cache.directory)) throw;
+  }
+  warnings.push_back(
+      fmt::format("the cache '{}' is not used: its disk is nearly full", cache.directory.string()));
+  BuildDirectory elsewhere{.directory = private_directory(), .in_cache = false};
+  write_sources(source, elsewhere.directory.path());
+  fs::path object = compile_sources(source, compiler, options, elsewhere.directory.path());
+  return {.build = std::move(elsewhere), .object = std::move(object)};
+}
+
 }  // namespace
 
 LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
@@ -64,9 +99,8 @@ LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
   loaded.from_cache = loaded.library != nullptr;
   if (loaded.from_cache) return loaded;
 
-  const BuildDirectory build = prepare(source, checked, loaded.warnings);
   const auto begin = std::chrono::steady_clock::now();
-  const fs::path object = compile_sources(source, compiler, options, build.directory.path());
+  const auto [build, object] = compile(source, compiler, options, checked, loaded.warnings);
   loaded.compile_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   // Loaded before it is published: what cannot be loaded is not kept.

@@ -51,7 +51,8 @@ struct hamgen_plugin {
                                double h_lo, const double* state, const double* state_lo);
   void (*destroy)(struct hamgen_run* run);
   /* Advances by `steps` steps, fewer on failure. With watch_energy, H after every step enters
-   * energy_min and energy_max.  The state stays the last good one on failure. */
+   * energy_min and energy_max; a step after which H is not finite is the last of the call, counted,
+   * and HAMGEN_NOT_FINITE.  Else the state stays the last good one on failure. */
   void (*advance)(struct hamgen_run* run, long long steps, int watch_energy,
                   struct hamgen_report* report);
   void (*get_state)(const struct hamgen_run* run, double* state, double* state_lo);

@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 #include <thread>
 
@@ -29,52 +30,73 @@ using Clock = std::chrono::steady_clock;
                    .command = command_text(request.command)});
 }
 
-struct SpawnSettings {
-  SpawnSettings() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
+int reap(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  posix_spawn_file_actions_t actions{};
-  posix_spawnattr_t attributes{};
-};
+  return status;
+}
 
-// The child leads a process group of its own, so that its children can be killed with it, and
-// starts with the default signals whatever this process ignores or blocks.
-pid_t start(const ProcessRequest& request, int output) {
-  SpawnSettings settings;
-  posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&settings.actions, output, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&settings.actions, output, STDERR_FILENO);
-  if (!request.working_directory.empty()) {
-    posix_spawn_file_actions_addchdir_np(&settings.actions, request.working_directory.c_str());
-  }
+void set_limit(int resource, std::uint64_t most) {
+  const auto kind = static_cast<__rlimit_resource>(resource);
+  rlimit limits{};
+  if (::getrlimit(kind, &limits) != 0) return;
+  limits.rlim_max = std::min<rlim_t>(limits.rlim_max, most);
+  limits.rlim_cur = std::min<rlim_t>(limits.rlim_cur, most);
+  ::setrlimit(kind, &limits);
+}
+
+// What the child does between fork and exec: functions that are safe there only.  It leads a
+// process group of its own, so that its children can be killed with it, and starts with the default
+// signals whatever this process ignores or blocks.  Returns where it cannot go on.
+void become(const ProcessRequest& request, char* const* arguments, int output) {
+  ::setpgid(0, 0);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ, SIGXCPU})
+    ::signal(signal_number, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ}) {
-    sigaddset(&defaults, signal_number);
-  }
-  posix_spawnattr_setsigmask(&settings.attributes, &none);
-  posix_spawnattr_setsigdefault(&settings.attributes, &defaults);
-  posix_spawnattr_setpgroup(&settings.attributes, 0);
-  posix_spawnattr_setflags(&settings.attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  // Above the three that are about to be replaced, as they may be closed here.
+  output = ::fcntl(output, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int input = ::open("/dev/null", O_RDONLY);
+  if (input < 0 || ::dup2(input, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
+      ::dup2(output, STDERR_FILENO) < 0)
+    return;
+  if (input > STDERR_FILENO) ::close(input);
+  if (!request.working_directory.empty() && ::chdir(request.working_directory.c_str()) != 0) return;
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(request.time_limit).count();
+  set_limit(RLIMIT_CPU, static_cast<std::uint64_t>(std::max<long long>(seconds, 1)));
+  if (request.memory_limit > 0) set_limit(RLIMIT_AS, request.memory_limit);
+  ::execvp(arguments[0], arguments);
+}
+
+pid_t start(const ProcessRequest& request, int output) {
   std::vector<std::string> words = request.command;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &settings.actions, &settings.attributes,
-                                  arguments.data(), environ);
-  if (failed != 0) throw_not_started(request, failed);
-  return child;
+  std::array<int, 2> ends{};  // exec closes the writing end, or the reason comes through it
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw_not_started(request, errno);
+  const FileDescriptor reading(ends[0]);
+  FileDescriptor writing(ends[1]);
+  const pid_t child = ::fork();
+  if (child < 0) throw_not_started(request, errno);
+  if (child == 0) {
+    const int report = ::fcntl(writing.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    become(request, arguments.data(), output);
+    const int reason = errno;
+    static_cast<void>(::write(report, &reason, sizeof reason) + 1);
+    ::_exit(127);
+  }
+  writing.close();
+  int reason = 0;
+  ssize_t count = 0;
+  do {
+    count = ::read(reading.get(), &reason, sizeof reason);
+  } while (count < 0 && errno == EINTR);
+  if (count == 0) return child;
+  reap(child);
+  throw_not_started(request, reason);
 }
 
 // Reads what there is; false at the end of the stream.
@@ -94,13 +116,6 @@ bool has_ended(pid_t child) {
   siginfo_t info{};
   return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
          info.si_pid == child;
-}
-
-int reap(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,7 +15,10 @@ struct ProcessRequest {
   std::vector<std::string> command;         // the program (a path, or a name in PATH), then words
   std::filesystem::path working_directory;  // empty: that of the caller
   std::chrono::milliseconds time_limit = std::chrono::seconds(120);
-  std::size_t output_limit = 64 * 1024;     // bytes; the last ones are kept
+  std::size_t output_limit = 64 * 1024;  // bytes; the last ones are kept
+  // Bytes of address space of each process it starts; 0: no limit.  None of them gets more
+  // processor time than the time limit, wherever it hides.
+  std::uint64_t memory_limit = 0;
   const std::atomic<bool>* stop = nullptr;  // looked at ten times a second, if given
 };
 

@@ -6,13 +6,15 @@
 #include <string>
 #include <utility>
 
+#include "runtime/temporary_name.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::runtime {
 
 TemporaryDirectory::TemporaryDirectory(const std::filesystem::path& parent,
                                        std::string_view prefix) {
-  std::string name = (parent / prefix).string() + "XXXXXX";
+  collect_left_overs(parent, prefix);
+  std::string name = (parent / prefix).string() + process_tag() + "XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) {
     throw file_error("create a temporary directory in", parent, errno);
   }

@@ -8,7 +8,8 @@ namespace hamgen::runtime {
 
 class TemporaryDirectory {
  public:
-  // Creates PARENT/PREFIXxxxxxx with mode 0700.  Throws ToolError.
+  // Creates PARENT/PREFIX MACHINE-PROCESS-xxxxxx with mode 0700, and removes what dead processes
+  // left there under such names.  Throws ToolError.
   TemporaryDirectory(const std::filesystem::path& parent, std::string_view prefix);
   TemporaryDirectory(TemporaryDirectory&& other) noexcept;
   TemporaryDirectory& operator=(TemporaryDirectory&&) = delete;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace hamgen::runtime {
@@ -44,8 +45,8 @@ class Pace {
   long long steps_ = 1;
 };
 
-// Looks at H of the present state; false if the state or H is not finite.  Hands out a record if
-// one is due.
+// Looks at H of the present state; false if the state or H is not finite, as they may be rounded to
+// double.  Hands out a record if one is due.
 bool observe(const Integrator& integrator, const IntegrateOptions& options, bool due,
              RunSummary& summary) {
   const std::vector<double> state = integrator.rounded_state();
@@ -70,6 +71,89 @@ bool observe(const Integrator& integrator, const IntegrateOptions& options, bool
   return true;
 }
 
+void append(Report& total, const Report& report) {
+  total.status = report.status;
+  total.steps_done += report.steps_done;
+  total.iterations += report.iterations;
+  total.last_iterations = report.last_iterations;
+  total.last_increment = report.last_increment;
+  if (!report.energy) return;
+  if (!total.energy) total.energy = report.energy;
+  total.energy = EnergyRange{.min = std::min(total.energy->min, report.energy->min),
+                             .max = std::max(total.energy->max, report.energy->max),
+                             .last = report.energy->last};
+}
+
+double error_of(const EnergyRange& energy, double initial) {
+  return std::max(energy.max - initial, initial - energy.min);
+}
+
+// Note [jumps]
+// A step across a singularity solves its equations, and so does one that is far too large: what is
+// wrong shows in the energy.  More than ten energy scales of the start are a jump, unless they are
+// less than a tenth of the terms of H at that state: an orbit may begin next to an equilibrium
+// where all of them vanish, and go far.  Then the limit is ten times that error from there on.  An
+// orbit that begins with no scale at all, as at rest in the origin, gets that of its first terms.
+//
+// A call of the plugin tells the range of the energy only.  Where that is beyond the limit, its
+// steps are repeated one by one.
+class Steps {
+ public:
+  Steps(Integrator& integrator, bool end_at_jump)
+      : integrator_(integrator),
+        limit_(end_at_jump ? integrator.judge().jump_limit()
+                           : std::numeric_limits<double>::infinity()) {}
+
+  // A step that jumps is not done; `jump` is the energy error after it.
+  Report advance(long long steps, std::optional<double>& jump) {
+    const Report report = integrator_.advance(steps, true);
+    if (!report.energy) return report;
+    if (const double error = error_of(*report.energy, judge().energy()); !(error > limit_)) {
+      largest_ = std::max(largest_, error);
+      return report;
+    }
+    integrator_.go_back_to(integrator_.steps_done() - report.steps_done);
+    Report total;
+    while (total.steps_done < report.steps_done) {
+      const long long before = integrator_.steps_done();
+      const Report one = integrator_.advance(1, true);
+      const double error = error_of(*one.energy, judge().energy());
+      if (error > limit_ && !explains(error)) {
+        integrator_.go_back_to(before);
+        jump = error;
+        total.status = judge().failure(Status::jumped, integrator_.rounded_state(), largest_);
+        total.last_iterations = one.last_iterations;
+        total.last_increment = one.last_increment;
+        return total;
+      }
+      largest_ = std::max(largest_, error);
+      append(total, one);
+    }
+    // The step that failed behind them, if one did.
+    total.status = report.status;
+    total.last_iterations = report.last_iterations;
+    total.last_increment = report.last_increment;
+    return total;
+  }
+
+ private:
+  [[nodiscard]] const Judge& judge() const { return integrator_.judge(); }
+
+  // Do the terms of H at the present state explain such an error?  Raises the limit.
+  bool explains(double error) {
+    constexpr double small = 0.1;
+    const double terms = judge().terms(integrator_.rounded_state());
+    const bool has_scale = limit_ > 0.0;
+    if (has_scale && !(error <= small * terms)) return false;
+    limit_ = 10.0 * (has_scale ? error : std::max(terms, error));
+    return true;
+  }
+
+  Integrator& integrator_;
+  double limit_;          // of the energy error
+  double largest_ = 0.0;  // of the steps done
+};
+
 // Adds what one call of the plugin did.
 void add(RunSummary& summary, const Report& report) {
   summary.status = report.status;
@@ -78,6 +162,11 @@ void add(RunSummary& summary, const Report& report) {
   summary.last_iterations = report.last_iterations;
   summary.last_increment = report.last_increment;
   if (report.energy && summary.energy) include(*summary.energy, *report.energy);
+}
+
+// Of a state whose rounding to double has no H.
+Status not_finite(const Integrator& integrator) {
+  return integrator.judge().failure(Status::left_domain, integrator.rounded_state(), 0.0);
 }
 
 bool is_due(long long step, long long every) { return every > 0 && step % every == 0; }
@@ -101,6 +190,8 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
         "negative");
   }
   RunSummary summary;
+  summary.energy_scale = integrator.judge().energy_scale();
+  Steps plugin(integrator, options.end_at_jump);
   const Clock::time_point begin = Clock::now();
   Clock::time_point last_look = begin;
   double last_report = 0.0;
@@ -108,7 +199,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   long long until_look = pace.steps();
 
   if (!observe(integrator, options, is_due(0, options.every), summary)) {
-    summary.status = Status::not_finite;
+    summary.status = not_finite(integrator);
   }
   while (summary.status == Status::done && summary.steps_done < options.steps) {
     long long steps = std::min(until_look, options.steps - summary.steps_done);
@@ -116,7 +207,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
       steps = std::min(steps, options.every - summary.steps_done % options.every);
     }
     const Clock::time_point before = Clock::now();
-    const Report report = integrator.advance(steps, options.watch_energy);
+    const Report report = plugin.advance(steps, summary.jump);
     summary.advance_seconds += seconds_since(before);
     add(summary, report);
     until_look -= steps;
@@ -125,7 +216,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
       const bool due = is_due(summary.steps_done, options.every);
       const bool last = summary.steps_done == options.steps;
       if ((due || last) && !observe(integrator, options, due, summary)) {
-        summary.status = Status::not_finite;
+        summary.status = not_finite(integrator);
       }
     }
     if (until_look > 0) continue;

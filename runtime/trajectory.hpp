@@ -29,14 +29,14 @@ struct Progress {
 struct IntegrateOptions {
   long long steps = 0;
   long long every = 0;       // a record at step 0 and after each so many steps; 0 for no records
-  bool watch_energy = true;  // H after every step, else of the records and the last state only
+  bool end_at_jump = false;  // see Note [jumps]
   std::function<void(const Record&)> on_record;
   std::function<void(const Progress&)> on_progress;  // about once an interval, and at the end
   std::chrono::duration<double> progress_interval{0.1};
   const std::atomic<bool>* stop = nullptr;  // looked at as often as progress is reported
 };
 
-// Over the initial state and those that were watched.  All values are finite.
+// Over the initial state and those after every step.  All values are finite.
 struct EnergyStatistics {
   double initial = 0.0;
   double min = 0.0;
@@ -56,6 +56,8 @@ struct RunSummary {
   int last_iterations = 0;  // of the step that failed, or the last one
   std::optional<double> last_increment;
   std::optional<EnergyStatistics> energy;  // empty if H of the initial state is not finite
+  double energy_scale = 0.0;               // see Judge
+  std::optional<double> jump;              // the energy error after the step that jumped
   long long records = 0;
   double advance_seconds = 0.0;  // inside the plugin
   double total_seconds = 0.0;    // with records and progress
@@ -64,8 +66,10 @@ struct RunSummary {
   [[nodiscard]] double nanoseconds_per_step() const;  // inside the plugin; 0 likewise
 };
 
-// Advances until the steps are done, a step fails, or `stop` is set.  What it did never depends on
-// how the steps were divided into calls.  An exception from a callback passes through.  Throws
+// Advances until the steps are done, a step fails, or `stop` is set.  A step that ends where H is
+// not finite has failed, and one that jumps if they are to end the run: the summary, the records
+// and the integrator's state end with the step before.  What it did never depends on how the steps
+// were divided into calls.  An exception from a callback passes through.  Throws
 // std::invalid_argument for a negative `steps` or `every`.
 [[nodiscard]] RunSummary integrate(Integrator& integrator, const IntegrateOptions& options);
 

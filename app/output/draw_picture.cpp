@@ -11,7 +11,7 @@ namespace hamgen::app {
 bool draw_picture(const PictureFiles& files, bool quiet, StopFlag stop) {
   runtime::atomic_write(files.script, files.text);
   if (!quiet) print_error(fmt::format("{}\n", files.script.string()));
-  const std::string problem = run_gnuplot(files.script, stop);
+  const std::string problem = run_gnuplot(files.text, files.picture, stop);
   if (!problem.empty()) {
     print_error(
         fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "

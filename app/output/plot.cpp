@@ -7,9 +7,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <system_error>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
+#include "runtime/atomic_file.hpp"
 #include "runtime/process.hpp"
+#include "runtime/temporary_directory.hpp"
+#include "runtime/temporary_name.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -187,6 +192,44 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
   return text + (plots.empty() ? "plot NaN notitle\n" : "plot " + plots + "\n");
 }
 
+// The script with another output.
+std::string with_output(std::string script, const std::filesystem::path& output) {
+  const std::size_t begin = script.find("set output ");
+  if (begin == std::string::npos) internal_error("a script without an output");
+  const std::size_t end = script.find('\n', begin);
+  return script.replace(begin, end - begin, "set output " + gnuplot_path(output.string()));
+}
+
+// Under a temporary name until it is published.
+class Aside {
+ public:
+  explicit Aside(const std::filesystem::path& picture)
+      : picture_(picture), path_(runtime::temporary_name(picture)) {}
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+  ~Aside() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool publish() const {
+    std::error_code failed;
+    std::filesystem::rename(path_, picture_, failed);
+    return !failed;
+  }
+
+ private:
+  std::filesystem::path picture_;
+  std::filesystem::path path_;
+};
+
+// Gnuplot does not mind a full disk.
+bool is_whole(const std::filesystem::path& picture) {
+  const std::string text = runtime::read_file(picture);
+  if (text.starts_with("\x89PNG")) return text.ends_with("IEND\xAE\x42\x60\x82");
+  return text.substr(0, text.find_last_not_of('\n') + 1).ends_with("</svg>");
+}
+
 }  // namespace
 
 std::string gnuplot_script(const Plot& plot, const std::string& output) {
@@ -209,17 +252,26 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
   return text + "unset multiplot\nunset output\n";
 }
 
-std::string run_gnuplot(const std::filesystem::path& script, StopFlag stop) {
-  runtime::ProcessRequest request;
-  request.command = {"gnuplot", script.string()};
-  request.stop = stop;
+std::string run_gnuplot(const std::string& script, const std::filesystem::path& picture,
+                        StopFlag stop) {
   try {
+    const runtime::TemporaryDirectory directory = runtime::private_directory();
+    const Aside aside(picture);
+    const std::filesystem::path file = directory.path() / "script.gp";
+    runtime::atomic_write(file, with_output(script, aside.path()));
+    runtime::ProcessRequest request;
+    request.command = {"gnuplot", file.string()};
+    request.stop = stop;
     const runtime::ProcessResult result = runtime::run_process(request);
-    if (result.succeeded()) return "";
-    return fmt::format("gnuplot {}: {}\n{}", script.string(), runtime::end_text(result, request),
-                       runtime::tail_of(result.output));
+    if (!result.succeeded())
+      return fmt::format("gnuplot: {}\n{}", runtime::end_text(result, request),
+                         runtime::tail_of(result.output));
+    if (!is_whole(aside.path())) return "gnuplot did not write all of it: is the disk full?";
+    return aside.publish() ? "" : fmt::format("cannot write '{}'", picture.string());
   } catch (const runtime::ToolError& error) {
-    return fmt::format("gnuplot could not be started: {}", error.failure().message);
+    const runtime::ToolFailure& failure = error.failure();
+    const bool was_called = !failure.command.empty();
+    return (was_called ? "gnuplot could not be started: " : "") + failure.message;
   }
 }
 

@@ -43,8 +43,10 @@ struct Plot {
 // that a logarithmic axis or a number cannot hold are left out.
 [[nodiscard]] std::string gnuplot_script(const Plot& plot, const std::string& output);
 
-// Runs gnuplot on the script file, whose picture is `output`.  Returns an empty text, or why there
-// is no picture (gnuplot is missing or failed): no reason to give up what else was computed.
-[[nodiscard]] std::string run_gnuplot(const std::filesystem::path& script, StopFlag stop);
+// Runs gnuplot on the text of a script whose output is the picture, which appears whole or not at
+// all.  Returns an empty text, or why there is no picture (gnuplot is missing or failed): no reason
+// to give up what else was computed.
+[[nodiscard]] std::string run_gnuplot(const std::string& script,
+                                      const std::filesystem::path& picture, StopFlag stop);
 
 }  // namespace hamgen::app

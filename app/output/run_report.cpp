@@ -68,17 +68,8 @@ std::string seconds_text(double seconds) {
 std::string energy_text(const RunReport& report) {
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  const std::string text =
-      fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
-                  energy.max_error(), energy.spread(), energy.final_error());
-  // A step across a singularity, or far too large, solves its equations and means nothing.
-  constexpr double kMeaningless = 10.0;
-  const bool lost =
-      energy.initial != 0.0 && energy.max_error() > kMeaningless * std::fabs(energy.initial);
-  return lost ? text +
-                    " - warning: far more than H(0) itself, so the trajectory is not to be "
-                    "trusted; try a smaller step"
-              : text;
+  return fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
+                     energy.max_error(), energy.spread(), energy.final_error());
 }
 
 std::string time_text(const RunReport& report) {
@@ -156,22 +147,44 @@ std::string failure_text(const RunReport& report) {
   const long long step = summary.steps_done + 1;
   const std::string increment =
       summary.last_increment ? fmt::format("{:.3g}", *summary.last_increment) : "not finite";
+  const std::string where = fmt::format("at t = {:.10g}, h = {}", t, number_text(h));
   switch (summary.status) {
     case runtime::Status::done:
+    case runtime::Status::out_of_time:  // a run has no limits of time,
+    case runtime::Status::undefined:    // and begins where there are values
       return "";
+    case runtime::Status::jumped:
+      return fmt::format(
+          "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times the "
+          "energy "
+          "scale of the start, {:.3g}: it went across a singularity, or h is far too large",
+          step, where, summary.jump.value_or(0.0), summary.energy_scale);
+    case runtime::Status::escaped:
+      return fmt::format(
+          "step {} failed far away: {}, more than 1000 times farther than at the start and the "
+          "energy kept: the orbit escapes, perhaps to infinity in finite time",
+          step, where);
+    case runtime::Status::not_converged:
+      return fmt::format("step {} did not converge: {}, {} iterations, last increment {}", step,
+                         where, summary.last_iterations, increment);
+    case runtime::Status::left_domain:
+      return fmt::format(
+          "step {} left the domain of H: {}, last increment {}; it met a state where H or its "
+          "gradient is not a finite number",
+          step, where, increment);
+    case runtime::Status::overflow:
+      return fmt::format("step {} overflowed: {}, last increment {}", step, where, increment);
     case runtime::Status::stopped:
       return fmt::format("stopped after {} of {} steps, at t = {:.10g}", summary.steps_done,
                          *report.scene->steps, t);
-    case runtime::Status::not_converged:
-      return fmt::format(
-          "step {} did not converge: at t = {:.10g}, h = {}, {} iterations, last increment {}",
-          step, t, number_text(h), summary.last_iterations, increment);
-    case runtime::Status::not_finite:
-      return fmt::format(
-          "step {} left the domain of H or overflowed: at t = {:.10g}, h = {}, last increment {}",
-          step, t, number_text(h), increment);
   }
   return "";
+}
+
+std::string outcome_text(const RunReport& report) {
+  const std::string failure = failure_text(report);
+  return fmt::format("status    {}{}{}", runtime::to_text(report.summary.status),
+                     failure.empty() ? "" : ": ", failure);
 }
 
 std::string summary_text(const RunReport& report) {

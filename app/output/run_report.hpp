@@ -29,7 +29,9 @@ struct RunReport {
 
 [[nodiscard]] std::string summary_text(const RunReport& report);
 [[nodiscard]] std::string json_text(const RunReport& report);
-// What went wrong and what to try; empty if all steps were done.
+// What went wrong, and where; empty if all steps were done.
 [[nodiscard]] std::string failure_text(const RunReport& report);
+// The status before it: "status jumped: step 97 jumped: ...", the last line of a trajectory.
+[[nodiscard]] std::string outcome_text(const RunReport& report);
 
 }  // namespace hamgen::app

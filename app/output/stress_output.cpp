@@ -24,21 +24,23 @@ char digit_of(double error, double scale) {
 
 char energy_mark(const StressCell& cell) {
   switch (cell.outcome) {
-    case StressOutcome::done:
+    case runtime::Status::done:
       break;
-    case StressOutcome::jumped:
+    case runtime::Status::jumped:
       return 'j';
-    case StressOutcome::escaped:
+    case runtime::Status::escaped:
       return 'e';
-    case StressOutcome::not_converged:
+    case runtime::Status::not_converged:
       return 'n';
-    case StressOutcome::left_domain:
+    case runtime::Status::left_domain:
       return 'd';
-    case StressOutcome::overflow:
+    case runtime::Status::overflow:
       return 'o';
-    case StressOutcome::out_of_time:
+    case runtime::Status::stopped:
+      return 's';
+    case runtime::Status::out_of_time:
       return 't';
-    case StressOutcome::undefined:
+    case runtime::Status::undefined:
       return 'u';
   }
   return digit_of(cell.energy_error, cell.energy_scale);
@@ -89,7 +91,7 @@ std::string axis_text(const StressAxis& axis) {
                      axis.values.back(), axis.logarithmic ? ", logarithmic" : "");
 }
 
-bool was_run(const StressCell& cell) { return cell.outcome != StressOutcome::undefined; }
+bool was_run(const StressCell& cell) { return cell.outcome != runtime::Status::undefined; }
 
 // Empty of what was not run.
 std::optional<double> error_if_run(const StressCell& cell) {
@@ -104,15 +106,16 @@ std::optional<double> scale_if_run(const StressCell& cell) {
 std::optional<bool> bounded_to_the_end(const StressCell& cell) {
   if (!cell.bounded) return was_run(cell) ? std::optional(false) : std::nullopt;
   switch (cell.outcome) {
-    case StressOutcome::done:
-    case StressOutcome::jumped:
-    case StressOutcome::escaped:
+    case runtime::Status::done:
+    case runtime::Status::jumped:
+    case runtime::Status::escaped:
       return true;
-    case StressOutcome::not_converged:
-    case StressOutcome::left_domain:
-    case StressOutcome::overflow:
-    case StressOutcome::out_of_time:
-    case StressOutcome::undefined:
+    case runtime::Status::not_converged:
+    case runtime::Status::left_domain:
+    case runtime::Status::overflow:
+    case runtime::Status::stopped:
+    case runtime::Status::out_of_time:
+    case runtime::Status::undefined:
       return std::nullopt;
   }
   return std::nullopt;
@@ -142,15 +145,16 @@ std::string stress_text(const StressMap& map) {
   if (map.axes.size() > 1) text += "  down        " + axis_text(map.axes[1]) + "\n";
   text += "  energy      digits: error 10^-d of its scale; * below 1e-10, + above 0.1\n";
   text += rows_text(map, energy_mark);
-  constexpr std::array marks = {'.', 'j', 'e', 'n', 'd', 'o', 't', 'u'};
-  for (int i = 0; i < kStressOutcomes; ++i) {
-    const auto outcome = static_cast<StressOutcome>(i);
+  constexpr std::array<char, runtime::kStatuses> marks = {'.', 'j', 'e', 'n', 'd',
+                                                          'o', 's', 't', 'u'};
+  for (int i = 0; i < runtime::kStatuses; ++i) {
+    const auto outcome = static_cast<runtime::Status>(i);
     const auto count = std::ranges::count(map.cells, outcome, &StressCell::outcome);
     if (count == 0) continue;
-    text += fmt::format("  {:<15} {} {:5}\n", to_text(outcome),
-                        outcome == StressOutcome::done ? ' ' : marks[static_cast<std::size_t>(i)],
+    text += fmt::format("  {:<15} {} {:5}\n", runtime::to_text(outcome),
+                        outcome == runtime::Status::done ? ' ' : marks[static_cast<std::size_t>(i)],
                         count);
-    if (outcome == StressOutcome::undefined) text += reasons_text(map);
+    if (outcome == runtime::Status::undefined) text += reasons_text(map);
   }
   int median = 0;
   int most = 0;
@@ -176,7 +180,7 @@ std::string stress_csv(const StressMap& map) {
     text += runtime::number_text(cell.at[0]);
     if (map.axes.size() > 1) text += "," + runtime::number_text(cell.at[1]);
     text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", number_or_empty(cell.h),
-                        cell.steps_done, to_text(cell.outcome), bounded_text(cell),
+                        cell.steps_done, runtime::to_text(cell.outcome), bounded_text(cell),
                         number_or_empty(error_if_run(cell)), number_or_empty(scale_if_run(cell)),
                         cell.iterations_median, cell.iterations_max, number_or_empty(cell.h_omega),
                         cell.linear_bounded ? (*cell.linear_bounded ? "yes" : "no") : "",
@@ -199,7 +203,7 @@ std::string stress_json(const StressMap& map) {
         {{"at", at},
          {"h", number_or_null(cell.h)},
          {"steps_done", cell.steps_done},
-         {"outcome", to_text(cell.outcome)},
+         {"outcome", runtime::to_text(cell.outcome)},
          {"bounded", bounded ? nlohmann::ordered_json(*bounded) : nlohmann::ordered_json(nullptr)},
          {"energy_error", number_or_null(error_if_run(cell))},
          {"energy_scale", number_or_null(scale_if_run(cell))},

@@ -25,14 +25,15 @@ constexpr std::array<Shade, 6> kShades = {{{"#E8F4EA", "error < 1e-12"},
                                            {"#56B4E9", "< 1e-3"},
                                            {"#0072B2", "< 1"},
                                            {"#1B3F66", "< 10 scales"}}};
-constexpr std::array<Shade, kStressOutcomes> kFailures = {{{"", ""},
-                                                           {"#E69F00", "jumped"},
-                                                           {"#F0E442", "escaped"},
-                                                           {"#D55E00", "not converged"},
-                                                           {"#CC79A7", "left the domain"},
-                                                           {"#7F0000", "overflow"},
-                                                           {"#AAAAAA", "out of time"},
-                                                           {"#333333", "undefined", 2}}};
+constexpr std::array<Shade, runtime::kStatuses> kFailures = {{{"", ""},
+                                                              {"#E69F00", "jumped"},
+                                                              {"#F0E442", "escaped"},
+                                                              {"#D55E00", "not converged"},
+                                                              {"#CC79A7", "left the domain"},
+                                                              {"#7F0000", "overflow"},
+                                                              {"#DDDDDD", "stopped"},
+                                                              {"#AAAAAA", "out of time"},
+                                                              {"#333333", "undefined", 2}}};
 
 // Hatched: neither the palest error nor a failure, in grey print too.
 constexpr Shade kUnknown = {"#555555", "not known", 6};
@@ -48,13 +49,13 @@ std::size_t shade_of_error(double error, double scale) {
 }
 
 std::size_t energy_shade(const StressCell& cell) {
-  if (cell.outcome != StressOutcome::done)
+  if (cell.outcome != runtime::Status::done)
     return kShades.size() + static_cast<std::size_t>(cell.outcome) - 1;
   return shade_of_error(cell.energy_error, cell.energy_scale);
 }
 
 std::size_t state_shade(const StressCell& cell) {
-  if (cell.outcome != StressOutcome::done) return energy_shade(cell);
+  if (cell.outcome != runtime::Status::done) return energy_shade(cell);
   return cell.state_error ? shade_of_error(*cell.state_error, cell.state_scale) : kAllShades - 1;
 }
 

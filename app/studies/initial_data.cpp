@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/studies/domain.hpp"
 #include "generator/algebra/evaluate.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -200,6 +201,7 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   const std::vector<std::string> names = element_names(model.parameters);
   const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
   runtime::InitialValues values;
+  values.defined_everywhere = is_defined_everywhere(model);
   values.h = wide(*scene.h);
   for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
     for (const Rational& value : *half) values.state.push_back(wide(value));

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/studies/progress.hpp"
@@ -17,29 +16,13 @@
 
 namespace hamgen::app {
 
-enum class StressOutcome {
-  done,
-  jumped,         // an energy error beyond the energy scale: a singularity was stepped across, or
-                  // the step is far too large for this solution
-  escaped,        // far away from where it began, with its energy kept beside the terms of H there;
-                  // perhaps to infinity in finite time, where no step can follow
-  not_converged,  // the equations of a step were not solved
-  left_domain,    // H or its gradient is not defined where the step went
-  overflow,       // beyond the numbers there are
-  out_of_time,    // the cell's time was over before its steps
-  undefined,  // the scene has no values here, H none at its initial state, the gauge a pole at h:
-              // nothing was run
-};
-inline constexpr int kStressOutcomes = 8;
-[[nodiscard]] std::string_view to_text(StressOutcome outcome);
-
 struct StressCell {
   std::array<double, 2> at = {};  // the axes' values
   std::optional<double> h;        // empty if undefined
   long steps_done = 0;
-  StressOutcome outcome = StressOutcome::done;
+  runtime::Status outcome = runtime::Status::done;
   bool bounded = true;                // no component grew beyond 1000 times its size at the start
-  double energy_scale = 0.0;          // see energy_scale_of
+  double energy_scale = 0.0;          // see runtime::Judge
   double energy_error = 0.0;          // max |H - H(0)| over the states that were reached
   std::optional<double> state_error;  // |z - z*| after all steps, Euclidean
   double state_scale = 0.0;           // the larger of |z| at the start and |z*|
@@ -55,15 +38,8 @@ struct StressLimits {
   long steps = 1000;
   std::chrono::duration<double> time{1.0};             // of a cell
   std::chrono::duration<double> reference_time{10.0};  // of all state errors
-  bool defined_everywhere = false;                     // what is not finite is an overflow
   StopFlag stop = nullptr;
 };
-
-// The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the initial state: what
-// an energy error is compared with, even if H happens to vanish there.
-[[nodiscard]] double energy_scale_of(const runtime::Library& library,
-                                     const std::vector<double>& parameters,
-                                     const std::vector<double>& state);
 
 // Runs one cell within the limits; every failure is an outcome.  Returns the last good state.
 std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::Library>& library,

@@ -39,7 +39,7 @@ StressReferences::StressReferences(const StressGrid& grid, const StressMap& map,
   }
   method_ = "against a reference extrapolated in quad precision";
   for (std::size_t cell = 0; cell < map.cells.size(); ++cell) {
-    if (map.cells[cell].outcome == StressOutcome::undefined) {
+    if (map.cells[cell].outcome == runtime::Status::undefined) {
       places_.emplace_back();
       continue;
     }
@@ -79,8 +79,8 @@ void StressReferences::compute(std::size_t i) {
 
 void StressReferences::compare(std::size_t cell, const std::vector<runtime::Wide>& start,
                                const std::vector<runtime::Wide>& state, StressCell& result) const {
-  if (result.outcome != StressOutcome::done && result.outcome != StressOutcome::jumped) {
-    result.state_missing = to_text(result.outcome);
+  if (result.outcome != runtime::Status::done && result.outcome != runtime::Status::jumped) {
+    result.state_missing = runtime::to_text(result.outcome);
     return;
   }
   if (!rule_) {
@@ -109,7 +109,7 @@ void StressReferences::compare(std::size_t cell, const std::vector<runtime::Wide
   if (std::isfinite(error)) {
     result.state_error = error;
   } else {
-    result.state_missing = to_text(StressOutcome::overflow);
+    result.state_missing = runtime::to_text(runtime::Status::overflow);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "app/studies/load_integrator.hpp"
-#include "app/studies/stress_domain.hpp"
 #include "app/studies/stress_grid.hpp"
 #include "app/studies/stress_references.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -60,10 +59,10 @@ void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest
   // In a map of nothing but these the model or the command is wrong: the caller's exception.
   const auto is_undefined = [&](StressCell& cell, const std::string& reason) {
     if (++undefined == map.cells.size()) return false;
-    cell.outcome = StressOutcome::undefined;
+    cell.outcome = runtime::Status::undefined;
     cell.bounded = false;
     cell.reason = reason;
-    cell.state_missing = to_text(cell.outcome);
+    cell.state_missing = runtime::to_text(cell.outcome);
     return true;
   };
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
@@ -92,7 +91,7 @@ void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest
   map.references = references.method();
   run_all(map.model, map.cells.size(), request, [&](std::size_t i) {
     StressCell& cell = map.cells[i];
-    if (cell.outcome == StressOutcome::undefined) return;
+    if (cell.outcome == runtime::Status::undefined) return;
     const auto state = run_stress_cell(grid.library(), starts[i], limits, cell);
     references.compare(i, starts[i].state, state, cell);
   });
@@ -103,7 +102,6 @@ void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest
 StressMap stress_map(const StressRequest& request) {
   StressGrid grid(request);
   StressLimits limits = request.limits;
-  limits.defined_everywhere = is_defined_everywhere(grid.plugin().model);
   StressMap map = empty_map(grid, limits);
   run_cells(grid, limits, request, map);
   if (!is_stopped(limits.stop)) map.linear_bound = grid.linear_bound();

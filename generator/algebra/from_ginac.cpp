@@ -81,6 +81,10 @@ GiNaC::numeric to_ginac(const Rational& value) {
   return over / under;
 }
 
+// Note [real values]
+// GiNaC cannot know that log(q) is real where H has a value.  So it takes abs(u) for the absolute
+// value of a complex number, whose derivative has the conjugate of u, and abs(exp(u)) for the
+// exponential of the real part.  All values are real here: u is its own conjugate and real part.
 Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table) {
   std::map<GiNaC::ex, Expression, GiNaC::ex_is_less> done;
   auto convert = [&](auto&& self, const GiNaC::ex& node) -> Expression {
@@ -104,6 +108,9 @@ Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table) {
       result = Expression::power(operands[0], operands[1]);
     } else if (GiNaC::is_a<GiNaC::function>(node)) {
       const std::string name = GiNaC::ex_to<GiNaC::function>(node).get_name();
+      // See Note [real values].
+      if (name == "conjugate" || name == "real_part") return operands[0];
+      if (name == "imag_part") return Expression(0);
       if (find_function(name) == nullptr) throw std::domain_error("the function " + name);
       result = Expression::apply(name, std::move(operands));
     } else {

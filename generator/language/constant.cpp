@@ -16,7 +16,22 @@ namespace {
 constexpr long most_constant_terms = 1'000'000;
 constexpr long largest_integer = 999'999'999'999'999;
 
+// Squares of exact numbers have twice their digits: after 16 of them, as in parameters that are
+// made of each other, a hundred thousand.
+constexpr std::size_t most_digits = 20'000;
+
+// About as many decimal digits have numerator and denominator together.
+std::size_t digits(const Rational& value) {
+  return mpz_sizeinbase(value.get_num_mpz_t(), 10) + mpz_sizeinbase(value.get_den_mpz_t(), 10);
+}
+
+Undefined too_long() {
+  return {fmt::format("this constant has more than {} digits", most_digits),
+          "it is exact: round what it is made of, 0.33333333333333333 for 1/3"};
+}
+
 Constant in_range(Rational value) {
+  if (digits(value) > most_digits) return too_long();
   const double rounded = to_double(value);
   const bool lost = rounded == 0.0 && sgn(value) != 0;
   if (std::isfinite(rounded) && !lost) return value;
@@ -32,6 +47,8 @@ Constant power(const Rational& base, const Rational& exponent) {
   if (sgn(base) == 0 && sgn(exponent) < 0) {
     return Undefined{"division by zero", "0 has no negative power"};
   }
+  if (static_cast<double>(digits(base)) * std::fabs(to_double(exponent)) > 10.0 * most_digits)
+    return too_long();
   if (const auto value = evaluate_power(base, exponent)) return in_range(*value);
   if (sgn(base) < 0) {
     return Undefined{
@@ -104,6 +121,7 @@ class Evaluator {
              "give its value"}};
       }
       total += value(sum.body);
+      if (digits(total) > most_digits) take(node, too_long());
       return;
     }
     const SumRange& range = sum.ranges[depth];

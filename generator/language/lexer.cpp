@@ -75,12 +75,15 @@ class Lexer {
     }
   }
 
-  // The word that begins the line after the one that ends here.
-  std::string_view next_word(std::size_t newline) const {
-    const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n", newline), text_.size());
-    std::size_t end = begin;
+  // The word that begins the line after the one that ends here.  Empty lines in a row have the same
+  // one: it is looked for once.
+  std::string_view next_word(std::size_t newline) {
+    if (newline < word_begin_) return word_;
+    word_begin_ = std::min(text_.find_first_not_of(" \t\r\n", newline), text_.size());
+    std::size_t end = word_begin_;
     while (end < text_.size() && is_name_character(text_[end])) ++end;
-    return text_.substr(begin, end - begin);
+    word_ = text_.substr(word_begin_, end - word_begin_);
+    return word_;
   }
 
   void end_line(std::size_t newline) {
@@ -261,6 +264,8 @@ class Lexer {
   std::string_view text_;
   std::size_t at_ = 0;
   std::size_t open_ = 0;  // parentheses and brackets
+  std::size_t word_begin_ = 0;
+  std::string_view word_;
   std::string_view comment_;
   Tokens result_;
 };

@@ -1,7 +1,10 @@
 #include "generator/mechanics/derive.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive_kernels.hpp"
 #include "generator/mechanics/to_ginac.hpp"
@@ -62,9 +65,21 @@ GiNaC::ex hamiltonian(const Model& model, TreeConverter& converter, const Symbol
   return energy;
 }
 
-}  // namespace
+// A derivative that is complex, or infinite, for every state is a mistake of the formula.
+template <class Work>
+auto with_place(const Model& model, const Span& span, const Work& work) {
+  try {
+    return work();
+  } catch (const std::domain_error& error) {
+    throw ModelError({{.severity = Severity::error,
+                       .span = span,
+                       .message = fmt::format("undefined or not real: {}", error.what()),
+                       .help = "it, or a derivative of it, has no real value at any state"}},
+                     model.source);
+  }
+}
 
-Mechanics derive(const Model& model, bool keep_sums) {
+Mechanics derived(const Model& model, bool keep_sums) {
   SymbolTable table;
   TreeConverter converter(model, table);
   Mechanics mechanics;
@@ -90,10 +105,6 @@ Mechanics derive(const Model& model, bool keep_sums) {
   if (keep_sums && mechanics.degrees_of_freedom > kMostWrittenOut) {
     if (auto kernels = derive_kernels(model)) {
       mechanics.kernels = std::move(*kernels);
-      for (const Invariant& invariant : model.invariants) {
-        mechanics.invariants.push_back(
-            {invariant.name, from_ginac(converter.convert(invariant.value), table)});
-      }
       return mechanics;
     }
   }
@@ -116,9 +127,21 @@ Mechanics derive(const Model& model, bool keep_sums) {
       if (!vanishes(entry)) mechanics.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
     }
   }
+  return mechanics;
+}
+
+}  // namespace
+
+Mechanics derive(const Model& model, bool keep_sums) {
+  Mechanics mechanics =
+      with_place(model, model.hamiltonian->span, [&] { return derived(model, keep_sums); });
+  // The ranks of the symbols are those of their declarations, see TreeConverter.
+  SymbolTable table;
+  TreeConverter converter(model, table);
   for (const Invariant& invariant : model.invariants) {
-    mechanics.invariants.push_back(
-        {invariant.name, from_ginac(converter.convert(invariant.value), table)});
+    mechanics.invariants.push_back({invariant.name, with_place(model, invariant.value->span, [&] {
+                                      return from_ginac(converter.convert(invariant.value), table);
+                                    })});
   }
   return mechanics;
 }
@@ -130,7 +153,8 @@ Expression written_out_hamiltonian(const Model& model) {
   for (const auto* group : {&model.coordinates, &model.momenta}) {
     for (const Quantity& variable : quantities(*group)) table.symbol(variable.name, rank++);
   }
-  return from_ginac(hamiltonian(model, converter, table), table);
+  return with_place(model, model.hamiltonian->span,
+                    [&] { return from_ginac(hamiltonian(model, converter, table), table); });
 }
 
 Expression scheme_parameter(const Model& model, const std::string& option, const NodePtr& node) {

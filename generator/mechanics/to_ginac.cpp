@@ -2,11 +2,27 @@
 
 #include <fmt/format.h>
 
+#include "generator/algebra/evaluate.hpp"
 #include "generator/algebra/ginac_functions.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen {
+
+namespace {
+
+// Of all sums of a model: as many as one index has at most.
+constexpr long kMostSummands = 1'000'000;
+
+bool is_constant(const GiNaC::ex& e) {
+  if (GiNaC::is_a<GiNaC::symbol>(e)) return false;
+  for (std::size_t i = 0; i < e.nops(); ++i) {
+    if (!is_constant(e.op(i))) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 std::string element_name(const std::string& name, long index) {
   return fmt::format("{}[{}]", name, index);
@@ -58,13 +74,16 @@ GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
       return -convert(negate->operand, indices);
     }
     if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
-      return convert_binary(*binary, indices);
+      return convert_binary(*node, *binary, indices);
     }
     if (const auto* call = std::get_if<CallNode>(&node->value)) {
       GiNaC::exvector arguments;
       for (const NodePtr& argument : call->arguments) {
         arguments.push_back(convert(argument, indices));
       }
+      require_real(*node, arguments, [&](std::span<const Rational> values) {
+        return call_function(call->function, values);
+      });
       return ginac_function(call->function, arguments);
     }
     return convert_sum(std::get<SumNode>(node->value), 0, indices);
@@ -137,7 +156,24 @@ GiNaC::ex TreeConverter::element(const Variable& variable, long index, const Spa
   return table_.symbol(element_name(variable.name, index), rank);
 }
 
-GiNaC::ex TreeConverter::convert_binary(const BinaryNode& node, const Indices& indices) {
+// A function or a power of constants has a real value, or the model a mistake: they may have become
+// constants by cancelling only, as in acosh(q - q).
+void TreeConverter::require_real(const Node& node, const GiNaC::exvector& operands,
+                                 const ConstantFunction& function) const {
+  std::vector<Rational> values;
+  for (const GiNaC::ex& operand : operands) {
+    if (!is_constant(operand)) return;
+    const std::optional<Rational> value = evaluate(from_ginac(operand, table_), {});
+    if (!value) return;  // undefined in itself, which was said
+    values.push_back(*value);
+  }
+  const Constant result = function(values);
+  if (const auto* mistake = std::get_if<Undefined>(&result))
+    fail(node.span, mistake->message, mistake->help);
+}
+
+GiNaC::ex TreeConverter::convert_binary(const Node& place, const BinaryNode& node,
+                                        const Indices& indices) {
   const GiNaC::ex left = convert(node.left, indices);
   const GiNaC::ex right = convert(node.right, indices);
   switch (node.operation) {
@@ -156,11 +192,12 @@ GiNaC::ex TreeConverter::convert_binary(const BinaryNode& node, const Indices& i
       if ((negative || right.is_zero()) && vanishes_when_expanded(left)) {
         fail(node.left->span, negative ? "division by zero" : "0^0 is undefined");
       }
-      const GiNaC::ex value = GiNaC::pow(left, right);
-      if (GiNaC::is_a<GiNaC::numeric>(value) && !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) {
-        throw std::domain_error("an even root of a negative number");
+      if (!right.info(GiNaC::info_flags::integer)) {
+        require_real(place, {left, right}, [](std::span<const Rational> values) {
+          return combine(BinaryOperator::power, values[0], values[1]);
+        });
       }
-      return value;
+      return GiNaC::pow(left, right);
     }
   }
   internal_error("unknown operator");
@@ -178,7 +215,14 @@ long TreeConverter::integer(const NodePtr& node, const Indices& indices) const {
 }
 
 GiNaC::ex TreeConverter::convert_sum(const SumNode& node, std::size_t depth, Indices indices) {
-  if (depth == node.ranges.size()) return convert(node.body, indices);
+  if (depth == node.ranges.size()) {
+    if (++terms_ > kMostSummands) {
+      fail(node.body->span, fmt::format("this is written out more than {} times", kMostSummands),
+           "the terms of nested ranges multiply: sum over fewer, or give the inner sum as a "
+           "formula");
+    }
+    return convert(node.body, indices);
+  }
   const SumRange& range = node.ranges[depth];
   const long lower = integer(range.lower, indices);
   const long upper = integer(range.upper, indices);

@@ -7,9 +7,11 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/language/constant.hpp"
 #include "generator/language/model.hpp"
 
 namespace hamgen {
@@ -33,7 +35,11 @@ class TreeConverter {
   [[nodiscard]] GiNaC::ex convert(const NodePtr& node, const Indices& indices);
   [[nodiscard]] GiNaC::ex convert_name(const NameNode& name, const Span& span,
                                        const Indices& indices);
-  [[nodiscard]] GiNaC::ex convert_binary(const BinaryNode& node, const Indices& indices);
+  [[nodiscard]] GiNaC::ex convert_binary(const Node& place, const BinaryNode& node,
+                                         const Indices& indices);
+  using ConstantFunction = std::function<Constant(std::span<const Rational>)>;
+  void require_real(const Node& node, const GiNaC::exvector& operands,
+                    const ConstantFunction& function) const;
   [[nodiscard]] GiNaC::ex convert_sum(const SumNode& node, std::size_t depth, Indices indices);
   [[nodiscard]] GiNaC::ex element(const Variable& variable, long index, const Span& span);
   [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const;
@@ -41,6 +47,7 @@ class TreeConverter {
 
   const Model& model_;
   SymbolTable& table_;
+  long terms_ = 0;  // of sums, so far
   std::map<std::string, GiNaC::ex> definitions_;
   std::map<std::string, std::pair<const Variable*, int>> variables_;  // first rank
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;

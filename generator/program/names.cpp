@@ -6,7 +6,9 @@
 #include <iterator>
 #include <string_view>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/program/taken_names.hpp"
 
 namespace hamgen {
 
@@ -102,21 +104,6 @@ bool is_numbered(std::string_view name) {
   });
 }
 
-// Macros of the standard headers that a user's program may have included before ours.  A name with
-// a small letter is none of them.
-bool is_macro(std::string_view name) {
-  constexpr std::string_view kMacros[] = {"NULL",   "EOF",      "INFINITY", "NAN",       "HUGE_VAL",
-                                          "BUFSIZ", "stdin",    "stdout",   "stderr",    "errno",
-                                          "assert", "RAND_MAX", "SIGABRT",  "SIGFPE",    "SIGILL",
-                                          "SIGINT", "SIGSEGV",  "SIGTERM",  "MB_CUR_MAX"};
-  constexpr std::string_view kPrefixes[] = {"M_",    "DBL_",  "FLT_",   "LDBL_", "INT_",
-                                            "UINT_", "LONG_", "CHAR_",  "SEEK_", "EXIT_",
-                                            "FP_",   "SIG_",  "CLOCKS_"};
-  return std::ranges::find(kMacros, name) != std::end(kMacros) ||
-         (std::ranges::any_of(kPrefixes, [&](std::string_view p) { return name.starts_with(p); }) &&
-          std::ranges::none_of(name, [](char c) { return 'a' <= c && c <= 'z'; }));
-}
-
 // A name next to a reserved one, itself free.
 std::string beside(const std::string& name) { return name + (is_macro(name) ? "_value" : "_"); }
 
@@ -125,8 +112,14 @@ bool is_keyword(std::string_view name) {
   return std::ranges::find(kKeywords, name) != std::end(kKeywords);
 }
 
+// A function that the emitted code calls by this name alone.
+bool is_quad_function(std::string_view name) {
+  return std::ranges::find(all_functions(), name, &Function::quad) != all_functions().end();
+}
+
 bool is_reserved(std::string_view name) {
-  return is_keyword(name) || is_numbered(name) || std::ranges::find(kOurs, name) != std::end(kOurs);
+  return is_keyword(name) || is_numbered(name) || is_quad_function(name) ||
+         std::ranges::find(kOurs, name) != std::end(kOurs);
 }
 
 // Letters, digits and underscores of ASCII, whatever the locale.
@@ -136,7 +129,7 @@ bool is_free_name(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
   };
   return !name.empty() && std::ranges::all_of(name, is_word) && !is_digit(name.front()) &&
-         name.find("__") == std::string::npos && identifier(name) == name;
+         name.find("__") == std::string::npos && namespace_identifier(name) == name;
 }
 
 }  // namespace
@@ -150,6 +143,11 @@ std::string identifier(const std::string& name) {
   }
   if (is_reserved(text)) text = beside(text);
   return text;
+}
+
+std::string namespace_identifier(const std::string& name) {
+  const std::string text = identifier(name);
+  return is_global(text) ? beside(text) : text;
 }
 
 std::string member_identifier(const std::string& name) {

@@ -13,6 +13,9 @@ namespace hamgen {
 // The same for a member of a struct, which may be called what a local may not: z.h, par.k.
 [[nodiscard]] std::string member_identifier(const std::string& name);
 
+// The same for a namespace, which may not be called what any header has in the global one.
+[[nodiscard]] std::string namespace_identifier(const std::string& name);
+
 // Throws UsageError unless the text is a namespace, "a" or "a::b", with names that C++ and the
 // emitted code leave free.
 void require_namespace(const std::string& text);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -174,6 +176,30 @@ TEST(Stress, AnUnknownCellIsDrawnUnlikeAnyOther) {
     hatched += contains(line, "fs pattern") ? 1 : 0;
   }
   EXPECT_EQ(hatched, 1);
+}
+
+// Half a picture, as on a full disk, of which gnuplot says nothing.
+TEST(Stress, APictureAppearsWholeOrNotAtAll) {
+  const Scratch scratch;
+  const std::string fake =
+      scratch.write("gnuplot",
+                    "#!/bin/sh\nout=$(sed -n \"s/^set output '\\(.*\\)'$/\\1/p\" \"$1\")\n"
+                    "printf '<svg>%s' \"$END\" > \"$out\"\n");
+  std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+  const std::string path = std::string("PATH=") + scratch.path("") + ":" + std::getenv("PATH");
+  const std::string picture = scratch.path("m.svg");
+  const std::vector<std::string> command = {
+      "stress", models + "harmonic.ham", "--vary", "h=1:2:2", "--steps",
+      "5",      "--reference-seconds",   "0",      "--quiet", "--plot",
+      picture};
+  const Result half = hamgen(command, {path, "END="});
+  EXPECT_EQ(half.status, 0) << half.err;
+  EXPECT_TRUE(contains(half.err, "is the disk full?")) << half.err;
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"gnuplot", "m.gp"}));
+  const Result whole = hamgen(command, {path, "END=</svg>"});
+  EXPECT_EQ(whole.err, "");
+  EXPECT_EQ(read(picture), "<svg></svg>");
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"gnuplot", "m.gp", "m.svg"}));
 }
 
 TEST(Stress, AnEscapeIsNotAFailureOfTheStep) {

@@ -50,6 +50,13 @@ TEST(HostileInput, deep_parentheses_meet_the_nesting_limit) {
             "x.ham:3:205: error: nested deeper than 200 levels");
 }
 
+// The word after them would be looked for from each of them: hours, not milliseconds.
+TEST(HostileInput, empty_lines_in_parentheses_are_read_once) {
+  EXPECT_EQ(first_line("p^2/2 + (q" + repeated("\n", 4000000) + " + 1)"), "accepted");
+  EXPECT_EQ(first_line("(q" + repeated(" \r\n", 1000000) + repeated("w", 100000)),
+            "x.ham:1000003:1: error: name too long: 100000 characters");
+}
+
 TEST(HostileInput, parentheses_without_end_meet_the_nesting_limit) {
   EXPECT_EQ(first_line(repeated("(", many)), "x.ham:3:205: error: nested deeper than 200 levels");
 }

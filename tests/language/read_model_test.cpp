@@ -117,5 +117,30 @@ std::vector<std::filesystem::path> shipped() {
 INSTANTIATE_TEST_SUITE_P(Hamiltonians, ShippedModel, testing::ValuesIn(shipped()),
                          [](const auto& each) { return each.param.stem().string(); });
 
+// Exact squares double their digits with each line; the values stay below 1.
+TEST(ReadModel, CountsTheDigitsOfExactConstants) {
+  std::string text = "coordinate q\nmomentum p\nparameter b0 = 1/3\n";
+  for (int i = 1; i <= 40; ++i) {
+    const std::string last = "b" + std::to_string(i - 1);
+    text += "parameter b" + std::to_string(i) + " = " + last + "*" + last + " + 1/7\n";
+  }
+  const auto said = [](const std::string& model) -> std::string {
+    try {
+      static_cast<void>(read_model(make_source("m.ham", model)));
+    } catch (const ModelError& error) {
+      const std::string message = error.what();
+      return message.substr(0, message.find('\n'));
+    }
+    return "";
+  };
+  // b_i has 63^(2^(i-1)) in its denominator, 0.9*2^i digits, and about as many in its numerator.
+  EXPECT_EQ(said(text + "H = p^2/2 + b40*q\n"),
+            "m.ham:17:17: error: this constant has more than 20000 digits");
+  EXPECT_EQ(said("coordinate q\nmomentum p\nH = p^2/2 + q*sum(i = 1..1000, 1/i)\n"), "");
+  EXPECT_NE(said("coordinate q\nmomentum p\nparameter a = sum(i = 1..1000000, 1/i)\nH = p^2/2 + "
+                 "a*q\n"),
+            "");
+}
+
 }  // namespace
 }  // namespace hamgen

@@ -58,5 +58,72 @@ TEST(Derivation, DividesByPowersOfSumsWithoutExpandingThem) {
       ModelError);
 }
 
+// What is said of a Hamiltonian that is no mistake to the reader: its first line.
+std::string said_of(const std::string& hamiltonian) {
+  try {
+    static_cast<void>(derived("coordinate q\nmomentum p\nH = " + hamiltonian + "\n"));
+  } catch (const ModelError& error) {
+    const std::string text = error.what();
+    return text.substr(0, text.find('\n'));
+  }
+  return "";
+}
+
+// acosh(0) is not real wherever the 0 comes from.
+TEST(Derivation, ConstantsThatTurnComplexAfterCancellingAreMistakesWithAPlace) {
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {"p^2 + acosh(p - p)*q", "11: error: acosh(0) is not a real number"},
+      {"p^2 + acosh(0*q)", "11: error: acosh(0) is not a real number"},
+      {"p^2 + q*log(q - q - 1)", "13: error: log(-1) is not a real number"},
+      {"p^2 + q*log(-1*1^q)", "13: error: log(-1) is not a real number"},
+      {"p^2 + asin(p - p + 2)*q", "11: error: asin(2) is not a real number"},
+      {"p^2 + q*(q - q - 2)^(1/3)", "13: error: (-2)^(1/3) is not a real number"},
+      {"p^2 + q*sqrt(q - q - 2)", "13: error: sqrt(-2) is not a real number"},
+      {"p^2 + q*atan2(q - q, q - q)", "13: error: atan2(0, 0) is not a real number"}};
+  for (const auto& [hamiltonian, said] : mistakes)
+    EXPECT_EQ(said_of(hamiltonian), "m.ham:3:" + said) << hamiltonian;
+  for (const char* fine : {"p^2 + acosh(p - p + 1)*q", "p^2 + q*sqrt(2)^sqrt(3)",
+                           "p^2 + q*(q - q - 2)^3", "p^2 + q*log(2 + q - q)"})
+    EXPECT_EQ(said_of(fine), "") << fine;
+}
+
+// d|u| = u u'/|u| and d^2|u| = u u''/|u|, for u that is real only where H has a value.
+TEST(Derivation, OfAnAbsoluteValueKnowsThatItsArgumentIsReal) {
+  for (const char* u :
+       {"log(q)", "acosh(2*q)", "asin(q)", "atanh(q)", "asinh(q)", "(1 - sqrt(q^2 + p^2))",
+        "(q - sqrt(p^2 + 1))", "(q - log(p))", "(-exp(log(q)*sqrt(p)))", "(-sqrt(q)^log(p))"}) {
+    const std::string text = u;
+    const Mechanics of_abs = derived("coordinate q\nmomentum p\nH = p^2 + abs(" + text + ")\n");
+    const Mechanics plain = derived("coordinate q\nmomentum p\nH = " + text + "\n");
+    const Values at{{"q", Rational(9, 10)}, {"p", Rational(3, 5)}};
+    const Rational value = evaluate(plain.energy, at).value();
+    const Rational sign(value < 0 ? -1 : 1);
+    const Rational p_squared(9, 25);
+    EXPECT_NEAR(to_double(*evaluate(of_abs.energy, at)), to_double(sign * value + p_squared), 1e-14)
+        << u;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double own = i == 1 ? 2 * 0.6 : 0;
+      EXPECT_NEAR(to_double(*evaluate(of_abs.gradient[i], at)),
+                  own + to_double(sign * *evaluate(plain.gradient[i], at)), 1e-13)
+          << u;
+    }
+    for (const auto& [place, entry] : plain.hessian) {
+      const double own = place == std::pair(1, 1) ? 2 : 0;
+      EXPECT_NEAR(to_double(*evaluate(of_abs.hessian.at(place), at)),
+                  own + to_double(sign * *evaluate(entry, at)), 1e-12)
+          << u;
+    }
+  }
+}
+
+// 100^8 terms on a line.
+TEST(Derivation, CountsTheTermsOfNestedRanges) {
+  std::string ranges;
+  for (const char index : std::string("abcdefgs")) ranges += fmt::format("{} = 1..100, ", index);
+  EXPECT_EQ(said_of("p^2/2 + sum(" + ranges + "q^2/(a + b + c + d + e + f + g + s))"),
+            "m.ham:3:113: error: this is written out more than 1000000 times");
+  EXPECT_EQ(said_of("p^2/2 + sum(a = 1..100, b = 1..100, q^2/(a + b))"), "");
+}
+
 }  // namespace
 }  // namespace hamgen

@@ -177,5 +177,16 @@ TEST(WriteSources, AcceptsPlainNamesOnly) {
   EXPECT_EQ(tests::count_entries(directory.path()), 0u);
 }
 
+// No compiler of C++ starts in 32 MB.
+TEST(CompileSources, LimitsTheMemoryOfTheCompiler) {
+  const PluginSource source = tests::oscillator();
+  const TemporaryDirectory directory = private_directory();
+  write_sources(source, directory.path());
+  EXPECT_NO_THROW((void)compile_sources(source, find_compiler(), {}, directory.path()));
+  EXPECT_THROW(
+      (void)compile_sources(source, find_compiler(), {.memory_limit = 32 << 20}, directory.path()),
+      ToolError);
+}
+
 }  // namespace
 }  // namespace hamgen::runtime

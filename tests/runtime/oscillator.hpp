@@ -68,6 +68,10 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     if (report->steps_done == 1 || e < report->energy_min) report->energy_min = e;
     if (report->steps_done == 1 || e > report->energy_max) report->energy_max = e;
     report->energy_last = e;
+    if (!(e - e == 0.0)) {
+      report->status = HAMGEN_NOT_FINITE;
+      return;
+    }
   }
 }
 

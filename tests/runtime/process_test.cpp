@@ -127,5 +127,20 @@ TEST(TailOf, CutsAtALineStart) {
   EXPECT_EQ(tail_of("abcdefgh", 20, 3), "fgh");
 }
 
+// Seen by a grandchild that starts once the limit is there.
+TEST(Process, LimitsMemoryAndProcessorTimeOfAllItStarts) {
+  const std::string wait = "until test \"$(ulimit -t)\" = 77; do :; done; ";
+  ProcessRequest request{
+      .command = {"sh", "-c",
+                  wait + "until test \"$(ulimit -v)\" = 3145728; do :; done; sh -c 'ulimit -t; "
+                         "ulimit -v'"},
+      .time_limit = std::chrono::seconds(77),
+      .memory_limit = std::uint64_t{3} << 30};
+  EXPECT_EQ(run_process(request).output, "77\n3145728\n");
+  request.memory_limit = 0;
+  request.command.back() = wait + "sh -c 'ulimit -v'";
+  EXPECT_NE(run_process(request).output, "3145728\n");
+}
+
 }  // namespace
 }  // namespace hamgen::runtime

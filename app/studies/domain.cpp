@@ -1,4 +1,4 @@
-#include "app/studies/stress_domain.hpp"
+#include "app/studies/domain.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,55 @@
+// What an orbit is judged by: the sizes and energies it begins with.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/library.hpp"
+#include "runtime/status.hpp"
+
+namespace hamgen::runtime {
+
+class Judge {
+ public:
+  // Of the orbit that begins at `state` (2n values: q then p).  `defined_everywhere`: H and its
+  // gradient are, so that what is not finite is an overflow.
+  Judge(std::shared_ptr<const Library> library, std::vector<double> parameters,
+        std::span<const double> state, bool defined_everywhere);
+
+  // H at the start.
+  [[nodiscard]] double energy() const { return energy_; }
+  // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the start: what an
+  // energy error is compared with, even if H happens to vanish there.
+  [[nodiscard]] double energy_scale() const { return energy_scale_; }
+  // How large the components of a state are.  The unit is the largest at the start, or 1; for
+  // momenta also that of a mass of 1 that has all the energy of the scale as kinetic energy.
+  [[nodiscard]] double size_of(std::span<const double> state) const;
+
+  // Ten energy scales: a larger error |H - H(0)| is a jump.
+  [[nodiscard]] double jump_limit() const;
+  [[nodiscard]] bool is_jump(double energy_error) const { return energy_error > jump_limit(); }
+  // The error is small beside |p H_p|/2 or |q H_q|/2 at the state.  A step that is unstable on a
+  // quadratic H errs by their sum.
+  [[nodiscard]] bool keeps_energy(std::span<const double> state, double energy_error) const;
+  // The larger of |p H_p|/2 and |H - p H_p/2| at the state: of a mechanical system, of the kinetic
+  // and the potential energy.
+  [[nodiscard]] double terms(std::span<const double> state) const;
+
+  // What a step that failed for this reason is called, where the last good state and the largest
+  // energy error so far are these: Status::not_converged, left_domain or jumped may be an escape,
+  // the first two an overflow.
+  [[nodiscard]] Status failure(Status reason, std::span<const double> state,
+                               double energy_error) const;
+
+ private:
+  std::shared_ptr<const Library> library_;
+  std::vector<double> parameters_;
+  bool defined_everywhere_;
+  double energy_;
+  double energy_scale_;
+  double q_size_;
+  double p_size_;
+};
+
+}  // namespace hamgen::runtime
