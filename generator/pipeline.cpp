@@ -304,7 +304,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   const Stages stages = run_stages(source, request);
   if (stage == "equations") return to_text(stages.equations);
   if (stage == "plan") return to_text(stages.plan);
-  if (stage == "program") return to_text(stages.program);
+  if (stage == "program") return to_text(step_code(stages.program));
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
 }

@@ -2,7 +2,6 @@
 // has been used of the libraries so far.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,9 +30,8 @@ class CppContext {
   Environment environment;
   StepCode code;
   std::vector<std::string> parameter_fields;
-  std::vector<std::string> state_fields;              // "q" or "q[2]": of z_1..z_2n in State
-  std::map<std::string, std::string> parameter_text;  // "eps" is par.eps
-  Used used;                                          // so far
+  std::vector<std::string> state_fields;  // "q" or "q[2]": of z_1..z_2n in State
+  Used used;                              // so far
 
   [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }
   [[nodiscard]] bool arrays() const { return program.plan.arrays.has_value(); }
@@ -41,14 +39,7 @@ class CppContext {
   [[nodiscard]] const std::string& state_field(int i) const {
     return state_fields[static_cast<std::size_t>(i)];
   }
-  [[nodiscard]] const std::string& variable_name(int i) const {
-    return mechanics.variables[static_cast<std::size_t>(i)].name;
-  }
 
-  // A namer for one function: parameters as par.x, the rest as locals.
-  [[nodiscard]] CppExpression expression(Names& names);
-  // What the expressions called decides the includes.
-  void note(const CppExpression& cpp);
 
   // Writes the routine of this name, if there is one and it has not been written.
   void write_routine(CodeWriter& out, std::string_view name);
@@ -56,18 +47,11 @@ class CppContext {
   void write_with_callees(CodeWriter& out, std::string_view name);
   // Does the step call it, or the tangent map that the options ask for?
   [[nodiscard]] bool needs(const std::string& routine) const { return needed_.contains(routine); }
-  // Locals for the state variables that the statements use, from z.q.
-  void load_state(CodeWriter& out, Names& names, const std::set<std::string>& used) const;
 
  private:
   std::set<std::string> needed_;
   std::set<std::string, std::less<>> written_;
 };
-
-// Writes them one by one; those in `declared` are assigned to, the rest are new constants.
-void write_statements(CodeWriter& out, const CppExpression& cpp, Names& names,
-                      const std::vector<Statement>& statements,
-                      const std::set<std::string>& declared = {});
 
 // The types Parameters, State, StepReport; what cpp_numerics() needs if `with_vocabulary`.
 void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary);

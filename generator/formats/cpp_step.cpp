@@ -24,8 +24,8 @@ std::string initial_value(const Field& field, const ScalarType& scalar) {
   for (const Rational& value : field.values) {
     const std::string text = field.type == "int"    ? value.get_str()
                              : field.type != "bool" ? literal(value, scalar)
-                             : value == 0         ? "false"
-                                                  : "true";
+                             : value == 0           ? "false"
+                                                    : "true";
     values += (values.empty() ? "" : ", ") + text;
   }
   if (!field.sizes.empty()) return " = {" + values + "}";
@@ -176,8 +176,8 @@ class StepWriter {
 
   void write_propagator() {
     out_.line(code_.retries ? "// Many steps: start values are extrapolated, rounding errors of "
-                             "the updates carried along."
-                           : "// Many steps: rounding errors of the updates are carried along.");
+                              "the updates carried along."
+                            : "// Many steps: rounding errors of the updates are carried along.");
     out_.open("class Propagator");
     access(" public:");
     composed_ ? write_constructor_of_composition() : write_constructor();
@@ -187,8 +187,7 @@ class StepWriter {
     } else {
       out_.line("// One step; on failure the state stays as it was.");
       out_.open("StepReport step()");
-      write_solve(
-          with_room({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"}));
+      write_solve(with_room({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"}));
       out_.close();
     }
     out_.line();
@@ -198,8 +197,7 @@ class StepWriter {
     if (composed_) {
       out_.line("// Substep i from z + carry.");
       out_.open("StepReport substep(int i, State& z, State& carry)");
-      write_solve(
-          with_room({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"}));
+      write_solve(with_room({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"}));
       out_.close();
       out_.line();
     }
@@ -279,7 +277,8 @@ class StepWriter {
       out_.line(fmt::format("const bool known = {}.known;", start));
     }
     out_.line("StepReport report = " + call(names) + ";");
-    out_.open(fmt::format("if (!report.converged && {})", extrapolates ? start + ".known" : "known"));
+    out_.open(
+        fmt::format("if (!report.converged && {})", extrapolates ? start + ".known" : "known"));
     out_.line("// Extrapolation may lead astray, the state itself seldom does.");
     out_.line("const long long wasted = report.iterations;");
     if (extrapolates) write_forget(start);

@@ -66,12 +66,12 @@ void RoutinePrinter::print(const Body& body) {
 }
 
 void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
-  const bool simple = body.size() == 1 && body[0].remark.empty() &&
-                      (std::holds_alternative<Assign>(body[0].value) ||
-                       std::holds_alternative<Accumulate>(body[0].value) ||
-                       std::holds_alternative<Put>(body[0].value) ||
-                       std::holds_alternative<Call>(body[0].value) ||
-                       std::holds_alternative<Factorise>(body[0].value));
+  const bool simple =
+      body.size() == 1 && body[0].remark.empty() &&
+      (std::holds_alternative<Assign>(body[0].value) ||
+       std::holds_alternative<Accumulate>(body[0].value) ||
+       std::holds_alternative<Put>(body[0].value) || std::holds_alternative<Call>(body[0].value) ||
+       std::holds_alternative<Factorise>(body[0].value));
   if (simple) {
     CodeWriter line;
     std::swap(line, out_);
@@ -89,8 +89,7 @@ void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
 
 void RoutinePrinter::operator()(const Let& let) {
   const std::string value = cpp_(let.value);
-  out_.line(fmt::format("{}Real {} = {};",
-                        let.varies || kept_.contains(let.symbol) ? "" : "const ",
+  out_.line(fmt::format("{}Real {} = {};", let.varies || kept_.contains(let.symbol) ? "" : "const ",
                         names_.local(let.symbol), value));
 }
 void RoutinePrinter::operator()(const Array& array) {
@@ -127,9 +126,7 @@ void RoutinePrinter::operator()(const Accumulate& sum) {
   out_.line(fmt::format("{} {}= {};", name(sum.symbol), negative ? '-' : '+',
                         value.substr(negative ? 1 : 0)));
 }
-void RoutinePrinter::operator()(const Clear& clear) {
-  out_.line(text(clear.matrix) + ".clear();");
-}
+void RoutinePrinter::operator()(const Clear& clear) { out_.line(text(clear.matrix) + ".clear();"); }
 void RoutinePrinter::operator()(const Put& put) {
   const std::string value = cpp_(put.value);
   out_.line(
@@ -276,8 +273,7 @@ std::string RoutinePrinter::text(const Place& place) const {
 std::string RoutinePrinter::given(const Place& place) const {
   if (place.indices.empty()) return text(place);
   const AffineIndex& index = place.indices.front();
-  const std::string offset =
-      index.factors.empty() ? count_text(index.constant) : text(index);
+  const std::string offset = index.factors.empty() ? count_text(index.constant) : text(index);
   return text(Place{place.object, place.field}) + " + " + offset;
 }
 

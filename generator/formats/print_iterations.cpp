@@ -47,8 +47,7 @@ void RoutinePrinter::operator()(const Refine& refine) {
   };
   out_.line(fmt::format("Refinement<{}, {}> {};", refine.unknowns.size(), refine.gradient.size(),
                         refine.name));
-  if (!refine.kept.empty())
-    out_.line(fmt::format("Real {}[{}] = {{}};", kept, refine.kept.size()));
+  if (!refine.kept.empty()) out_.line(fmt::format("Real {}[{}] = {{}};", kept, refine.kept.size()));
   out_.open("for (bool more = true; more;)");
   print(refine.body);
   out_.line(fmt::format("const Real lack[{}] = {{{}}};", refine.unknowns.size(),
@@ -170,8 +169,8 @@ void RoutinePrinter::fixed_point(const Iterate& iterate) {
   for (const Unknown& u : iterate.unknowns) {
     values.push_back(cpp_(u.correction - Expression::symbol(u.symbol)));
   }
-  out_.line(fmt::format("const Real increment[{}] = {{{}}};", values.size(),
-                        joined_texts(values, ", ")));
+  out_.line(
+      fmt::format("const Real increment[{}] = {{{}}};", values.size(), joined_texts(values, ", ")));
   out_.line("Distance distance;");
   for (std::size_t j = 0; j < values.size(); ++j) {
     const Unknown& u = iterate.unknowns[j];

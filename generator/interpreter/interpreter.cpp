@@ -38,7 +38,8 @@ Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real
 
 template <class Real>
 void Interpreter<Real>::forget(Substep& substep) {
-  if (const Record* start = code_->record("Start")) substep.start = make_object<Real>(*start, *code_);
+  if (const Record* start = code_->record("Start"))
+    substep.start = make_object<Real>(*start, *code_);
   if (code_->unknowns > 0) substep.history = make_history<Real>(code_->unknowns);
 }
 

@@ -8,29 +8,10 @@
 #include <vector>
 
 #include "generator/interpreter/compiled_expression.hpp"
-#include "generator/interpreter/numerics.hpp"
+#include "generator/interpreter/object.hpp"
 #include "generator/program/step_code.hpp"
 
 namespace hamgen {
-
-// A record at run time: its numbers, field after field, and what else is in it.
-template <class Real>
-struct Object {
-  std::vector<Real> numbers;
-  std::map<std::string, int> flags;
-  std::map<std::string, std::unique_ptr<AnyNewtonRule<Real>>> rules;
-  std::map<std::string, std::unique_ptr<AnyFixedPointRule<Real>>> contractions;
-  std::map<std::string, std::unique_ptr<AnySimplifiedNewtonRule<Real>>> simplified;
-  std::map<std::string, std::unique_ptr<AnyRefinement<Real>>> refinements;
-  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices;
-};
-// With the values its fields begin with.  A field "Matrix" has the size of the code's.
-template <class Real>
-[[nodiscard]] Object<Real> make_object(const Record& record, const StepCode& code);
-// The fields that are numbers, a Refinement's slope and change among them.
-[[nodiscard]] std::vector<Field> numeric_fields(const Record& record);
-// Where the numbers of a field begin.
-[[nodiscard]] long offset_of(const Record& record, const std::string& field);
 
 // What an argument is given: an object, or numbers alone.
 template <class Real>
@@ -46,6 +27,28 @@ struct MachineReport {
   long long iterations = 0;
   Real increment = 0;
   Real value = 0;  // of a routine that returns a number
+};
+
+// What the steps of a machine work on.
+template <class Real>
+struct MachineState {
+  struct Shape {  // of an object
+    const Record* record = nullptr;
+    std::vector<int> sizes = {};
+  };
+  std::map<std::string, int> object_index;  // 0: the locals
+  std::vector<Shape> shapes;
+  std::vector<Object<Real>*> objects;  // of this run
+  std::vector<std::unique_ptr<Object<Real>>> own;
+  std::map<std::string, AnyMatrix<Real>*> matrices;  // locals and arguments
+  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> own_matrices;
+  std::map<std::string, int> local_index;
+  std::map<std::string, int> loop_index;
+  std::vector<Real> locals;
+  Frame<Real> frame;
+  MachineReport<Real> report;
+  long long iteration = 0;  // of the iteration that is going on
+  std::vector<std::string> arguments;
 };
 
 template <class Real>
@@ -64,36 +67,9 @@ class Machine {
   [[nodiscard]] const Object<Real>& result() const;
 
  private:
-  using Step = std::function<bool()>;  // false: the routine has ended
-  using Steps = std::vector<Step>;
-  struct Shape {  // of an object
-    const Record* record = nullptr;
-    std::vector<int> sizes = {};
-  };
-  class Compiler;
-
-  static bool run_all(const Steps& steps) {
-    for (const Step& step : steps) {
-      if (!step()) return false;
-    }
-    return true;
-  }
-
-  std::map<std::string, int> object_index_;  // 0: the locals
-  std::vector<Shape> shapes_;
-  std::vector<Object<Real>*> objects_;  // of this run
-  std::vector<std::unique_ptr<Object<Real>>> own_;
-  std::map<std::string, AnyMatrix<Real>*> matrices_;  // locals and arguments
-  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> own_matrices_;
-  std::map<std::string, int> local_index_;
-  std::map<std::string, int> loop_index_;
-  std::vector<Real> locals_;
-  Frame<Real> frame_;
-  MachineReport<Real> report_;
-  long long iteration_ = 0;  // of the iteration that is going on
-  std::vector<std::string> arguments_;
-  std::unique_ptr<Compiler> compiler_;  // what the steps point into
-  Steps steps_;
+  MachineState<Real> state_;
+  std::shared_ptr<const void> compiler_;      // what the steps point into
+  std::vector<std::function<bool()>> steps_;  // false: the routine has ended
 };
 
 }  // namespace hamgen

@@ -16,9 +16,9 @@ struct Distance {
 // When to stop an iteration that has no other end than rounding: where all unknowns are close to
 // it, or at stagnation, when twice in a row it has not moved less than ever before.  Every Cycle-th
 // iteration is compared: 2 for a fixed point, where q hangs on p and p on q alone, so that even and
-// odd iterations are two sequences, and one may be far ahead of the other; 1 for Newton's iteration.
-// The larger the last increment, the longer it must stand still: 64, 512, 4096 units of rounding
-// after 2, 3, 4 times.
+// odd iterations are two sequences, and one may be far ahead of the other; 1 for Newton's
+// iteration. The larger the last increment, the longer it must stand still: 64, 512, 4096 units of
+// rounding after 2, 3, 4 times.
 template <int Cycle>
 struct FixedPointRule {
   Real least[Cycle] = {};  // 0 before the first increment

@@ -1,5 +1,5 @@
-// When to stop Newton's iteration with a matrix that serves over many iterations and steps, and when
-// the matrix has served.
+// When to stop Newton's iteration with a matrix that serves over many iterations and steps, and
+// when the matrix has served.
 struct SimplifiedNewtonRule {
   FixedPointRule<1> rule;
   Real size = 0;  // of the last increment

@@ -258,6 +258,7 @@ void collect_symbols(const Body& body, std::set<std::string>& names);
 
 // "z.q[i - 1]"
 [[nodiscard]] std::string to_text(const Place& place);
+[[nodiscard]] std::string to_text(const Record& record);
 [[nodiscard]] std::string to_text(const Routine& routine);
 
 }  // namespace hamgen

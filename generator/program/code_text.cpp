@@ -42,8 +42,8 @@ class Printer {
   void operator()(const Copy& copy) { line(fmt::format("{} <- {}", copy.to, copy.from)); }
   void operator()(const Clear& clear) { line(to_text(clear.matrix) + " <- 0"); }
   void operator()(const Put& put) {
-    line(fmt::format("{}[{}][{}] += {}", to_text(put.matrix), to_text(put.row),
-                     to_text(put.column), to_text(put.value)));
+    line(fmt::format("{}[{}][{}] += {}", to_text(put.matrix), to_text(put.row), to_text(put.column),
+                     to_text(put.value)));
   }
   void operator()(const SetFlag& set) {
     line(fmt::format("{} <- {}", to_text(set.flag), set.value));
@@ -169,6 +169,18 @@ class Printer {
 std::string to_text(const Place& place) {
   std::string text = place.object + (place.field.empty() ? "" : "." + place.field);
   for (const AffineIndex& index : place.indices) text += "[" + to_text(index) + "]";
+  return text;
+}
+
+std::string to_text(const Record& record) {
+  std::string text = "record " + record.name + ":\n";
+  for (const Field& field : record.fields) {
+    std::string line = "  " + field.name;
+    for (const int size : field.sizes) line += fmt::format("[{}]", size);
+    if (field.type != "Real") line += ": " + field.type;
+    if (!field.remark.empty()) line += "  (" + field.remark + ")";
+    text += line + "\n";
+  }
   return text;
 }
 

@@ -264,8 +264,10 @@ Routine both_gradients(const Environment& environment) {
     routine.arguments.push_back(
         {.name = name, .sizes = {n}, .changes = name[0] == 'd', .decays = true});
   }
-  routine.body.push_back({Call{.routine = "potential_gradient", .arguments = {{"par"}, {"q"}, {"dq"}}}});
-  routine.body.push_back({Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"p"}, {"dp"}}}});
+  routine.body.push_back(
+      {Call{.routine = "potential_gradient", .arguments = {{"par"}, {"q"}, {"dq"}}}});
+  routine.body.push_back(
+      {Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"p"}, {"dp"}}}});
   return routine;
 }
 

@@ -41,7 +41,8 @@ class LoopMember {
         weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
 
   void add() {
-    const bool solved = arrays_.method == ArrayMethod::newton || arrays_.method == ArrayMethod::fixed_point;
+    const bool solved =
+        arrays_.method == ArrayMethod::newton || arrays_.method == ArrayMethod::fixed_point;
     if (solved || plan_.sweeps) add_coefficients();
     add_start();
     if (arrays_.reduced) code_.routines.push_back(evaluate());
@@ -118,18 +119,19 @@ class LoopMember {
   [[nodiscard]] Expression scale(const Expression& mass) const {
     const Expression h = step_size();
     const auto& [alpha, beta, gamma] = weights_.member;
-    return h * (h * alpha * (Expression(1) - alpha) * mass / (Expression(1) + h * beta * mass) -
-                gamma);
+    return h *
+           (h * alpha * (Expression(1) - alpha) * mass / (Expression(1) + h * beta * mass) - gamma);
   }
 
   // --- what is remembered ---------------------------------------------------------------------
 
   void add_start() {
-    Record start{.name = "Start",
-                 .fields = {},
-                 .remark = {iterates(arrays_) ? "Start values of the implicit equations and what is "
-                                                "remembered of their solution."
-                                              : "Room for the stage."}};
+    Record start{
+        .name = "Start",
+        .fields = {},
+        .remark = {iterates(arrays_) ? "Start values of the implicit equations and what is "
+                                       "remembered of their solution."
+                                     : "Room for the stage."}};
     const auto array = [&](const char* name, int size, const char* remark) {
       start.fields.push_back({.name = name, .sizes = {size}, .remark = remark});
     };
@@ -142,7 +144,8 @@ class LoopMember {
     }
     if (arrays_.reduced) array("momentum", n_, "of zbar");
     array("slope", 2 * n_, "grad H(zbar), dH/dq first");
-    if (iterates(arrays_)) array("lack", unknowns(), "of the equations at zbar, then the increment");
+    if (iterates(arrays_))
+      array("lack", unknowns(), "of the equations at zbar, then the increment");
     if (newton()) {
       start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
       start.fields.push_back({.name = "matrix", .type = "Matrix"});
@@ -297,18 +300,18 @@ class LoopMember {
       if (to_q) put(row, 0, -*to_q);
       if (to_p) put(row, n, *to_p);
     };
-    return kernel_entries(environment_, mechanics_, part, b.take(), {"at"}, {"at", {}, {affine(n_)}},
-                          use);
+    return kernel_entries(environment_, mechanics_, part, b.take(), {"at"},
+                          {"at", {}, {affine(n_)}}, use);
   }
 
   // --- the step --------------------------------------------------------------------------------
 
   Routine solve() {
-    RoutineBuilder b({.name = "solve",
-                      .remark = {fixed_point()
-                                     ? "dz + rest = Z - z for one step from z + carry; rest is small."
-                                     : "dz = Z - z for one step from z + carry."},
-                      .result = {.type = "StepReport", .object = "report"}});
+    RoutineBuilder b(
+        {.name = "solve",
+         .remark = {fixed_point() ? "dz + rest = Z - z for one step from z + carry; rest is small."
+                                  : "dz = Z - z for one step from z + carry."},
+         .result = {.type = "StepReport", .object = "report"}});
     std::vector<Argument>& list = b.routine().arguments;
     list = arguments(true);
     if (!weights_.uses_h()) list.insert(list.end() - 3, {.name = "h"});
@@ -350,8 +353,9 @@ class LoopMember {
     const StageRow row{.large = {step_size() * (kick_first ? -at.by_q : at.by_p)}};
     set_stage(b, each, coordinate(b), z, carry, row, "change");
     b.body().push_back(for_each(elements(), std::move(each)));
-    b.body().push_back({Call{.routine = second,
-                             .arguments = {{"par"}, {"start", "value"}, kick_first ? velocity : force}}});
+    b.body().push_back(
+        {Call{.routine = second,
+              .arguments = {{"par"}, {"start", "value"}, kick_first ? velocity : force}}});
   }
 
   // The paper's Algorithm 1: Z by explicit Euler, then zbar and Z again and again.
@@ -416,7 +420,8 @@ class LoopMember {
                                       .components = 2 * n_,
                                       .body = refined}});
       b.body().back().remark = {
-          "The unknowns are rounded to the side that the iteration came from, at every step alike.  "
+          "The unknowns are rounded to the side that the iteration came from, at every step alike. "
+          " "
           "What",
           "the equations lack there is solved for too."};
     }

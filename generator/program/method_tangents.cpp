@@ -21,7 +21,8 @@ Instruction prepared(Place h) {
                .object = "k"}};
 }
 
-// --- splittings -----------------------------------------------------------------------------------
+// --- splittings
+// -----------------------------------------------------------------------------------
 
 class SplittingTangent {
  public:
@@ -95,7 +96,10 @@ void add_step(Body& body, const StepCode& code, const std::string& h, const std:
     if (name == "carry" || name == "dz" || name == "rest") {
       body.push_back({Copy{"State", name == "dz" ? "moved" : name, "", true}});
     }
-    step.arguments.push_back({name == "h" ? h : name == "z" ? state : name == "dz" ? "moved" : name});
+    step.arguments.push_back({name == "h"    ? h
+                              : name == "z"  ? state
+                              : name == "dz" ? "moved"
+                                             : name});
   }
   body.push_back({std::move(step)});
 }
@@ -108,8 +112,7 @@ Routine splitting_tangent(const Environment& environment, const Program& program
 
 Routine composition_tangent(const Environment& environment, const Program& program,
                             const StepCode& code) {
-  TangentBuilder b(environment, program, "tangent",
-                   {"M = dZ/dz, the product over the substeps."});
+  TangentBuilder b(environment, program, "tangent", {"M = dZ/dz, the product over the substeps."});
   const int size = 2 * b.n();
   std::vector<Expression> lengths;
   for (const Rational& length : code.substeps) lengths.emplace_back(length);
@@ -125,9 +128,9 @@ Routine composition_tangent(const Environment& environment, const Program& progr
                           .arguments = {{"par"}, {"stride"}, {"now"}, {"moved"}, {"factor"}},
                           .must_succeed = true}});
   substep.push_back({Array{"product", {size, size}}});
-  Body term{{Accumulate{b.entry("product").name(),
-                        b.at("factor", "", {affine("row"), affine("l")}) *
-                            b.at("m", "", {affine("l"), affine("column")})}}};
+  Body term{
+      {Accumulate{b.entry("product").name(), b.at("factor", "", {affine("row"), affine("l")}) *
+                                                 b.at("m", "", {affine("l"), affine("column")})}}};
   Body each;
   each.push_back(for_each(counting("l", size), std::move(term)));
   substep.push_back(b.for_entries(std::move(each)));
@@ -141,9 +144,8 @@ Routine composition_tangent(const Environment& environment, const Program& progr
 
 Routine explicit_runge_kutta_tangent(const Environment& environment, const Program& program) {
   const StageTable& table = program.sequence.stages;
-  TangentBuilder b(
-      environment, program, "tangent",
-      {"M = dZ/dz = 1 + h sum b_i K_i with K_i = J H''(Y_i) (1 + h sum a_ij K_j)."});
+  TangentBuilder b(environment, program, "tangent",
+                   {"M = dZ/dz = 1 + h sum b_i K_i with K_i = J H''(Y_i) (1 + h sum a_ij K_j)."});
   const int n = b.n();
   const int size = 2 * n;
   b.body().push_back({Array{"x", {size}}});
@@ -204,17 +206,16 @@ Routine stages_tangent(const Environment& environment, const Program& program,
   b.body().push_back(b.set_unit("unit"));
   Body stage;
   stage.push_back({Array{"product", {size, size}}});
-  b.multiply_hessian(stage,
-                     {{"start", "value", {affine("i", 0, size)}}, false}, "unit", "product");
+  b.multiply_hessian(stage, {{"start", "value", {affine("i", 0, size)}}, false}, "unit", "product");
   const auto second = [&](const AffineIndex& row, const AffineIndex& column) {
     return b.at("second", "", {affine("i"), row, column});
   };
   const Expression scaled = b.at("k", "scaled", {affine("i")});
   Body turn;
-  turn.push_back({Assign{second(affine("row"), affine("column")).name(),
-                         scaled * b.entry("product", n)}});
-  turn.push_back({Assign{second(affine("row", n), affine("column")).name(),
-                         -scaled * b.entry("product")}});
+  turn.push_back(
+      {Assign{second(affine("row"), affine("column")).name(), scaled * b.entry("product", n)}});
+  turn.push_back(
+      {Assign{second(affine("row", n), affine("column")).name(), -scaled * b.entry("product")}});
   stage.push_back(b.for_rows(n, std::move(turn)));
   b.body().push_back(for_each(counting("i", stages), std::move(stage)));
 
@@ -314,22 +315,21 @@ Routine sweeps_tangent(const Environment& environment, const Program& program, s
   b.add_gradient(b.body(), {{"bar"}}, "g");
   b.multiply_hessian(b.body(), {{"bar"}}, "moved", "dg");
   Body sweep;
-  b.for_components(sweep, [&](Body& to, const TangentBuilder::Component& of,
-                              const AffineIndex& index) {
-    const int i = index.factors.empty() ? static_cast<int>(index.constant)
-                                        : (index.constant == 0 ? 0 : n);
-    to.push_back({Assign{of("bar").name(), of("z") + row(i, [&](const AffineIndex& k) {
-                                             return b.at("g", "", {k});
-                                           })}});
-  });
+  b.for_components(
+      sweep, [&](Body& to, const TangentBuilder::Component& of, const AffineIndex& index) {
+        const int i = index.factors.empty() ? static_cast<int>(index.constant)
+                                            : (index.constant == 0 ? 0 : n);
+        to.push_back({Assign{of("bar").name(), of("z") + row(i, [&](const AffineIndex& k) {
+                                                 return b.at("g", "", {k});
+                                               })}});
+      });
   sweep.push_back(b.set_unit("moved"));
   Body columns;
   const auto widen = [&](Body& to, int i, const AffineIndex& index) {
-    to.push_back(
-        {Accumulate{b.at("moved", "", {index, affine("column")}).name(),
-                    row(i, [&](const AffineIndex& k) {
-                      return b.at("dg", "", {k, affine("column")});
-                    })}});
+    to.push_back({Accumulate{b.at("moved", "", {index, affine("column")}).name(),
+                             row(i, [&](const AffineIndex& k) {
+                               return b.at("dg", "", {k, affine("column")});
+                             })}});
   };
   if (b.arrays()) {
     Body rows;
@@ -398,9 +398,10 @@ class LoopMemberTangent {
   }
 
   void add_solved() {
-    b_.routine().remark = {"M = dZ/dz of the step that moves z by dz: a displacement u moves the "
-                           "stage by",
-                           "dzbar = u + h (I/2 + C) J H'' dzbar, and Z by u + h J H'' dzbar."};
+    b_.routine().remark = {
+        "M = dZ/dz of the step that moves z by dz: a displacement u moves the "
+        "stage by",
+        "dzbar = u + h (I/2 + C) J H'' dzbar, and Z by u + h J H'' dzbar."};
     if (code_.record("Coefficients") != nullptr) b_.body().push_back(prepared({"h"}));
     add_stage();
     b_.body().push_back({Matrix{.name = "matrix", .size = code_.matrix->size, .patterned = true}});
@@ -422,7 +423,8 @@ class LoopMemberTangent {
     column.push_back({Array{"y", {2 * n_}}});
     add_curvature(column);
     Body result;
-    result.push_back({Assign{b_.entry("m").name(), element("u", 0) + step_size() * element("y", n_)}});
+    result.push_back(
+        {Assign{b_.entry("m").name(), element("u", 0) + step_size() * element("y", n_)}});
     result.push_back(
         {Assign{b_.entry("m", n_).name(), element("u", n_) - step_size() * element("y", 0)}});
     column.push_back(for_each(counting("row", n_), std::move(result)));

@@ -95,6 +95,5 @@ struct Program {
 [[nodiscard]] Program build_program(const SolvePlan& plan);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);
-[[nodiscard]] std::string to_text(const Program& program);
 
 }  // namespace hamgen

@@ -11,8 +11,11 @@
 namespace hamgen {
 
 // constant, or constant + factor * index.
-[[nodiscard]] inline AffineIndex affine(long constant) { return {.constant = constant, .factors = {}}; }
-[[nodiscard]] inline AffineIndex affine(const std::string& index, long constant = 0, long factor = 1) {
+[[nodiscard]] inline AffineIndex affine(long constant) {
+  return {.constant = constant, .factors = {}};
+}
+[[nodiscard]] inline AffineIndex affine(const std::string& index, long constant = 0,
+                                        long factor = 1) {
   return {.constant = constant, .factors = {{index, factor}}};
 }
 // index = 0..count - 1
@@ -35,7 +38,8 @@ class RoutineBuilder {
   }
   Expression at(const Place& place) {
     const std::string symbol = to_text(place);
-    const auto known = ranks_.try_emplace(symbol, kRankOfVariable + static_cast<int>(ranks_.size()));
+    const auto known =
+        ranks_.try_emplace(symbol, kRankOfVariable + static_cast<int>(ranks_.size()));
     routine_.places.insert_or_assign(symbol, place);
     return Expression::symbol(symbol, known.first->second);
   }

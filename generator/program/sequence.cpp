@@ -75,16 +75,4 @@ std::vector<Expression> lengths_of(const Sequence& sequence, SubstepKind kind) {
   return lengths;
 }
 
-std::string to_text(const Sequence& sequence) {
-  std::string text;
-  for (const Substep& substep : sequence.substeps) {
-    text += fmt::format("{} {}\n", to_text(substep.kind), to_text(substep.length));
-  }
-  for (std::size_t i = 0; i < sequence.stages.coupling.size(); ++i) {
-    text += fmt::format("coupling {}: {}\n", i + 1, joined(sequence.stages.coupling[i]));
-  }
-  if (!sequence.stages.weight.empty()) text += "weight: " + joined(sequence.stages.weight) + "\n";
-  return text;
-}
-
 }  // namespace hamgen

@@ -32,6 +32,5 @@ struct Sequence {
 
 [[nodiscard]] Sequence sequence_of(const Scheme& scheme);
 [[nodiscard]] std::vector<Expression> lengths_of(const Sequence& sequence, SubstepKind kind);
-[[nodiscard]] std::string to_text(const Sequence& sequence);
 
 }  // namespace hamgen

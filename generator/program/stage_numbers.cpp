@@ -102,7 +102,8 @@ class StageNumbers {
       }
     }
     b_.body()[remark].remark = {
-        "The step is symplectic because coupling[i][j] + coupling[j][i] = 1.  Written like this the",
+        "The step is symplectic because coupling[i][j] + coupling[j][i] = 1.  Written like this "
+        "the",
         "sum is 1 exactly: rounded coefficients too give a symplectic step, and no drift in the",
         "energy."};
   }
@@ -121,16 +122,15 @@ class StageNumbers {
       if (!last) half = b_.let(b_.body(), fmt::format("half({})", i + 1), half - scaled);
     }
     if (stages_ % 2 == 1) {
-      b_.body().push_back({Assign{b_.at("k", "scaled", {affine(stages_ / 2)}).name(),
-                                  Expression(2) * half}});
+      b_.body().push_back(
+          {Assign{b_.at("k", "scaled", {affine(stages_ / 2)}).name(), Expression(2) * half}});
     }
     b_.body()[remark].remark = {
         "h b_i, the same from both ends, with the sum h: the middle takes what rounding lost."};
   }
 
   [[nodiscard]] Rational value(int i, int j) const {
-    return numeric_value(
-        table_.coupling[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    return numeric_value(table_.coupling[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   }
   Expression entry(const char* table, std::pair<int, int> at) {
     return b_.at("k", table, {affine(at.first), affine(at.second)});

@@ -122,10 +122,9 @@ class StageRoutines {
                       .arguments = with_start(false)});
     const AffineIndex first = affine("i", 0, dimension_);
     Body stage;
-    stage.push_back({Call{.routine = "vector_field",
-                          .arguments = {{"par"},
-                                        {"start", "value", {first}},
-                                        {"start", "slope", {first}}}}});
+    stage.push_back(
+        {Call{.routine = "vector_field",
+              .arguments = {{"par"}, {"start", "value", {first}}, {"start", "slope", {first}}}}});
     const Expression slope = of_start(b, "slope", row());
     Body scale{{Assign{slope.name(), b.at("k", "scaled", {affine("i")}) * slope}}};
     stage.push_back(for_each(all_components(), std::move(scale)));
@@ -150,21 +149,20 @@ class StageRoutines {
     b.body().push_back({Array{"mean", {dimension_}}});
     Expression sum(0);
     for (int m = 0; m < stages_; ++m) sum += of_start(b, "value", row_of(m));
-    Body mean{{Assign{b.at("mean", "", {affine("j")}).name(),
-                      sum * Expression(Rational(1, stages_))}}};
+    Body mean{
+        {Assign{b.at("mean", "", {affine("j")}).name(), sum * Expression(Rational(1, stages_))}}};
     b.body().push_back(for_each(all_components(), std::move(mean)));
     b.body().push_back({Array{"values", {dimension_, dimension_}}});
-    b.body().push_back(
-        {Call{.routine = "hessian", .arguments = {{"par"}, {"mean"}, {"values"}}}});
+    b.body().push_back({Call{.routine = "hessian", .arguments = {{"par"}, {"mean"}, {"values"}}}});
     const Place matrix{"start", "matrix"};
     b.body().push_back({Clear{matrix}});
     Body one{{Put{matrix, affine("j"), affine("j"), Expression(1)}}};
     b.body().push_back(for_each(counting("j", unknowns()), std::move(one)));
     // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
     Body entries;
-    const Expression weight =
-        b.let(entries, "weight",
-              b.at("k", "coupling", {affine("i"), affine("m")}) * b.at("k", "scaled", {affine("m")}));
+    const Expression weight = b.let(
+        entries, "weight",
+        b.at("k", "coupling", {affine("i"), affine("m")}) * b.at("k", "scaled", {affine("m")}));
     const AffineIndex column{0, {{"m", dimension_}, {"c", 1}}};
     Body each;
     each.push_back({Put{matrix,
@@ -185,14 +183,13 @@ class StageRoutines {
   }
 
   [[nodiscard]] IterateArray iteration(RoutineBuilder& b, Rule rule, Body body) const {
-    IterateArray iterate{
-        .rule = rule,
-        .name = rule == Rule::fixed_point ? "rule" : "newton",
-        .ranges = {all_stages(), all_components()},
-        .unknowns = {{.value = of_start(b, "value", row()).name(),
-                      .increment = of_start(b, "lack", row()).name(),
-                      .beside = of_start(b, "state", affine("j"))}},
-        .body = std::move(body)};
+    IterateArray iterate{.rule = rule,
+                         .name = rule == Rule::fixed_point ? "rule" : "newton",
+                         .ranges = {all_stages(), all_components()},
+                         .unknowns = {{.value = of_start(b, "value", row()).name(),
+                                       .increment = of_start(b, "lack", row()).name(),
+                                       .beside = of_start(b, "state", affine("j"))}},
+                         .body = std::move(body)};
     if (rule == Rule::fixed_point) return iterate;
     iterate.factorised = Place{"start", "factorised"};
     iterate.residual = b.at("start", "residual").name();
@@ -259,8 +256,7 @@ class StageRoutines {
     b.body().push_back({SetFlag{known, false}});
   }
   [[nodiscard]] Body at_state(RoutineBuilder& b) const {
-    Body each{
-        {Assign{of_start(b, "value", row()).name(), of_start(b, "state", affine("j"))}}};
+    Body each{{Assign{of_start(b, "value", row()).name(), of_start(b, "state", affine("j"))}}};
     Body all;
     all.push_back(for_all(std::move(each)));
     return all;
@@ -286,12 +282,13 @@ class StageRoutines {
         add_newton(b);
         break;
       case StageSolver::both:
-        b.body().push_back({Alternate{.first = call("fixed_point", true),
-                                      .second = call("newton", true),
-                                      .patience = {"start", "patience"},
-                                      .steps = 32,
-                                      .between = at_state(b)},
-                            {"Newton where the fixed point contracts slowly, and then for 32 steps."}});
+        b.body().push_back(
+            {Alternate{.first = call("fixed_point", true),
+                       .second = call("newton", true),
+                       .patience = {"start", "patience"},
+                       .steps = 32,
+                       .between = at_state(b)},
+             {"Newton where the fixed point contracts slowly, and then for 32 steps."}});
         break;
     }
     Body again{{call("evaluate")}};

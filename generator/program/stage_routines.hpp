@@ -5,7 +5,6 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
-#include "generator/program/environment.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/step_code.hpp"

@@ -153,7 +153,8 @@ void add_tangent(StepCode& code, const Environment& environment, const Program& 
   const Method& method = plan.equations.scheme.method;
   const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
   if (plan.arrays) add(curvature_routine(environment, plan.equations.mechanics));
-  if (std::holds_alternative<Splitting>(method)) return add(splitting_tangent(environment, program));
+  if (std::holds_alternative<Splitting>(method))
+    return add(splitting_tangent(environment, program));
   if (std::holds_alternative<RungeKutta>(method)) {
     return add(plan.stage_solver ? stages_tangent(environment, program, code)
                                  : explicit_runge_kutta_tangent(environment, program));
@@ -281,6 +282,22 @@ StepCode step_code(const Program& program) {
   if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);
   return code;
+}
+
+std::string to_text(const StepCode& code) {
+  std::string text;
+  for (const Record& record : code.records) text += to_text(record);
+  std::set<std::string> wanted;
+  for (const char* name : {"energy", "invariants", "prepare", "solve", "tangent"}) {
+    wanted.merge(callees(code, name));
+  }
+  for (const Routine& routine : code.routines) {
+    if (wanted.contains(routine.name)) text += to_text(routine);
+  }
+  if (code.substeps.size() < 2) return text;
+  text += "substeps of h times:\n";
+  for (const Rational& length : code.substeps) text += fmt::format("  {}\n", length.get_d());
+  return text;
 }
 
 }  // namespace hamgen

@@ -48,4 +48,7 @@ struct StepCode {
 
 [[nodiscard]] StepCode step_code(const Program& program);
 
+// The records and routines that a step needs: what `hamgen show --stage program` prints.
+[[nodiscard]] std::string to_text(const StepCode& code);
+
 }  // namespace hamgen

@@ -38,8 +38,8 @@ StepWeights::StepWeights(const FamilyParameters& parameters) : member(parameters
   } else {
     shares = true;
     q_takes_more = !member.alpha.is_number() || member.alpha.number() > Rational(1, 2);
-    coefficients.push_back({"share", q_takes_more ? member.alpha : rest,
-                            "alpha or 1 - alpha, the larger one"});
+    coefficients.push_back(
+        {"share", q_takes_more ? member.alpha : rest, "alpha or 1 - alpha, the larger one"});
     const Expression more = h * weight("share");
     q_by_p = q_takes_more ? more : h - more;
     p_by_q = q_takes_more ? h - more : more;

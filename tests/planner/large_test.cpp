@@ -89,16 +89,18 @@ TEST(LargePlan, TheMatrixFollowsThePattern) {
   EXPECT_TRUE(contains(torus, "sparse Newton of size 400")) << torus;
 }
 
-TEST(LargePlan, TheProgramIsItsLoopsAndItsSolve) {
+TEST(LargePlan, TheProgramIsItsRecordsAndRoutines) {
   const SourceText source = model(chain(40));
   const std::string text = show_stage(source, {}, "program");
   for (const char* line :
-       {"for i = 1..39: reads q[i+1], q[i]\n", "once: reads q[1], q[40]\n", "  dH/dp[i] += p[i]\n",
-        "matrix of size 40, bandwidth 1\n", "  bar(q) = q + h*dH/dp/2\n"}) {
+       {"record Start:\n  value[40]  (the coordinates of zbar)\n", "  matrix: Matrix\n",
+        "potential_gradient(par, q, &dq):\n", "  for i = 1..39:\n    q[i+1] = ",
+        "  iterate with Newton's rule:\n    evaluate(par, k, z, carry, start)\n",
+        "    solve start.matrix x = start.lack\n"}) {
     EXPECT_TRUE(contains(text, line)) << line << text;
   }
   const std::string sweeps = show_stage(source, {.solver = "sweeps:4"}, "program");
-  EXPECT_TRUE(contains(sweeps, "then 4 sweeps:\n")) << sweeps;
+  EXPECT_TRUE(contains(sweeps, "  4 sweeps:\n")) << sweeps;
 }
 
 TEST(LargePlan, OtherSolversKeepTheLoops) {

@@ -1,0 +1,440 @@
+// Makes the steps of a machine from the instructions of its routine.
+#pragma once
+
+#include "generator/interpreter/machine_iterations.hpp"
+
+namespace hamgen {
+
+template <class Real>
+class MachineCompiler : public MachineIterations<Real> {
+  using Base = MachineIterations<Real>;
+  using Base::address;
+  using Base::code_;
+  using Base::compiled;
+  using Base::declare;
+  using Base::declare_all;
+  using Base::evaluate;
+  using Base::for_all;
+  using Base::index_address;
+  using Base::index_of;
+  using Base::loop_index;
+  using Base::m_;
+  using Base::matrix_at;
+  using Base::object;
+  using Base::range_of;
+  using Base::routine_;
+  using Base::run_all;
+  using Base::run_contraction;
+  using Base::run_fixed_point;
+  using Base::run_newton;
+  using Base::run_newton_on;
+  using Base::size_of;
+  using Base::sizes_of;
+  using Base::span;
+  using Base::whole;
+  using typename Base::Array2;
+  using typename Base::Compiled;
+  using typename Base::Range;
+  using typename Base::Step;
+  using typename Base::Steps;
+  using typename Base::Whole;
+
+ public:
+  using Others = typename Machine<Real>::Others;
+  MachineCompiler(MachineState<Real>& state, const Routine& routine, const StepCode& code,
+                  const Others& others)
+      : Base(state, routine, code), others_(others) {}
+
+  Steps compile() {
+    m_.object_index["(locals)"] = 0;
+    m_.shapes.push_back({});
+    for (const Argument& argument : routine_.arguments) {
+      declare(argument.name, argument.record.empty() ? nullptr : code_.record(argument.record),
+              argument.sizes);
+    }
+    for (const Argument& argument : routine_.arguments) m_.arguments.push_back(argument.name);
+    declare_all(routine_.body);
+    if (const Record* result = code_.record(routine_.result.type)) {
+      declare(routine_.result.object, result, {});
+    }
+    m_.objects.resize(m_.shapes.size());
+    m_.frame.objects.resize(m_.shapes.size());
+    m_.own.resize(m_.shapes.size());
+    Steps result = steps(routine_.body);
+    m_.frame.indices.resize(m_.loop_index.size());
+    m_.locals.resize(m_.local_index.size() + 1);
+    return result;
+  }
+
+  Step operator()(const Let& let) { return assign(let.symbol, let.value); }
+  Step operator()(const Assign& assign_) { return assign(assign_.symbol, assign_.value); }
+  Step operator()(const Accumulate& sum) {
+    const Address target = address(sum.symbol);
+    return [this, target, value = compiled(sum.value)] {
+      m_.frame.at(target) += value(m_.frame);
+      return true;
+    };
+  }
+  Step operator()(const Collect& sum) {
+    const Address target = address(sum.symbol);
+    const Address lost = address(sum.lost);
+    return [this, target, lost, value = compiled(sum.value)] {
+      NumericsOf<Real>::collect_rest(m_.frame.at(target), m_.frame.at(lost), value(m_.frame));
+      return true;
+    };
+  }
+  Step operator()(const Array& array) {
+    const Address target{index_of(array.name), 0, {}};
+    std::vector<CompiledExpression<Real>> values;
+    for (const Expression& e : array.values) values.push_back(compiled(e));
+    const long size = product(array.sizes);
+    return [this, target, size, values] {
+      Real* numbers = &m_.frame.at(target);
+      for (long i = 0; i < size; ++i) numbers[i] = 0;
+      for (const auto& value : values) *numbers++ = value(m_.frame);
+      return true;
+    };
+  }
+  Step operator()(const Matrix& matrix) {
+    return [this, matrix] {
+      std::unique_ptr<AnyMatrix<Real>>& own = m_.own_matrices[matrix.name];
+      if (own) {
+        own->clear();
+      } else {
+        own = make_matrix<Real>(matrix.size);
+      }
+      m_.matrices[matrix.name] = own.get();
+      return true;
+    };
+  }
+  Step operator()(const Copy& copy) {
+    const int to = index_of(copy.to);
+    if (copy.from.empty()) {
+      const Record* record = code_.record(copy.record);
+      return [this, to, record] {
+        object(to) = make_object<Real>(*record, code_);
+        m_.frame.objects[static_cast<std::size_t>(to)] = object(to).numbers.data();
+        return true;
+      };
+    }
+    const int from = index_of(copy.from);
+    return [this, to, from] {
+      object(to).numbers = object(from).numbers;
+      m_.frame.objects[static_cast<std::size_t>(to)] = object(to).numbers.data();
+      return true;
+    };
+  }
+  Step operator()(const Clear& clear) {
+    return [this, matrix = matrix_at(clear.matrix)] {
+      matrix().clear();
+      return true;
+    };
+  }
+  Step operator()(const Put& put) {
+    const Address row = index_address(put.row);
+    const Address column = index_address(put.column);
+    return [this, matrix = matrix_at(put.matrix), row, column, value = compiled(put.value)] {
+      matrix().put(static_cast<int>(evaluate(row)), static_cast<int>(evaluate(column)),
+                   value(m_.frame));
+      return true;
+    };
+  }
+  Step operator()(const SetFlag& set) {
+    return [this, target = index_of(set.flag.object), set] {
+      object(target).flags.at(set.flag.field) = set.value;
+      return true;
+    };
+  }
+  Step operator()(const For& loop) {
+    const auto index = static_cast<std::size_t>(loop_index(loop.range.index));
+    const Address lower = index_address(loop.range.lower);
+    const Address upper = index_address(loop.range.upper);
+    return [this, index, lower, upper, body = steps(loop.body)] {
+      const long last = evaluate(upper);
+      for (long i = evaluate(lower); i <= last; ++i) {
+        m_.frame.indices[index] = i;
+        if (!run_all(body)) return false;
+      }
+      return true;
+    };
+  }
+  Step operator()(const Scope& scope) {
+    return [this, body = steps(scope.body)] { return run_all(body); };
+  }
+  Step operator()(const If& branch) {
+    return [this, branch, target = index_of(branch.flag.object), body = steps(branch.then)] {
+      return (object(target).flags.at(branch.flag.field) != 0) != branch.set || run_all(body);
+    };
+  }
+  Step operator()(const Call& call) {
+    return [this, run = called(call), call] {
+      const MachineReport<Real> report = run();
+      return report.converged || !call.must_succeed;
+    };
+  }
+  Step operator()(const Alternate& alternate) {
+    const auto first = called(alternate.first);
+    const auto second = called(alternate.second);
+    const int target = index_of(alternate.patience.object);
+    return [this, first, second, target, alternate, between = steps(alternate.between)] {
+      int& patience = object(target).flags.at(alternate.patience.field);
+      if (patience == 0 && !first().converged) {
+        if (!run_all(between)) return false;
+        patience = alternate.steps;
+      }
+      if (patience == 0) return true;
+      --patience;
+      return second().converged;
+    };
+  }
+  Step operator()(const Factorise& factorise) {
+    return [this, matrix = matrix_at(factorise.matrix)] {
+      if (matrix().factorise()) return true;
+      m_.report.iterations += m_.iteration;
+      return false;
+    };
+  }
+  Step operator()(const SolveFactorised& solve) {
+    const Address vector = address(solve.vector);
+    const auto size = static_cast<std::size_t>(product(sizes_of(solve.vector)));
+    return [this, matrix = matrix_at(solve.matrix), vector, size] {
+      matrix().solve({&m_.frame.at(vector), size});
+      return true;
+    };
+  }
+  Step operator()(const Invert& invert) {
+    const Address inverse = address(invert.inverse);
+    return [this, invert, inverse, target = index_of(invert.regular.object)] {
+      AnyMatrix<Real>& matrix = *m_.matrices.at(invert.matrix);
+      const int size = size_of(invert.inverse);
+      const bool regular = matrix.factorise();
+      for (int c = 0; regular && c < size; ++c) {
+        std::vector<Real> column(static_cast<std::size_t>(size));
+        column[static_cast<std::size_t>(c)] = 1;
+        matrix.solve(column);
+        for (int i = 0; i < size; ++i) {
+          (&m_.frame.at(inverse))[i * size + c] = column[static_cast<std::size_t>(i)];
+        }
+      }
+      int& flag = object(target).flags.at(invert.regular.field);
+      flag = regular && flag != 0 ? 1 : 0;
+      return true;
+    };
+  }
+  Step operator()(const Iterate& iterate) {
+    const bool newton = iterate.rule == Rule::newton;
+    std::vector<Unknown> list = iterate.unknowns;
+    // A fixed point moves by the difference of the new value and the old one.
+    for (Unknown& u : list) {
+      if (!newton) u.correction = u.correction - Expression::symbol(u.symbol);
+    }
+    const std::vector<Compiled> unknowns = compiled(list);
+    const int start = index_of("start");
+    const Address memory = address(Place{"start", "value"});
+    const Steps body = steps(iterate.body);
+    return [this, unknowns, start, memory, body, newton, name = iterate.name] {
+      const bool known = object(start).flags.at("known") != 0;
+      Real* kept = &m_.frame.at(memory);
+      for (const Compiled& u : unknowns) {
+        m_.frame.at(u.target) = known ? kept[u.memory] : u.start(m_.frame);
+      }
+      const bool done = newton ? run_newton(*object(start).rules.at(name), unknowns, body)
+                               : run_fixed_point(unknowns, body);
+      if (!done) return false;
+      for (const Compiled& u : unknowns) {
+        kept[u.memory] = m_.frame.at(u.target);
+        if (newton) kept[u.memory] += u.correction(m_.frame);
+      }
+      return true;
+    };
+  }
+  Step operator()(const IterateArray& iterate) {
+    std::vector<Array2> unknowns;
+    for (const UnknownArray& u : iterate.unknowns) {
+      unknowns.push_back({address(u.value), address(u.increment), compiled(u.beside)});
+    }
+    std::vector<Range> ranges;
+    for (const KernelRange& range : iterate.ranges) ranges.push_back(range_of(range));
+    const Address residual = iterate.residual.empty() ? Address{} : address(iterate.residual);
+    const int start = index_of("start");
+    const std::string flag = iterate.factorised ? iterate.factorised->field : "";
+    const Steps body = steps(iterate.body);
+    return [this, unknowns, ranges, residual, start, flag, body, rule = iterate.rule,
+            name = iterate.name] {
+      Object<Real>& memory = object(start);
+      const auto each = [&](const std::function<void(const Array2&)>& use) {
+        for_all(ranges, 0, [&] {
+          for (const Array2& u : unknowns) use(u);
+        });
+      };
+      if (rule == Rule::newton) return run_newton_on(*memory.rules.at(name), each, body);
+      return run_contraction(memory, name, flag, each, body, residual);
+    };
+  }
+  Step operator()(const RefineArray& refine) {
+    const Whole point = whole(refine.point);
+    const Whole lack = whole(refine.lack);
+    const Whole gradient = whole(refine.gradient);
+    const std::string& name = refine.refinement.field;
+    const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
+    const Whole change = whole(Place{refine.refinement.object, name + ".change"});
+    const int target = index_of(refine.refinement.object);
+    return [this, point, lack, gradient, slope, change, target, name, body = steps(refine.body)] {
+      AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
+      for (bool more = true; more;) {
+        if (!run_all(body)) return false;
+        more = refinement(span(point), span(lack), span(gradient));
+      }
+      refinement.get_slope(span(slope));
+      refinement.get_change(span(change));
+      return true;
+    };
+  }
+  Step operator()(const Refine& refine) {
+    std::vector<Unknown> list = refine.unknowns;
+    for (Unknown& u : list) u.correction = u.correction - Expression::symbol(u.symbol);
+    const std::vector<Compiled> unknowns = compiled(list);
+    std::vector<CompiledExpression<Real>> gradient;
+    for (const Expression& e : refine.gradient) gradient.push_back(compiled(e));
+    std::vector<Address> kept;
+    for (const std::string& symbol : refine.kept) kept.push_back(address(symbol));
+    const Address change{index_of(refine.name), 0, {}};
+    return [this, unknowns, gradient, kept, change, body = steps(refine.body)] {
+      const auto refinement = make_refinement<Real>(static_cast<int>(unknowns.size()),
+                                                    static_cast<int>(gradient.size()));
+      std::vector<Real> waiting(kept.size());
+      for (bool more = true; more;) {
+        if (!run_all(body)) return false;
+        std::vector<Real> lack;
+        std::vector<Real> slope;
+        std::vector<Real> point;
+        for (const Compiled& u : unknowns) {
+          lack.push_back(u.correction(m_.frame));
+          point.push_back(m_.frame.at(u.target));
+        }
+        for (const auto& component : gradient) slope.push_back(component(m_.frame));
+        for (std::size_t j = 0; refinement->is_first() && j < kept.size(); ++j) {
+          waiting[j] = m_.frame.at(kept[j]);
+        }
+        more = (*refinement)(point, lack, slope);
+        for (std::size_t j = 0; j < point.size(); ++j) m_.frame.at(unknowns[j].target) = point[j];
+      }
+      for (std::size_t j = 0; j < kept.size(); ++j) m_.frame.at(kept[j]) = waiting[j];
+      refinement->get_change({&m_.frame.at(change), gradient.size()});
+      return true;
+    };
+  }
+  Step operator()(const Sweep& sweep) {
+    const std::vector<Compiled> unknowns = compiled(sweep.unknowns);
+    std::vector<Address> results;
+    for (const std::string& result : sweep.results) results.push_back(address(result));
+    return [this, unknowns, results, body = steps(sweep.body), count = sweep.count] {
+      for (const Compiled& u : unknowns) m_.frame.at(u.target) = u.start(m_.frame);
+      for (int i = 0; i < count; ++i) {
+        if (!run_all(body)) return false;
+        std::vector<Real> next;
+        for (const Compiled& u : unknowns) next.push_back(u.correction(m_.frame));
+        for (std::size_t j = 0; j < next.size(); ++j) m_.frame.at(unknowns[j].target) = next[j];
+      }
+      for (std::size_t j = 0; j < results.size(); ++j) {
+        m_.frame.at(results[j]) = m_.frame.at(unknowns[j].target);
+      }
+      m_.report.iterations = count;
+      return true;
+    };
+  }
+  Step operator()(const Return& end) {
+    if (end.value) {
+      return [this, value = compiled(*end.value)] {
+        m_.report.value = value(m_.frame);
+        return false;
+      };
+    }
+    std::vector<Address> finite;
+    for (const std::string& symbol : end.finite) finite.push_back(address(symbol));
+    std::vector<Range> ranges;
+    for (const KernelRange& range : end.ranges) ranges.push_back(range_of(range));
+    const int target = end.flag ? index_of(end.flag->object) : 0;
+    return [this, end, finite, ranges, target] {
+      Real length = 0;
+      for_all(ranges, 0, [&] {
+        Real sum = 0;
+        for (const Address& place : finite) sum += m_.frame.at(place) * m_.frame.at(place);
+        length += sum;
+      });
+      m_.report.converged = end.success && length <= NumericsOf<Real>::most;
+      if (end.success && !m_.report.converged) m_.report.increment = length;
+      if (end.flag) object(target).flags.at(end.flag->field) = m_.report.converged;
+      return false;
+    };
+  }
+
+ private:
+  // What runs the routine that is called.
+  std::function<MachineReport<Real>()> called(const Call& call) {
+    Machine<Real>* other = others_.at(call.routine).get();
+    const std::vector<Argument>& arguments = code_.routine(call.routine)->arguments;
+    struct Slot {
+      Address place;
+      std::function<AnyMatrix<Real>&()> matrix;
+      bool is_report = false;
+    };
+    std::vector<Slot> slots;
+    bool reports = call.record == "StepReport";
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      Slot slot;
+      if (arguments[i].record == "Matrix") {
+        slot.matrix = matrix_at(call.arguments[i]);
+      } else if (arguments[i].record == "StepReport") {
+        slot.is_report = true;
+        reports = true;
+      } else {
+        slot.place = address(call.arguments[i]);
+      }
+      slots.push_back(std::move(slot));
+    }
+    const int result =
+        call.object.empty() || call.record == "StepReport" ? 0 : index_of(call.object);
+    return [this, other, slots, reports, result] {
+      std::vector<Given<Real>> given;
+      for (const Slot& slot : slots) {
+        if (slot.matrix) {
+          given.push_back({nullptr, nullptr, &slot.matrix()});
+        } else if (slot.is_report) {
+          given.push_back({});
+        } else {
+          given.push_back(
+              {&m_.frame.at(slot.place), m_.objects[static_cast<std::size_t>(slot.place.object)]});
+        }
+      }
+      const MachineReport<Real> report = other->run(given);
+      if (reports) m_.report.iterations += report.iterations;
+      if (reports) m_.report.increment = report.increment;
+      if (result > 0) {
+        object(result).numbers = other->result().numbers;
+        object(result).flags = other->result().flags;
+        m_.frame.objects[static_cast<std::size_t>(result)] = object(result).numbers.data();
+      }
+      return report;
+    };
+  }
+  Step assign(const std::string& symbol, const Expression& value) {
+    const CompiledExpression<Real> compiled_value = compiled(value);
+    return [this, target = address(symbol), compiled_value] {
+      m_.frame.at(target) = compiled_value(m_.frame);
+      return true;
+    };
+  }
+
+  Steps steps(const Body& body) {
+    Steps result;
+    for (const Instruction& instruction : body) {
+      result.push_back(std::visit(*this, instruction.value));
+    }
+    return result;
+  }
+
+  const Others& others_;
+};
+
+}  // namespace hamgen

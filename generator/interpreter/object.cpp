@@ -1,0 +1,102 @@
+#include "generator/interpreter/object.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/interpreter/compiled_expression.hpp"
+
+namespace hamgen {
+
+long product(const std::vector<int>& sizes) {
+  long result = 1;
+  for (const int size : sizes) result *= size;
+  return result;
+}
+
+namespace {
+
+// The numbers in "FixedPointRule<12, 2>".
+std::vector<int> template_arguments(const std::string& type) {
+  std::vector<int> values;
+  for (std::size_t i = type.find('<'); i < type.size(); ++i) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(type[i])) != 0;
+    if (!digit) continue;
+    std::size_t length = 0;
+    values.push_back(std::stoi(type.substr(i), &length));
+    i += length;
+  }
+  return values;
+}
+
+template <class Real>
+void add_block(Object<Real>& object, const Field& field, const StepCode& code) {
+  const std::vector<int> sizes = template_arguments(field.type);
+  if (field.type == "Matrix") {
+    object.matrices[field.name] = make_matrix<Real>(code.matrix->size);
+  } else if (field.type.starts_with("NewtonRule")) {
+    object.rules[field.name] = make_newton_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("FixedPointRule")) {
+    object.contractions[field.name] = make_fixed_point_rule<Real>();
+  } else if (field.type.starts_with("ImpatientRule")) {
+    object.contractions[field.name] = make_impatient_rule<Real>();
+  } else if (field.type.starts_with("SimplifiedNewtonRule")) {
+    object.simplified[field.name] = make_simplified_newton_rule<Real>();
+  } else if (field.type.starts_with("Refinement")) {
+    object.refinements[field.name] = make_refinement<Real>(sizes.at(0), sizes.at(1));
+  } else {
+    internal_error("no block " + field.type);
+  }
+}
+
+}  // namespace
+
+std::vector<Field> numeric_fields(const Record& record) {
+  std::vector<Field> fields;
+  for (const Field& field : record.fields) {
+    if (field.type == "Real") fields.push_back(field);
+    if (!field.type.starts_with("Refinement")) continue;
+    for (const char* part : {".slope", ".change"}) {
+      fields.push_back(
+          {.name = field.name + part, .sizes = {template_arguments(field.type).at(1)}});
+    }
+  }
+  return fields;
+}
+
+long offset_of(const Record& record, const std::string& field) {
+  long offset = 0;
+  for (const Field& candidate : numeric_fields(record)) {
+    if (candidate.name == field) return offset;
+    offset += product(candidate.sizes);
+  }
+  if (std::ranges::find(record.fields, field, &Field::name) != record.fields.end()) return 0;
+  internal_error("no field " + field + " in " + record.name);
+}
+
+template <class Real>
+Object<Real> make_object(const Record& record, const StepCode& code) {
+  Object<Real> object;
+  for (const Field& field : numeric_fields(record)) {
+    const auto size = static_cast<std::size_t>(product(field.sizes));
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool given = i < field.values.size();
+      object.numbers.push_back(given ? nearest_number<Real>(field.values[i]) : Real(0));
+    }
+  }
+  for (const Field& field : record.fields) {
+    if (field.type == "bool" || field.type == "int") {
+      object.flags[field.name] = !field.values.empty() && field.values[0] != 0 ? 1 : 0;
+    } else if (field.type != "Real") {
+      add_block(object, field, code);
+    }
+  }
+  return object;
+}
+
+template Object<float> make_object(const Record&, const StepCode&);
+template Object<double> make_object(const Record&, const StepCode&);
+template Object<long double> make_object(const Record&, const StepCode&);
+template Object<numerics_of_quad::Real> make_object(const Record&, const StepCode&);
+
+}  // namespace hamgen

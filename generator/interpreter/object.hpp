@@ -1,0 +1,36 @@
+// Records at run time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "generator/interpreter/numerics.hpp"
+#include "generator/program/step_code.hpp"
+
+namespace hamgen {
+
+// A record at run time: its numbers, field after field, and what else is in it.
+template <class Real>
+struct Object {
+  std::vector<Real> numbers;
+  std::map<std::string, int> flags;
+  std::map<std::string, std::unique_ptr<AnyNewtonRule<Real>>> rules;
+  std::map<std::string, std::unique_ptr<AnyFixedPointRule<Real>>> contractions;
+  std::map<std::string, std::unique_ptr<AnySimplifiedNewtonRule<Real>>> simplified;
+  std::map<std::string, std::unique_ptr<AnyRefinement<Real>>> refinements;
+  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices;
+};
+// With the values its fields begin with.  A field "Matrix" has the size of the code's.
+template <class Real>
+[[nodiscard]] Object<Real> make_object(const Record& record, const StepCode& code);
+// The fields that are numbers, a Refinement's slope and change among them.
+[[nodiscard]] std::vector<Field> numeric_fields(const Record& record);
+// Where the numbers of a field begin.
+[[nodiscard]] long offset_of(const Record& record, const std::string& field);
+
+// The product of the sizes: 1 of a number.
+[[nodiscard]] long product(const std::vector<int>& sizes);
+
+}  // namespace hamgen
