@@ -225,11 +225,13 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(program)};
 }
 
-Proof prove(const Stages& stages) {
+Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
+  Surroundings around = surroundings_of(stages.model);
+  if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
   const Expression hamiltonian = stages.mechanics.keeps_sums()
                                      ? written_out_hamiltonian(stages.model)
                                      : stages.mechanics.energy;
-  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian);
+  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
 }
 
 // What the first lines of a header say of the step.
@@ -340,8 +342,13 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
                        to_double(scene.h.value()));
 }
 
-Proof verify_step(const SourceText& source, const Request& request) {
-  return prove(run_stages(source, request));
+Proof verify_step(const SourceText& source, const Request& request,
+                  const std::optional<SceneValues>& scene) {
+  return prove(run_stages(source, request), scene);
+}
+
+std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
+  return corners(written_out_hamiltonian(read_request(source, request)));
 }
 
 StepCode make_step_code(const SourceText& source, const Request& request) {

@@ -119,6 +119,57 @@ TEST(Verify, MeasuresTheDefectOfAnInvariantThatIsRefuted) {
   EXPECT_GT(find(rows, "L measured").at("defect").get<double>(), 1e-6);
 }
 
+// It says what it measures only of steps that were taken.
+TEST(Verify, MeasuresNothingWhereNoStepIsTaken) {
+  const Json rows = findings((models / "pendulum.ham").string(),
+                             {"--measure", "--solver", "fixed-point", "--h", "1000"});
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "not decided");
+  EXPECT_EQ(find(rows, "tangent map of the step").at("verdict"), "missing");
+  EXPECT_EQ(find(rows, "reversal").at("verdict"), "missing");
+}
+
+TEST(Verify, EndsWithFiveWhereAMeasurementRefutes) {
+  const std::string pendulum = (models / "pendulum.ham").string();
+  // Not symplectic, which this list does not ask for; and yet it shows.
+  const Json rows =
+      findings(pendulum, {"--scheme", "rk4", "--require", "order:4", "--measure", "--h", "1/2"}, 5);
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "refuted");
+  EXPECT_EQ(hamgen({"verify", pendulum, "--scheme", "rk4", "--require", "order:4"}).status, 0);
+  EXPECT_EQ(hamgen({"verify", pendulum, "--scheme", "rk4"}).status, 5);
+}
+
+TEST(Verify, TakesTheOptionsOfARun) {
+  const std::string pendulum = (models / "pendulum.ham").string();
+  // w^2 = eps cos(q): 2 there, by the run's own parameter and state.
+  const Json rows = findings(pendulum, {"--set", "eps=2", "--initial", "q=0,p=0", "--h", "1/2"});
+  EXPECT_NEAR(find(rows, "linear stability").at("frequencies").at(0).get<double>(), std::sqrt(2.0),
+              1e-12);
+  EXPECT_EQ(hamgen({"verify", pendulum, "--initial", "z=0"}).status, 2);
+}
+
+// A model without a scene is measured along 1000 steps from the state that is given.
+TEST(Verify, NeedsNoSceneToMeasure) {
+  const Scratch scratch;
+  scratch.write("spring.ham",
+                "coordinate q\nmomentum p\nH = p^2/2 + q^2/2\ninvariant E = (p^2 + q^2)/2\n");
+  const std::string model = scratch.path("spring.ham");
+  const Result without = hamgen({"verify", model, "--measure"});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_TRUE(contains(without.err, "--initial q=0.1,p=0 --h 0.01\n")) << without.err;
+  const Json rows = findings(model, {"--measure", "--initial", "q=0.1,p=0", "--h", "0.01"});
+  EXPECT_EQ(find(rows, "E measured").at("steps"), 1000);
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "tested");
+}
+
+TEST(Check, SaysWhereHHasACorner) {
+  const Scratch scratch;
+  scratch.write("ball.ham", "coordinate q\nmomentum p\nH = p^2/2 + (abs(q) - q)^2/8\n");
+  const Result result = hamgen({"check", scratch.path("ball.ham")});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(contains(result.err, "ball.ham:3:5: warning: H has a corner where q = 0, by abs(q)"))
+      << result.err;
+}
+
 TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
   const Scratch scratch;
   const Result result =
