@@ -1,5 +1,6 @@
 // hamgen verify: what algebra proves of the step, one line a property.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,12 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
   const auto number = [](const std::optional<double>& x) {
     return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
   };
+  auto intervals = nlohmann::ordered_json::array();
+  for (const auto& [from, to] : found.bounded_steps) {
+    const bool ends = std::isfinite(to);
+    intervals.push_back(
+        {from, ends ? nlohmann::ordered_json(to) : nlohmann::ordered_json(nullptr)});
+  }
   nlohmann::ordered_json resonant = nlohmann::ordered_json::object();
   for (const auto& [m, h] : found.resonant_h) resonant[std::to_string(m)] = h;
   return {{"property", "linear stability"},
@@ -44,6 +51,7 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
           {"margin", number(found.margin)},
           {"bounded_for_every_h", found.bounded_for_every_h},
           {"largest_h", number(found.largest_h)},
+          {"bounded_steps", intervals},
           {"angles", found.angles},
           {"resonant_h", resonant},
           {"iteration_radius", number(found.iteration_radius)}};

@@ -339,7 +339,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
   add(element_names(model.momenta), scene.p);
   add(element_names(model.parameters), scene.parameters);
   return linear_points(mechanics, choose_scheme(model, mechanics, request), point,
-                       to_double(scene.h.value()));
+                       scene.h.value());
 }
 
 Proof verify_step(const SourceText& source, const Request& request,

@@ -74,7 +74,7 @@ TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
   const std::string model = (models / "harmonic.ham").string();
   const Json euler =
       find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "1/2"}), "linear stability");
-  EXPECT_EQ(euler.at("verdict"), "tested");
+  EXPECT_EQ(euler.at("verdict"), "proved");
   EXPECT_EQ(euler.at("frequencies"), Json::array({1.0}));
   EXPECT_NEAR(euler.at("largest_h").get<double>(), 2.0, 1e-9);
   // cos theta = 1 - h^2 w^2/2.
@@ -84,6 +84,10 @@ TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
       find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "2.5"}), "linear stability");
   EXPECT_EQ(beyond.at("verdict"), "refuted");
   EXPECT_LT(beyond.at("margin").get<double>(), 0.0);
+  // What is unbounded carries no bound.
+  EXPECT_TRUE(beyond.at("largest_h").is_null());
+  EXPECT_TRUE(beyond.at("bounded_steps").empty());
+  EXPECT_EQ(euler.at("bounded_steps"), Json::array({Json::array({0.0, 2.0})}));
   const Json midpoint = find(findings(model, {"--h", "5"}), "linear stability");
   EXPECT_EQ(midpoint.at("verdict"), "proved");
   EXPECT_TRUE(midpoint.at("bounded_for_every_h"));
