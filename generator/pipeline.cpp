@@ -338,8 +338,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
   add(element_names(model.coordinates), scene.q);
   add(element_names(model.momenta), scene.p);
   add(element_names(model.parameters), scene.parameters);
-  return linear_points(mechanics, choose_scheme(model, mechanics, request), point,
-                       scene.h.value());
+  return linear_points(mechanics, choose_scheme(model, mechanics, request), point, scene.h.value());
 }
 
 Proof verify_step(const SourceText& source, const Request& request,
@@ -348,7 +347,7 @@ Proof verify_step(const SourceText& source, const Request& request,
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
-  return corners(written_out_hamiltonian(read_request(source, request)));
+  return corners_of_hamiltonian(derive(read_request(source, request)));
 }
 
 StepCode make_step_code(const SourceText& source, const Request& request) {

@@ -20,9 +20,9 @@ RationalPolynomial unfolded(const RationalPolynomial& f) {
   return result;
 }
 
-std::size_t nullity(const RationalMatrix& a) { return a.size - rank(a); }
+std::size_t nullity(const ExactMatrix& a) { return a.size - rank(a); }
 
-bool has_eigenvectors(const RationalMatrix& m, const RationalPolynomial& factor, int multiplicity) {
+bool has_eigenvectors(const ExactMatrix& m, const RationalPolynomial& factor, int multiplicity) {
   const auto expected = static_cast<std::size_t>(2 * multiplicity * degree(factor));
   return nullity(value_at(unfolded(factor), m)) == expected;
 }
@@ -39,7 +39,7 @@ std::vector<RationalPolynomial> symmetric_powers(std::size_t n) {
   return result;
 }
 
-Powers powers_of(const RationalMatrix& m, int free_motions, bool exact) {
+Powers powers_of(const ExactMatrix& m, int free_motions, bool exact) {
   const std::size_t n = m.size / 2;
   const RationalPolynomial p = characteristic_polynomial(m);
   const std::vector<RationalPolynomial> powers = symmetric_powers(n);

@@ -1,7 +1,7 @@
 // Do the powers of a symplectic matrix stay bounded?
 #pragma once
 
-#include "generator/verify/rational_matrix.hpp"
+#include "generator/verify/exact_matrix.hpp"
 
 namespace hamgen {
 
@@ -14,7 +14,7 @@ enum class Powers { bounded, growing, resonant, undecided };
 // roots are between -2 and 2 (Sturm), and the ranks that tell multiple eigenvalues with
 // eigenvectors from Jordan blocks.  Free motions are left out: each is a double eigenvalue 1 with
 // one eigenvector. A matrix that is not `exact` is palindromic to its digits only.
-[[nodiscard]] Powers powers_of(const RationalMatrix& m, int free_motions, bool exact);
+[[nodiscard]] Powers powers_of(const ExactMatrix& m, int free_motions, bool exact);
 
 // Of x^n q(x + 1/x), palindromic with coefficients c_0 = c_2n, ...: the factor of D_k(s) in q is
 // c_(n+k), D_0 = 1, D_k(x + 1/x) = x^k + x^-k.  D_0, ..., D_n as polynomials.

@@ -82,10 +82,15 @@ class Search {
       if (is_even(m) && !is_even(power) && has_symbols(inner)) add(e, to_text(inner) + " = 0");
     };
     const auto of_factor = [&](const Expression& factor) {
-      if (factor.kind() == Kind::power && factor.operands()[1].is_number())
-        test(factor.operands()[0], factor.operands()[1].number());
-      if (factor.kind() != Kind::sum) return;
-      for (const auto& [inner, m] : even_factors(factor)) test(inner, Rational(m));
+      Expression inside = factor;
+      Rational times = 1;
+      if (factor.kind() == Kind::power && factor.operands()[1].is_number()) {
+        inside = factor.operands()[0];
+        times = factor.operands()[1].number();
+        test(inside, times);
+      }
+      if (inside.kind() != Kind::sum) return;
+      for (const auto& [inner, m] : even_factors(inside)) test(inner, times * m);
     };
     if (base.kind() == Kind::product) {
       for (const Expression& factor : base.operands()) of_factor(factor);
@@ -105,6 +110,13 @@ std::vector<Corner> corners(const std::vector<Expression>& expressions) {
   Search search(found);
   for (const Expression& e : expressions) search.look(e);
   return found;
+}
+
+std::vector<Corner> corners_of_hamiltonian(const Mechanics& mechanics) {
+  if (!mechanics.keeps_sums()) return corners(mechanics.energy);
+  std::vector<Expression> summands;
+  for (const Kernel& kernel : mechanics.kernels) summands.push_back(kernel.value);
+  return corners(summands);
 }
 
 std::vector<Corner> corners(const Expression& e) { return corners(std::vector{e}); }

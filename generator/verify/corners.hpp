@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
+#include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen {
 
@@ -18,6 +19,8 @@ struct Corner {
 // is no square ends the domain where the base vanishes, and is no corner.
 [[nodiscard]] std::vector<Corner> corners(const Expression& e);
 [[nodiscard]] std::vector<Corner> corners(const std::vector<Expression>& expressions);
+// Of H; where sums stay loops, of their summands.
+[[nodiscard]] std::vector<Corner> corners_of_hamiltonian(const Mechanics& mechanics);
 
 // "off the corners of abs(q) and sqrt(p^2)"; empty if there are none.
 [[nodiscard]] std::string off_the(const std::vector<Corner>& corners);

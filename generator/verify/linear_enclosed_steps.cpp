@@ -83,7 +83,7 @@ enum class Cell { bounded, unbounded, open };
 class EnclosedStep {
  public:
   EnclosedStep(const Scheme& scheme, const std::map<std::string, Rational>& values,
-               const RationalMatrix& s, int free_motions)
+               const ExactMatrix& s, int free_motions)
       : member_(scheme.member()), free_motions_(free_motions) {
     for (const auto& [name, value] : values) symbols_[name] = enclosing(value);
     if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
@@ -92,7 +92,7 @@ class EnclosedStep {
     } else {
       substeps_.emplace_back(1.0);
     }
-    const RationalMatrix a = linear_flow(s);
+    const ExactMatrix a = linear_flow(s);
     flow_ = interval_identity(s.size);
     for (std::size_t i = 0; i < s.size; ++i) {
       for (std::size_t j = 0; j < s.size; ++j) flow_[i][j] = enclosing(a(i, j));
@@ -218,7 +218,7 @@ class EnclosedStep {
 
 std::optional<StableSteps> enclosed_steps(const Scheme& scheme,
                                           const std::map<std::string, Rational>& values,
-                                          const RationalMatrix& s, int free_motions, double w) {
+                                          const ExactMatrix& s, int free_motions, double w) {
   if (!scheme.has_member() || scheme.member().generating_order > 0) return std::nullopt;
   const EnclosedStep step(scheme, values, s, free_motions);
   StableSteps steps{.looked_to = kLastAngle / w, .exact = false};

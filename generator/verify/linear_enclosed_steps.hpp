@@ -12,7 +12,7 @@ namespace hamgen {
 // is.  The search ends where an h remains open; empty if that is at once, as with frequencies that
 // are equal for every h.
 [[nodiscard]] std::optional<StableSteps> enclosed_steps(
-    const Scheme& scheme, const std::map<std::string, Rational>& values, const RationalMatrix& s,
+    const Scheme& scheme, const std::map<std::string, Rational>& values, const ExactMatrix& s,
     int free_motions, double w);
 
 }  // namespace hamgen

@@ -113,9 +113,9 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
 }
 
 // det(x - A) = p(x^2): the factors of p, each with its multiplicity m and its negative roots -w^2.
-LinearSpectrum exact_spectrum(const RationalMatrix& s) {
-  const RationalMatrix a = linear_flow(s);
-  const RationalMatrix square = a * a;
+LinearSpectrum exact_spectrum(const ExactMatrix& s) {
+  const ExactMatrix a = linear_flow(s);
+  const ExactMatrix square = a * a;
   const RationalPolynomial of_a = characteristic_polynomial(a);
   RationalPolynomial p;
   for (std::size_t k = 0; k < of_a.size(); k += 2) p.push_back(of_a[k]);

@@ -7,7 +7,7 @@ namespace hamgen {
 namespace {
 
 // S with every entry changed by some units of `digits`, symmetrically.
-RationalMatrix perturbed(RationalMatrix s, const Rational& digits, std::size_t number) {
+ExactMatrix perturbed(ExactMatrix s, const Rational& digits, std::size_t number) {
   for (std::size_t i = 0; i < s.size; ++i) {
     for (std::size_t j = i; j < s.size; ++j) {
       const auto units = static_cast<long>((3 * i + 5 * j + 7 * number * (i + j + 1)) % 11) - 5;
@@ -18,7 +18,7 @@ RationalMatrix perturbed(RationalMatrix s, const Rational& digits, std::size_t n
   return s;
 }
 
-RationalMatrix rounded(RationalMatrix m) {
+ExactMatrix rounded(ExactMatrix m) {
   constexpr unsigned long bits = 256;
   for (Rational& x : m.entries) {
     Integer scaled = x.get_num() << bits;
@@ -30,13 +30,13 @@ RationalMatrix rounded(RationalMatrix m) {
 }
 
 // Of these degrees of freedom alone.
-LinearPart restricted(const Scheme& scheme, const RationalMatrix& s,
+LinearPart restricted(const Scheme& scheme, const ExactMatrix& s,
                       const std::vector<std::size_t>& members) {
   const std::size_t n = s.size / 2;
   const std::size_t m = members.size();
   std::vector<std::size_t> places = members;
   for (const std::size_t i : members) places.push_back(n + i);
-  LinearPart part{scheme, RationalMatrix::zero(2 * m)};
+  LinearPart part{scheme, ExactMatrix::zero(2 * m)};
   SparseMatrix c;
   for (std::size_t i = 0; i < 2 * m; ++i) {
     for (std::size_t j = 0; j < 2 * m; ++j) {
@@ -62,7 +62,7 @@ LinearPart restricted(const Scheme& scheme, const RationalMatrix& s,
 
 }  // namespace
 
-std::vector<LinearPart> parts_of(const Scheme& scheme, const RationalMatrix& s) {
+std::vector<LinearPart> parts_of(const Scheme& scheme, const ExactMatrix& s) {
   const std::size_t n = s.size / 2;
   std::vector<std::size_t> group(n);
   for (std::size_t i = 0; i < n; ++i) group[i] = i;
@@ -95,10 +95,10 @@ std::vector<LinearPart> parts_of(const Scheme& scheme, const RationalMatrix& s) 
   return parts;
 }
 
-Powers powers_at(const RationalStep& step, const Rational& h, const RationalMatrix& s,
+Powers powers_at(const RationalStep& step, const Rational& h, const ExactMatrix& s,
                  int free_motions, bool exact, const char* digits) {
-  const auto at = [&](const RationalMatrix& near) {
-    RationalMatrix m = step.matrix(h, near);
+  const auto at = [&](const ExactMatrix& near) {
+    ExactMatrix m = step.matrix(h, near);
     if (m.size == 0) return Powers::undecided;
     // What is rounded already need not be carried with all digits.
     if (!exact) m = rounded(std::move(m));

@@ -65,7 +65,7 @@ std::string closed_form(const Scheme& scheme, const LinearStep& step, const Matr
                      square * (alpha - 0.5) * (alpha - 0.5));
 }
 
-RationalMatrix rational(const Matrix2d& s) {
+ExactMatrix rational(const Matrix2d& s) {
   return {2,
           {from_double(s(0, 0)), from_double(s(0, 1)), from_double(s(1, 0)), from_double(s(1, 1))}};
 }
@@ -75,7 +75,7 @@ struct Question {
   const Scheme& scheme;
   const Scheme& scheme_of_one;
   const std::map<std::string, Rational>& values;
-  RationalMatrix s;
+  ExactMatrix s;
   bool exact = false;  // S is no rounded number
   Rational h;
 };
@@ -89,7 +89,7 @@ StableSteps every_h() { return {.intervals = {{0.0, std::numeric_limits<double>:
 // In rationals if that is possible, else by intervals of h.
 std::optional<StableSteps> steps_of_part(const Scheme& scheme,
                                          const std::map<std::string, Rational>& values,
-                                         const RationalMatrix& s, const LinearSpectrum& spectrum) {
+                                         const ExactMatrix& s, const LinearSpectrum& spectrum) {
   if (auto found = stable_steps(RationalStep(scheme, values), s, spectrum.free_motions))
     return found;
   if (spectrum.growing > 0) return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<StableSteps> steps_of_part(const Scheme& scheme,
 // One stability function over the frequencies, or one for each plane.
 std::optional<StableSteps> steps_of_modes(const Question& question, const Modes& modes) {
   const RationalStep step(question.scheme_of_one, question.values);
-  const RationalMatrix unit = RationalMatrix::identity(2);
+  const ExactMatrix unit = ExactMatrix::identity(2);
   const bool one = scales(question.scheme);
   std::optional<StableSteps> in_y;
   if (!question.scheme.symplectic) in_y = damped_steps(step, unit);
@@ -110,7 +110,7 @@ std::optional<StableSteps> steps_of_modes(const Question& question, const Modes&
     if (k > 0 && modes.planes()[k].isApprox(modes.planes()[k - 1], 1e-12)) continue;
     if (!one && ++different > kMostPlanes) return std::nullopt;
     if (one && !in_y) return std::nullopt;
-    const RationalMatrix plane = rational(modes.planes()[k]);
+    const ExactMatrix plane = rational(modes.planes()[k]);
     keep(one ? std::optional(divided_by(*in_y, modes.frequency(k)))
              : steps_of_part(question.scheme_of_one, question.values, plane, exact_spectrum(plane)),
          all);
@@ -167,7 +167,7 @@ void decide_by_modes(const Question& question, const LinearStep& step, const Mod
   std::size_t critical = modes.planes().size() - 1;
   Powers all = Powers::bounded;
   for (std::size_t k = 0; k < modes.planes().size(); ++k) {
-    const RationalMatrix plane = one ? question.s : rational(modes.planes()[k]);
+    const ExactMatrix plane = one ? question.s : rational(modes.planes()[k]);
     Powers now = Powers::undecided;
     if (symplectic) {
       now = powers_at(exact_step, question.h, plane, 0, exact, kDigitsOfModes);
@@ -293,7 +293,7 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
   MatrixXd s(size, size);
   for (Eigen::Index k = 0; k < size * size; ++k)
     s(k / size, k % size) = to_double(part.hessian[static_cast<std::size_t>(k)]);
-  const RationalMatrix rational_s{static_cast<std::size_t>(size), part.hessian};
+  const ExactMatrix rational_s{static_cast<std::size_t>(size), part.hessian};
   const bool exact = part.exact && rational_s.size <= 2 * kMostExact;
   const LinearSpectrum spectrum = exact ? exact_spectrum(rational_s) : linear_spectrum(s);
   LinearStability result{.h = to_double(step_size),

@@ -44,9 +44,9 @@ bool is_short(const Rational& value) {
   return mpz_sizeinbase(value.get_den_mpz_t(), 2) + mpz_sizeinbase(value.get_num_mpz_t(), 2) <= 150;
 }
 
-RationalMatrix linear_flow(const RationalMatrix& s) {
+ExactMatrix linear_flow(const ExactMatrix& s) {
   const std::size_t n = s.size / 2;
-  RationalMatrix a = RationalMatrix::zero(s.size);
+  ExactMatrix a = ExactMatrix::zero(s.size);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < s.size; ++j) {
       a(i, j) = s(n + i, j);
@@ -120,8 +120,8 @@ void RationalStep::read_gauge(const Member& member) {
         std::max(*gauge_degree_, degree(polynomial_in((entry * denominator).normal(), h)));
 }
 
-std::optional<RationalMatrix> RationalStep::gauge(const Rational& h, std::size_t size) const {
-  RationalMatrix result = RationalMatrix::zero(size);
+std::optional<ExactMatrix> RationalStep::gauge(const Rational& h, std::size_t size) const {
+  ExactMatrix result = ExactMatrix::zero(size);
   for (const auto& [place, entry] : *c_) {
     const std::optional<Rational> value = evaluate(entry, {{"h", h}});
     if (!value) return std::nullopt;
@@ -131,27 +131,27 @@ std::optional<RationalMatrix> RationalStep::gauge(const Rational& h, std::size_t
 }
 
 // As LinearStep::increment: X D = E - I, D = (I/2 + C) E + I/2 - C, cut off after h^order.
-RationalMatrix RationalStep::increment(const Rational& h, const RationalMatrix& a) const {
+ExactMatrix RationalStep::increment(const Rational& h, const ExactMatrix& a) const {
   if (order_ <= 0) return h * a;
   const auto order = static_cast<std::size_t>(order_);
-  std::vector<RationalMatrix> c;
+  std::vector<ExactMatrix> c;
   for (const SparseMatrix& term : series_) {
-    RationalMatrix& matrix = c.emplace_back(RationalMatrix::zero(a.size));
+    ExactMatrix& matrix = c.emplace_back(ExactMatrix::zero(a.size));
     for (const auto& [place, entry] : term) {
       matrix(static_cast<std::size_t>(place.first), static_cast<std::size_t>(place.second)) =
           evaluate(entry, {}).value_or(Rational(0));
     }
   }
-  std::vector<RationalMatrix> flow{RationalMatrix::identity(a.size)};
-  std::vector<RationalMatrix> divisor{flow[0]};
-  std::vector<RationalMatrix> x{RationalMatrix::zero(a.size)};
-  RationalMatrix sum = x[0];
+  std::vector<ExactMatrix> flow{ExactMatrix::identity(a.size)};
+  std::vector<ExactMatrix> divisor{flow[0]};
+  std::vector<ExactMatrix> x{ExactMatrix::zero(a.size)};
+  ExactMatrix sum = x[0];
   Rational power = 1;
   for (std::size_t k = 1; k <= order; ++k) {
     flow.push_back(Rational(1, static_cast<unsigned long>(k)) * (flow.back() * a));
-    RationalMatrix d = Rational(1, 2) * flow[k];
+    ExactMatrix d = Rational(1, 2) * flow[k];
     for (std::size_t l = 0; l < k; ++l) d = d + c[l] * flow[k - l];
-    RationalMatrix term = flow[k];
+    ExactMatrix term = flow[k];
     for (std::size_t l = 1; l < k; ++l) term = term - x[l] * divisor[k - l];
     divisor.push_back(std::move(d));
     power *= h;
@@ -162,20 +162,20 @@ RationalMatrix RationalStep::increment(const Rational& h, const RationalMatrix& 
 }
 
 std::optional<RationalStep::Pencil> RationalStep::pencil(const Rational& h,
-                                                         const RationalMatrix& s) const {
+                                                         const ExactMatrix& s) const {
   const auto c = gauge(h, s.size);
   if (!c) return std::nullopt;
-  const RationalMatrix x = increment(h, linear_flow(s));
-  const RationalMatrix one = RationalMatrix::identity(s.size);
-  const RationalMatrix half = Rational(1, 2) * one;
+  const ExactMatrix x = increment(h, linear_flow(s));
+  const ExactMatrix one = ExactMatrix::identity(s.size);
+  const ExactMatrix half = Rational(1, 2) * one;
   return Pencil{one - x * (half + *c), one + x * (half - *c)};
 }
 
-RationalMatrix RationalStep::splitting_matrix(const Rational& h, const RationalMatrix& s) const {
+ExactMatrix RationalStep::splitting_matrix(const Rational& h, const ExactMatrix& s) const {
   const std::size_t n = s.size / 2;
-  RationalMatrix result = RationalMatrix::identity(s.size);
+  ExactMatrix result = ExactMatrix::identity(s.size);
   for (const auto& [is_kick, length] : shears_) {
-    RationalMatrix shear = RationalMatrix::identity(s.size);
+    ExactMatrix shear = ExactMatrix::identity(s.size);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         if (is_kick) {
@@ -191,12 +191,12 @@ RationalMatrix RationalStep::splitting_matrix(const Rational& h, const RationalM
 }
 
 // Z_i = z + h A sum a_ij Z_j, one after the other.
-RationalMatrix RationalStep::explicit_matrix(const Rational& h, const RationalMatrix& s) const {
-  const RationalMatrix ha = h * linear_flow(s);
-  std::vector<RationalMatrix> slopes;
-  RationalMatrix result = RationalMatrix::identity(s.size);
+ExactMatrix RationalStep::explicit_matrix(const Rational& h, const ExactMatrix& s) const {
+  const ExactMatrix ha = h * linear_flow(s);
+  std::vector<ExactMatrix> slopes;
+  ExactMatrix result = ExactMatrix::identity(s.size);
   for (std::size_t i = 0; i < b_.size(); ++i) {
-    RationalMatrix stage = RationalMatrix::identity(s.size);
+    ExactMatrix stage = ExactMatrix::identity(s.size);
     for (std::size_t j = 0; j < i; ++j) stage = stage + a_[i][j] * slopes[j];
     slopes.push_back(ha * stage);
     result = result + b_[i] * slopes.back();
@@ -204,14 +204,14 @@ RationalMatrix RationalStep::explicit_matrix(const Rational& h, const RationalMa
   return result;
 }
 
-RationalMatrix RationalStep::matrix(const Rational& h, const RationalMatrix& s) const {
+ExactMatrix RationalStep::matrix(const Rational& h, const ExactMatrix& s) const {
   if (!b_.empty()) return explicit_matrix(h, s);
   if (!c_) return splitting_matrix(h, s);
-  RationalMatrix result = RationalMatrix::identity(s.size);
+  ExactMatrix result = ExactMatrix::identity(s.size);
   for (const Rational& part : substeps_) {
     const auto now = pencil(part * h, s);
     if (!now) return {};
-    const RationalMatrix one = solved(now->plus, now->minus);
+    const ExactMatrix one = solved(now->plus, now->minus);
     if (one.size == 0) return {};
     result = one * result;
   }
@@ -219,7 +219,7 @@ RationalMatrix RationalStep::matrix(const Rational& h, const RationalMatrix& s) 
 }
 
 // Minors of a product are sums of products of minors; those of A+^-1 are minors of A+ over det A+.
-Rational RationalStep::denominator(const Rational& h, const RationalMatrix& s) const {
+Rational RationalStep::denominator(const Rational& h, const ExactMatrix& s) const {
   Rational product = 1;
   if (!c_) return product;
   for (const Rational& part : substeps_) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "generator/schemes/scheme.hpp"
-#include "generator/verify/rational_matrix.hpp"
+#include "generator/verify/exact_matrix.hpp"
 
 namespace hamgen {
 
@@ -20,21 +20,21 @@ class RationalStep {
   [[nodiscard]] bool is_exact() const { return exact_; }
 
   // M for H = z^T S z/2; of size 0 where the equations of the step have no solution, or C no value.
-  [[nodiscard]] RationalMatrix matrix(const Rational& h, const RationalMatrix& s) const;
+  [[nodiscard]] ExactMatrix matrix(const Rational& h, const ExactMatrix& s) const;
   // det(x - M) times this is a polynomial in h of degree `degree_in_h` at most; no such degree
   // where C is no rational function of h.
-  [[nodiscard]] Rational denominator(const Rational& h, const RationalMatrix& s) const;
+  [[nodiscard]] Rational denominator(const Rational& h, const ExactMatrix& s) const;
   [[nodiscard]] std::optional<int> degree_in_h(std::size_t size) const;
 
  private:
   struct Pencil {
-    RationalMatrix plus, minus;  // plus Z = minus z
+    ExactMatrix plus, minus;  // plus Z = minus z
   };
-  [[nodiscard]] std::optional<RationalMatrix> gauge(const Rational& h, std::size_t size) const;
-  [[nodiscard]] RationalMatrix increment(const Rational& h, const RationalMatrix& a) const;
-  [[nodiscard]] std::optional<Pencil> pencil(const Rational& h, const RationalMatrix& s) const;
-  [[nodiscard]] RationalMatrix splitting_matrix(const Rational& h, const RationalMatrix& s) const;
-  [[nodiscard]] RationalMatrix explicit_matrix(const Rational& h, const RationalMatrix& s) const;
+  [[nodiscard]] std::optional<ExactMatrix> gauge(const Rational& h, std::size_t size) const;
+  [[nodiscard]] ExactMatrix increment(const Rational& h, const ExactMatrix& a) const;
+  [[nodiscard]] std::optional<Pencil> pencil(const Rational& h, const ExactMatrix& s) const;
+  [[nodiscard]] ExactMatrix splitting_matrix(const Rational& h, const ExactMatrix& s) const;
+  [[nodiscard]] ExactMatrix explicit_matrix(const Rational& h, const ExactMatrix& s) const;
   [[nodiscard]] Rational number(const Expression& e);
   void read_gauge(const Member& member);
 
@@ -55,7 +55,7 @@ class RationalStep {
 };
 
 // J S.
-[[nodiscard]] RationalMatrix linear_flow(const RationalMatrix& s);
+[[nodiscard]] ExactMatrix linear_flow(const ExactMatrix& s);
 
 // A number that a person may have meant, rather than the first digits of an irrational one.
 [[nodiscard]] bool is_short(const Rational& value);

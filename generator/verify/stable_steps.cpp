@@ -30,7 +30,7 @@ RationalPolynomial sum_of_all(const std::vector<RationalPolynomial>& terms) {
 }
 
 // The coefficients of det(x - M) times the denominator, from their values at h = 1, 2, ...
-std::optional<Coefficients> characteristic_in_h(const RationalStep& step, const RationalMatrix& s) {
+std::optional<Coefficients> characteristic_in_h(const RationalStep& step, const ExactMatrix& s) {
   const std::optional<int> most = step.degree_in_h(s.size);
   if (!most || *most > kMostEvaluated) return std::nullopt;
   const auto count = static_cast<std::size_t>(*most) + 1;
@@ -38,7 +38,7 @@ std::optional<Coefficients> characteristic_in_h(const RationalStep& step, const 
   for (long h = 1; values[0].size() < count; ++h) {
     const Rational denominator = step.denominator(Rational(h), s);
     if (denominator == 0) continue;
-    const RationalMatrix m = step.matrix(Rational(h), s);
+    const ExactMatrix m = step.matrix(Rational(h), s);
     if (m.size == 0) return std::nullopt;
     const RationalPolynomial p = characteristic_polynomial(m);
     for (std::size_t k = 0; k <= s.size; ++k)
@@ -207,7 +207,7 @@ std::vector<std::pair<double, double>> StableSteps::gaps() const {
   return result;
 }
 
-std::optional<StableSteps> stable_steps(const RationalStep& step, const RationalMatrix& s,
+std::optional<StableSteps> stable_steps(const RationalStep& step, const ExactMatrix& s,
                                         int free_motions) {
   const auto p = characteristic_in_h(step, s);
   if (!p) return std::nullopt;
@@ -217,7 +217,7 @@ std::optional<StableSteps> stable_steps(const RationalStep& step, const Rational
   std::vector<RationalPolynomial> critical{q.back(), at_s(q, 2), at_s(q, -2)};
   if (q.size() > 2) critical.push_back(discriminant(q));
   return joined(critical, [&](const Rational& h) -> std::optional<bool> {
-    const RationalMatrix m = step.matrix(h, s);
+    const ExactMatrix m = step.matrix(h, s);
     if (m.size == 0) return std::nullopt;
     const Powers found = powers_of(m, free_motions, step.is_exact());
     if (found == Powers::undecided) return std::nullopt;
@@ -225,7 +225,7 @@ std::optional<StableSteps> stable_steps(const RationalStep& step, const Rational
   });
 }
 
-std::optional<StableSteps> damped_steps(const RationalStep& step, const RationalMatrix& s) {
+std::optional<StableSteps> damped_steps(const RationalStep& step, const ExactMatrix& s) {
   const auto p = characteristic_in_h(step, s);
   if (!p) return std::nullopt;
   // The eigenvalues are conjugate, and their product is p_0.

@@ -34,11 +34,11 @@ struct StableSteps {
 // or the polynomials are too long.  Nothing is drawn from a grid; roots closer than 1e-14 count as
 // one.
 [[nodiscard]] std::optional<StableSteps> stable_steps(const RationalStep& step,
-                                                      const RationalMatrix& s, int free_motions);
+                                                      const ExactMatrix& s, int free_motions);
 // The same of one degree of freedom with an explicit Runge-Kutta method, which does not keep areas:
 // det M <= 1.
 [[nodiscard]] std::optional<StableSteps> damped_steps(const RationalStep& step,
-                                                      const RationalMatrix& s);
+                                                      const ExactMatrix& s);
 
 // In the units of another frequency: all h divided by w.
 [[nodiscard]] StableSteps divided_by(StableSteps steps, double w);

@@ -95,7 +95,7 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
     of_k = decide_function(mechanics, Derivatives(mechanics), scheme.member(), *function, around);
   Proof proof = prove_method(mechanics, scheme, program, around, of_k);
   // A step is what it is proved to be where H has the derivatives it is made of.
-  const std::vector<Corner> corners_of_h = corners(hamiltonian);
+  const std::vector<Corner> corners_of_h = corners_of_hamiltonian(mechanics);
   if (!corners_of_h.empty()) {
     for (Finding& finding : proof) {
       if (finding.property != kGauge)

@@ -365,6 +365,52 @@ TEST(LinearStability, OfOtherFunctionsOfTheStepIsEnclosed) {
   }
 }
 
+// Random quadratic H, definite or not, with random parameters of the family for each degree of
+// freedom, constant or odd in h: what is called bounded stays so, what is not grows.
+TEST(LinearStability, OfRandomMembersIsWhatThePowersDo) {
+  std::mt19937_64 source(11);
+  const auto part_of_one = [&] { return Rational(static_cast<long>(source() % 401) - 200, 200); };
+  int bounded = 0;
+  int unbounded = 0;
+  for (int i = 0; i < 60; ++i) {
+    QuadraticPart part{2, std::vector<Rational>(16)};
+    MatrixXd s(4, 4);
+    for (std::size_t row = 0; row < 4; ++row) {
+      for (std::size_t column = row; column < 4; ++column) {
+        Rational entry = part_of_one() / 4;
+        if (row == column) entry += (i % 2 == 0 || row % 2 == 0) ? 1 : -1;
+        entry.canonicalize();
+        part.hessian[4 * row + column] = part.hessian[4 * column + row] = entry;
+      }
+    }
+    for (Eigen::Index k = 0; k < 16; ++k)
+      s(k / 4, k % 4) = to_double(part.hessian[static_cast<std::size_t>(k)]);
+    const auto entries = [&](const Expression& factor) {
+      return block({Expression(part_of_one()) * factor, Expression(part_of_one()) * factor});
+    };
+    const Expression factor = i % 3 == 0 ? Expression(1) : h();
+    GaugeBlock alpha = entries(i % 3 == 0 ? Expression(1) : Expression(0));
+    for (Expression& e : alpha.entries) e += Expression(Rational(1, 2));
+    const Scheme scheme = family_member(2, alpha, entries(factor), entries(factor));
+    const Rational step = Rational(static_cast<long>(source() % 300) + 1, 200);
+    const LinearStability found = linear_stability(part, scheme, {}, step);
+    if (found.frequencies.size() < 2 || found.verdict == Verdict::not_decided) continue;
+    MatrixXd power = LinearStep(scheme, {}).matrix(found.h, s);
+    for (int k = 0; k < 20; ++k) power = MatrixXd(power * power);  // a million steps
+    const bool stays = power.allFinite() && power.norm() < 1e6;
+    EXPECT_EQ(found.verdict, stays ? Verdict::proved : Verdict::refuted)
+        << i << ' ' << found.detail;
+    // And the intervals say the same as the verdict.
+    const bool inside = std::ranges::any_of(found.bounded_steps, [&](const auto& interval) {
+      return interval.first < found.h && found.h < interval.second;
+    });
+    EXPECT_EQ(inside, stays) << i;
+    ++(stays ? bounded : unbounded);
+  }
+  EXPECT_GT(bounded, 10);
+  EXPECT_GT(unbounded, 5);
+}
+
 // Equal frequencies are common, and harmless for every h: they do not collide.
 TEST(LinearStability, OfEqualFrequenciesIsThatOfOne) {
   // An isotropic oscillator turned by a rotation that couples its coordinates, x y and u v.

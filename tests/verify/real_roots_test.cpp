@@ -74,7 +74,7 @@ TEST(Interpolation, GivesThePolynomialBack) {
   EXPECT_EQ(interpolated(points), p);
 }
 
-RationalMatrix matrix(std::size_t size, const std::vector<Rational>& entries) {
+ExactMatrix matrix(std::size_t size, const std::vector<Rational>& entries) {
   return {size, entries};
 }
 
@@ -84,17 +84,17 @@ TEST(Powers, OfEqualFrequenciesAreHarmlessAndOfAJordanBlockAreNot) {
   const Rational s(4, 5);
   const auto both = [&](const Rational& coupling) {
     // diag(R, R) in (q1, q2, p1, p2), times a shear that is symplectic and commutes with neither.
-    RationalMatrix rotation = matrix(4, {c, 0, s, 0, 0, c, 0, s, -s, 0, c, 0, 0, -s, 0, c});
+    ExactMatrix rotation = matrix(4, {c, 0, s, 0, 0, c, 0, s, -s, 0, c, 0, 0, -s, 0, c});
     // Rotation of the plane (q1, q2) together with (p1, p2): J S with S = x v - y u.
-    RationalMatrix turned = matrix(4, {c, s, 0, 0, -s, c, 0, 0, 0, 0, c, s, 0, 0, -s, c});
+    ExactMatrix turned = matrix(4, {c, s, 0, 0, -s, c, 0, 0, 0, 0, c, s, 0, 0, -s, c});
     if (coupling == 0) return rotation;
-    RationalMatrix kick = RationalMatrix::identity(4);
+    ExactMatrix kick = ExactMatrix::identity(4);
     kick(2, 0) = kick(3, 1) = -coupling;
     return turned * kick;
   };
   EXPECT_EQ(powers_of(both(0), 0, true), Powers::bounded);
   EXPECT_EQ(powers_of(both(Rational(1, 10)), 0, true), Powers::resonant);
-  const RationalMatrix shear = matrix(2, {1, 1, 0, 1});
+  const ExactMatrix shear = matrix(2, {1, 1, 0, 1});
   EXPECT_EQ(powers_of(shear, 0, true), Powers::resonant);
   EXPECT_EQ(powers_of(shear, 1, true), Powers::bounded);  // a free motion
   EXPECT_EQ(powers_of(matrix(2, {-1, 0, 0, -1}), 0, true), Powers::bounded);

@@ -1,36 +1,36 @@
-#include "generator/verify/rational_matrix.hpp"
+#include "generator/verify/exact_matrix.hpp"
 
 #include <utility>
 
 namespace hamgen {
 
-RationalMatrix RationalMatrix::zero(std::size_t size) {
+ExactMatrix ExactMatrix::zero(std::size_t size) {
   return {size, std::vector<Rational>(size * size)};
 }
 
-RationalMatrix RationalMatrix::identity(std::size_t size) {
-  RationalMatrix result = zero(size);
+ExactMatrix ExactMatrix::identity(std::size_t size) {
+  ExactMatrix result = zero(size);
   for (std::size_t i = 0; i < size; ++i) result(i, i) = 1;
   return result;
 }
 
-RationalMatrix operator+(RationalMatrix a, const RationalMatrix& b) {
+ExactMatrix operator+(ExactMatrix a, const ExactMatrix& b) {
   for (std::size_t k = 0; k < a.entries.size(); ++k) a.entries[k] += b.entries[k];
   return a;
 }
 
-RationalMatrix operator-(RationalMatrix a, const RationalMatrix& b) {
+ExactMatrix operator-(ExactMatrix a, const ExactMatrix& b) {
   for (std::size_t k = 0; k < a.entries.size(); ++k) a.entries[k] -= b.entries[k];
   return a;
 }
 
-RationalMatrix operator*(const Rational& c, RationalMatrix a) {
+ExactMatrix operator*(const Rational& c, ExactMatrix a) {
   for (Rational& x : a.entries) x *= c;
   return a;
 }
 
-RationalMatrix operator*(const RationalMatrix& a, const RationalMatrix& b) {
-  RationalMatrix result = RationalMatrix::zero(a.size);
+ExactMatrix operator*(const ExactMatrix& a, const ExactMatrix& b) {
+  ExactMatrix result = ExactMatrix::zero(a.size);
   for (std::size_t i = 0; i < a.size; ++i) {
     for (std::size_t k = 0; k < a.size; ++k) {
       if (a(i, k) == 0) continue;
@@ -43,7 +43,7 @@ RationalMatrix operator*(const RationalMatrix& a, const RationalMatrix& b) {
 namespace {
 
 // Gauss's elimination of [a | b]; the rank of a.  With `fully` the rows above the pivots as well.
-std::size_t eliminate(RationalMatrix& a, RationalMatrix* b) {
+std::size_t eliminate(ExactMatrix& a, ExactMatrix* b) {
   const std::size_t n = a.size;
   std::size_t row = 0;
   for (std::size_t column = 0; column < n && row < n; ++column) {
@@ -54,17 +54,17 @@ std::size_t eliminate(RationalMatrix& a, RationalMatrix* b) {
       use(a);
       if (b != nullptr) use(*b);
     };
-    for_rows([&](RationalMatrix& m) {
+    for_rows([&](ExactMatrix& m) {
       for (std::size_t j = 0; j < n; ++j) std::swap(m(pivot, j), m(row, j));
     });
     const Rational inverse = 1 / a(row, column);
-    for_rows([&](RationalMatrix& m) {
+    for_rows([&](ExactMatrix& m) {
       for (std::size_t j = 0; j < n; ++j) m(row, j) *= inverse;
     });
     for (std::size_t i = 0; i < n; ++i) {
       const Rational factor = a(i, column);
       if (i == row || factor == 0) continue;
-      for_rows([&](RationalMatrix& m) {
+      for_rows([&](ExactMatrix& m) {
         for (std::size_t j = 0; j < n; ++j) m(i, j) -= factor * m(row, j);
       });
     }
@@ -75,17 +75,17 @@ std::size_t eliminate(RationalMatrix& a, RationalMatrix* b) {
 
 }  // namespace
 
-std::size_t rank(RationalMatrix a) { return eliminate(a, nullptr); }
+std::size_t rank(ExactMatrix a) { return eliminate(a, nullptr); }
 
-RationalMatrix solved(RationalMatrix a, RationalMatrix b) {
-  return eliminate(a, &b) == a.size ? b : RationalMatrix{};
+ExactMatrix solved(ExactMatrix a, ExactMatrix b) {
+  return eliminate(a, &b) == a.size ? b : ExactMatrix{};
 }
 
 // Faddeev and LeVerrier: M_1 = I, c_(n-k) = -tr(a M_k)/k, M_(k+1) = a M_k + c_(n-k) I.
-RationalPolynomial characteristic_polynomial(const RationalMatrix& a) {
+RationalPolynomial characteristic_polynomial(const ExactMatrix& a) {
   RationalPolynomial p(a.size + 1);
   p[a.size] = 1;
-  RationalMatrix m = RationalMatrix::identity(a.size);
+  ExactMatrix m = ExactMatrix::identity(a.size);
   for (std::size_t k = 1; k <= a.size; ++k) {
     m = a * m;
     Rational trace = 0;
@@ -96,13 +96,13 @@ RationalPolynomial characteristic_polynomial(const RationalMatrix& a) {
   return p;
 }
 
-Rational determinant(const RationalMatrix& a) {
+Rational determinant(const ExactMatrix& a) {
   const Rational constant = characteristic_polynomial(a).front();
   return a.size % 2 == 0 ? constant : Rational(-constant);
 }
 
-RationalMatrix value_at(const RationalPolynomial& p, const RationalMatrix& a) {
-  RationalMatrix result = RationalMatrix::zero(a.size);
+ExactMatrix value_at(const RationalPolynomial& p, const ExactMatrix& a) {
+  ExactMatrix result = ExactMatrix::zero(a.size);
   for (std::size_t k = p.size(); k-- > 0;) {
     result = result * a;
     for (std::size_t i = 0; i < a.size; ++i) result(i, i) += p[k];
