@@ -41,6 +41,17 @@ int check(const MethodOptions& options) {
   if (!model.warnings.empty()) print_error(render(model.warnings, source));
   check_scenes(model, find_scalar(request.scalar));
   check_step(source, request);
+  for (const Corner& corner : corners_of_hamiltonian(source, request)) {
+    const Diagnostic warning{
+        .severity = Severity::warning,
+        .span = model.hamiltonian->span,
+        .message =
+            fmt::format("H has a corner where {}, by {}", corner.place, to_text(corner.function)),
+        .help =
+            "a step across it is of low order, and what `hamgen verify` says holds off the "
+            "corner"};
+    print_error(render({warning}, source));
+  }
   print(fmt::format(
       "{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
       counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "app/output/generate_command.hpp"
+#include "app/studies/initial_data.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 #include "generator/language/read_model.hpp"
@@ -73,7 +74,7 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
                   "locally-exact (the linear part without error), or C, 2n x 2n")
       ->type_name("NAME");
   add_repeated(command, "--reference", options.reference,
-               "where: q=1,w=50; default: initial state of a run, else 0")
+               "where: q=1,w=50; default: the scene's initial state")
       ->type_name("NAME=VALUE,...");
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
@@ -206,9 +207,10 @@ Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
   return setting;
 }
 
-Request request_with_sizes(const MethodOptions& options, const SourceText& source) {
-  Request request = request_of(options);
-  if (options.set.empty()) return request;
+namespace {
+
+// A command that knows no run-time values sets sizes only.
+std::map<std::string, long> sizes_of(const MethodOptions& options, const SourceText& source) {
   const SizesAndRest split = split_sizes(read_model(source), options.set);
   if (!split.rest.empty())
     throw UsageError(
@@ -216,7 +218,19 @@ Request request_with_sizes(const MethodOptions& options, const SourceText& sourc
                     "code and are set "
                     "here; parameters get their values at run time, with `hamgen run --set`",
                     split.rest.front().first, split.rest.front().second, source.path));
-  request.sizes = split.sizes;
+  return split.sizes;
+}
+
+}  // namespace
+
+Request request_with_sizes(const MethodOptions& options, const SourceText& source) {
+  Request request = request_of(options);
+  if (!options.set.empty()) request.sizes = sizes_of(options, source);
+  if (request.gauge == "locally-exact") {
+    // Where a run without further options takes it.
+    const Model model = read_request(source, request);
+    if (!model.scenes.empty()) take_gauge_at(scene_values(model, {}), model, request);
+  }
   return request;
 }
 

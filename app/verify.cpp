@@ -1,5 +1,6 @@
 // hamgen verify: what algebra proves of the step, one line a property.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -19,9 +20,7 @@ struct VerifyOptions {
   MethodOptions method;
   std::string terms;  // K of the modified Hamiltonian; empty: nothing is asked for
   bool latex = false;
-  // Where the step is measured and the linear part is taken; empty: the first, and the model's.
-  std::string scene;
-  std::string h;
+  SceneOptions scene;  // where the step is measured and the linear part is taken
   std::string required;
   bool measure = false;
   bool json = false;
@@ -32,6 +31,12 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
   const auto number = [](const std::optional<double>& x) {
     return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
   };
+  auto intervals = nlohmann::ordered_json::array();
+  for (const auto& [from, to] : found.bounded_steps) {
+    const bool ends = std::isfinite(to);
+    intervals.push_back(
+        {from, ends ? nlohmann::ordered_json(to) : nlohmann::ordered_json(nullptr)});
+  }
   nlohmann::ordered_json resonant = nlohmann::ordered_json::object();
   for (const auto& [m, h] : found.resonant_h) resonant[std::to_string(m)] = h;
   return {{"property", "linear stability"},
@@ -46,31 +51,23 @@ nlohmann::ordered_json json_of(const LinearPoint& point) {
           {"margin", number(found.margin)},
           {"bounded_for_every_h", found.bounded_for_every_h},
           {"largest_h", number(found.largest_h)},
+          {"bounded_steps", intervals},
           {"angles", found.angles},
           {"resonant_h", resonant},
           {"iteration_radius", number(found.iteration_radius)}};
 }
 
-SceneRequest scene_request(const VerifyOptions& options) {
-  SceneRequest wanted{.scene = options.scene};
-  if (!options.h.empty()) wanted.h = options.h;
-  return wanted;
-}
-
 // Of the scene's state, or of the first scene if none is named.  A reason where there is none.
-std::vector<LinearPoint> linear_part(const SourceText& source, Request request,
-                                     const VerifyOptions& options, Proof& proof) {
+std::vector<LinearPoint> linear_part(const Setting& setting, const SceneValues& scene,
+                                     Proof& proof) {
   const auto open = [&proof](const std::string& why) {
     proof.push_back({"linear stability", Verdict::not_decided, why});
     return std::vector<LinearPoint>{};
   };
-  if (request.solver.starts_with("sweeps"))
+  if (setting.request.solver.starts_with("sweeps"))
     return open("sweeps leave the step unsolved: the linear step is another");
-  const Model model = read_request(source, request);
-  const SceneValues scene = scene_values(model, scene_request(options));
   if (!scene.h) return open("there is no scene with a step size and no --h");
-  take_gauge_at(scene, model, request);
-  std::vector<LinearPoint> points = linear_points(source, request, scene);
+  std::vector<LinearPoint> points = linear_points(setting.source, setting.request, scene);
   if (points.empty()) return open("H'' is not defined at the initial state, or is too large");
   for (const LinearPoint& point : points) {
     for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
@@ -88,38 +85,47 @@ void add_beside(Proof& proof, const Finding& measured) {
 }
 
 // Without a scene by name only the terms.
-ModifiedEnergy modified_energy(const SourceText& source, const Request& request,
-                               const VerifyOptions& options) {
-  std::optional<SceneValues> scene;
-  if (!options.scene.empty())
-    scene = complete_scene(read_request(source, request), scene_request(options),
-                           "steps = 1000 in the scene");
+ModifiedEnergy modified_energy(const Setting& setting, const VerifyOptions& options) {
   const int count = modified_term_count("--terms", options.terms);
   ModifiedEnergy modified;
-  modified.terms = modified_hamiltonian(source, request, count);
-  if (scene)
-    modified.orbit = watch_orbit(source, request, *scene, modified.terms, &interrupt_flag());
+  modified.terms = modified_hamiltonian(setting.source, setting.request, count);
+  if (!options.scene.scene.empty())
+    modified.orbit = watch_orbit(setting.source, setting.request,
+                                 complete_scene(setting.model, setting.scene, ""), modified.terms,
+                                 &interrupt_flag());
   return modified;
 }
 
+// The run that is looked at, of 1000 steps where nobody says how many.
+Setting verify_setting(const VerifyOptions& options) {
+  Setting setting = read_setting(options.method, options.scene);
+  const SceneValues scene = scene_values(setting.model, setting.scene);
+  if (!scene.steps) setting.scene.steps = "1000";
+  take_gauge_at(scene, setting.model, setting.request);
+  setting.request.tangent = options.measure;  // then it is read back as well
+  return setting;
+}
+
+bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::refuted; }
+
 int verify(const VerifyOptions& options) {
-  const SourceText source = read_source(options.method.model);
-  Request request = request_with_sizes(options.method, source);
-  request.tangent = options.measure;  // then it is read back as well
-  Proof proof = verify_step(source, request);
+  const Setting setting = verify_setting(options);
+  const SceneValues scene = scene_values(setting.model, setting.scene);
+  Proof proof = verify_step(setting.source, setting.request, scene);
   std::vector<InvariantDefect> defects;
+  bool holds = true;
   if (options.measure) {
     const bool symmetric = std::ranges::any_of(proof, [](const Finding& f) {
-      return f.property == "symmetric" && f.verdict == Verdict::proved;
+      return f.property == "symmetric" && hamgen::holds(f.verdict);
     });
     Measured measured =
-        measure(source, request, scene_request(options), symmetric, &interrupt_flag());
+        measure(setting.source, setting.request, setting.scene, symmetric, &interrupt_flag());
+    holds = std::ranges::none_of(measured.proof, is_refuted);
     std::ranges::move(measured.proof, std::back_inserter(proof));
     for (const InvariantDefect& defect : measured.invariants) add_beside(proof, finding(defect));
     defects = std::move(measured.invariants);
   }
-  const std::vector<LinearPoint> linear = linear_part(source, request, options, proof);
-  bool holds = true;
+  const std::vector<LinearPoint> linear = linear_part(setting, scene, proof);
   const bool by_default = options.required.empty();
   auto rows = nlohmann::ordered_json::array();
   for (const Finding& finding : proof) {
@@ -131,14 +137,14 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    const bool needed =
-        finding.property == "emitted code" || (by_default && finding.property == "symplectic");
-    if (needed && finding.verdict == Verdict::refuted) holds = false;
+    if (finding.property == "emitted code" && is_refuted(finding)) holds = false;
+    if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
+      holds = false;
   }
   for (const LinearPoint& point : linear) rows.push_back(json_of(point));
   std::string text = to_text(proof);
   if (!options.terms.empty()) {
-    const ModifiedEnergy modified = modified_energy(source, request, options);
+    const ModifiedEnergy modified = modified_energy(setting, options);
     rows.push_back(modified_json(modified, options.latex));
     text += modified_text(modified, options.latex);
   }
@@ -154,13 +160,10 @@ Command add_verify(CLI::App& app) {
   CLI::App* parser = app.add_subcommand(
       "verify", "proves what it can of the step by algebra: symplectic, symmetric, invariants");
   add_method_options(*parser, options->method);
-  add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
-      ->type_name("SIZE=N");
   parser->add_option("--terms", options->terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
-  parser->add_option("--scene", options->scene, "measure along this scene's orbit")
-      ->type_name("NAME");
-  parser->add_option("--h", options->h, "with this step; default: the scene's")->type_name("H");
+  add_scene_options(*parser, options->scene);
+  add_step_option(*parser, options->scene);
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser

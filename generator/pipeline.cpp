@@ -225,11 +225,13 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(program)};
 }
 
-Proof prove(const Stages& stages) {
+Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
+  Surroundings around = surroundings_of(stages.model);
+  if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
   const Expression hamiltonian = stages.mechanics.keeps_sums()
                                      ? written_out_hamiltonian(stages.model)
                                      : stages.mechanics.energy;
-  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian);
+  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
 }
 
 // What the first lines of a header say of the step.
@@ -336,12 +338,16 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
   add(element_names(model.coordinates), scene.q);
   add(element_names(model.momenta), scene.p);
   add(element_names(model.parameters), scene.parameters);
-  return linear_points(mechanics, choose_scheme(model, mechanics, request), point,
-                       to_double(scene.h.value()));
+  return linear_points(mechanics, choose_scheme(model, mechanics, request), point, scene.h.value());
 }
 
-Proof verify_step(const SourceText& source, const Request& request) {
-  return prove(run_stages(source, request));
+Proof verify_step(const SourceText& source, const Request& request,
+                  const std::optional<SceneValues>& scene) {
+  return prove(run_stages(source, request), scene);
+}
+
+std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
+  return corners_of_hamiltonian(derive(read_request(source, request)));
 }
 
 StepCode make_step_code(const SourceText& source, const Request& request) {

@@ -13,6 +13,7 @@
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/program/step_code.hpp"
+#include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
 
@@ -62,8 +63,14 @@ struct Request {
 // Goes through all stages and writes nothing: throws what they throw.
 void check_step(const SourceText& source, const Request& request);
 
-// What algebra can say of the step: one finding a property.
-[[nodiscard]] Proof verify_step(const SourceText& source, const Request& request);
+// What algebra can say of the step: one finding a property.  What it leaves open is tried around
+// the model's scenes, and around `scene`, of a run that changes one.
+[[nodiscard]] Proof verify_step(const SourceText& source, const Request& request,
+                                const std::optional<SceneValues>& scene = {});
+
+// Where H is defined but has no derivatives: a step across it is not what is proved of the step.
+[[nodiscard]] std::vector<Corner> corners_of_hamiltonian(const SourceText& source,
+                                                         const Request& request);
 
 // H_0, H_1, ... of the Hamiltonian sum of h^j H_j whose flow the step follows: `count` of them that
 // do not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.

@@ -129,9 +129,9 @@ SceneValues complete_scene(const Model& model, const SceneRequest& request, cons
   if (model.scenes.empty() && request.initial.empty() && degrees_of_freedom(model) > 0)
     throw UsageError(
         fmt::format("{} has no scene and no --initial is given: no initial state\n"
-                    "help: for example --initial {}=0.1,{}=0 --h 0.01 {}",
+                    "help: for example --initial {}=0.1,{}=0 --h 0.01{}{}",
                     path, element_names(model.coordinates).front(),
-                    element_names(model.momenta).front(), length));
+                    element_names(model.momenta).front(), *length == 0 ? "" : " ", length));
   SceneValues values = scene_values(model, request);
   const std::string where = values.name.empty() ? path : fmt::format("scene '{}'", values.name);
   if (!values.h)

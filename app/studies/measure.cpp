@@ -46,7 +46,7 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
                  bool symmetric, StopFlag stop) {
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
-  const SceneValues scene = complete_scene(plugin.model, wanted, "steps = 1000 in the scene");
+  const SceneValues scene = complete_scene(plugin.model, wanted, "");
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "", stop);
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   Proof proof;

@@ -19,6 +19,10 @@ constexpr double kDifference = 1e-5;  // of a component's amplitude: error some 
 
 using Vector = std::vector<double>;
 
+bool all_finite(const Vector& values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
+
 struct Sample {
   Vector parameters, state;
 };
@@ -50,7 +54,7 @@ class TangentMeasurement {
   void run() {
     for (int i = 0; i < kStates; ++i) {
       const Sample z = sample();
-      if (!take_step(z, start_.h.hi)) {
+      if (!take_step(z, start_.h.hi) || !all_finite(end_) || !all_finite(matrix_)) {
         ++failed_;
         continue;
       }
@@ -58,7 +62,8 @@ class TangentMeasurement {
       const Vector matrix = matrix_;
       defect_ = std::max(defect_, symplectic_defect(matrix));
       if (i % 10 == 0) compare_with_differences(z, matrix);
-      if (take_step({z.parameters, end}, -start_.h.hi)) {
+      if (take_step({z.parameters, end}, -start_.h.hi) && all_finite(end_)) {
+        ++reversed_;
         for (std::size_t k = 0; k < 2 * n_; ++k) {
           reversal_ = std::max(reversal_, std::abs(end_[k] - z.state[k]) / amplitude_[k]);
         }
@@ -70,16 +75,27 @@ class TangentMeasurement {
     const std::string where = fmt::format(
         "at {} states and parameters around the scene, h = {:g}{}", kStates, start_.h.hi,
         failed_ == 0 ? "" : fmt::format(" ({} of them without a step)", failed_));
+    if (failed_ == kStates)
+      return {{"tangent map symplectic", Verdict::not_decided, "no step could be taken " + where}};
     auto within = [&](const std::string& property, double value) {
       return Finding{
           property, value <= kRoundOff ? Verdict::tested : Verdict::refuted,
           fmt::format("at most {:.2e} {}; round-off is below {:.0e}", value, where, kRoundOff)};
     };
-    Proof proof{within("tangent map symplectic", defect_),
-                {"tangent map of the step", wrong_ ? Verdict::refuted : Verdict::tested,
-                 fmt::format("differs from difference quotients of the step by at most {:.1e}{}",
-                             difference_, wrong_ ? ", which is more than their error" : "")}};
-    if (symmetric) proof.push_back(within("reversal", reversal_));
+    Proof proof{within("tangent map symplectic", defect_)};
+    if (compared_ == 0) {
+      proof.push_back({"tangent map of the step", Verdict::not_decided,
+                       "no difference quotient of the step could be formed"});
+    } else {
+      proof.push_back(
+          {"tangent map of the step", wrong_ ? Verdict::refuted : Verdict::tested,
+           fmt::format("differs from difference quotients of the step by at most {:.1e}{}",
+                       difference_, wrong_ ? ", which is more than their error" : "")});
+    }
+    if (!symmetric) return proof;
+    proof.push_back(reversed_ > 0 ? within("reversal", reversal_)
+                                  : Finding{"reversal", Verdict::not_decided,
+                                            "no step back could be taken " + where});
     return proof;
   }
 
@@ -150,6 +166,7 @@ class TangentMeasurement {
           quotient[factor - 1].push_back((above[i] - end_[i]) / (up.state[j] - down.state[j]));
         }
       }
+      ++compared_;
       for (std::size_t i = 0; i < size; ++i) {
         const double scale = amplitude_[i] / amplitude_[j];
         const double error = std::abs(matrix[i * size + j] - quotient[0][i]) / scale;
@@ -168,7 +185,9 @@ class TangentMeasurement {
   std::vector<Vector> orbit_;
   Vector amplitude_;
   std::mt19937_64 source_{1};
-  int failed_ = 0;
+  int failed_ = 0;    // states without a step
+  int reversed_ = 0;  // steps back
+  int compared_ = 0;  // columns of M
   double defect_ = 0;
   double reversal_ = 0;
   double difference_ = 0;

@@ -69,12 +69,6 @@ std::set<Expression> distinct_entries(const SparseMatrix& c) {
   return entries;
 }
 
-bool is_odd_in_h(const SparseMatrix& c) {
-  return std::ranges::all_of(distinct_entries(c), [](const Expression& value) {
-    return vanishes(reflected(value) + value);
-  });
-}
-
 bool vanishes_with_h(const SparseMatrix& c) {
   for (const Expression& value : distinct_entries(c)) {
     const std::optional<Expression> limit = at_zero_step(value);
@@ -90,21 +84,33 @@ bool is_diagonal_gauge(const Member& member, const Expression& value) {
          parameters->alpha == value;
 }
 
-// At points where a nonzero expression of h, E0 and parameters is hardly zero; to 1e-30.
+// At points of both signs where a nonzero expression of h, E0 and parameters is hardly zero; to
+// 1e-30.  A guess: `verify` says how well it is known.
 bool looks_zero(const Expression& e) {
   std::set<std::string> names;
   collect_symbols(e, names);
-  for (int k = 1; k <= 3; ++k) {
+  int defined = 0;
+  for (int k = 1; k <= 8; ++k) {
     Values values;
     int i = 0;
     for (const std::string& name : names) {
       ++i;
-      values[name] = Rational(2 * i + k) / Rational(7 + 3 * i * k);
+      const int sign = (k >> (i % 3)) % 2 == 0 ? 1 : -1;
+      values[name] = sign * Rational(2 * i + k) / Rational(7 + 3 * i * k);
     }
     const std::optional<Rational> value = evaluate(e, values);
-    if (!value || std::abs(to_double(*value)) > 1e-30) return false;
+    if (!value) continue;
+    ++defined;
+    if (std::abs(to_double(*value)) > 1e-30) return false;
   }
-  return true;
+  return defined > 0;
+}
+
+bool is_odd_in_h(const SparseMatrix& c) {
+  return std::ranges::all_of(distinct_entries(c), [](const Expression& value) {
+    const Expression sum = reflected(value) + value;
+    return vanishes(sum) || looks_zero(sum);
+  });
 }
 
 Scheme member_scheme(int degrees_of_freedom, SparseMatrix c) {

@@ -190,18 +190,19 @@ Proof prove_splitting(const Splitting& splitting, int order, bool nystrom) {
                         nystrom ? "A drift, B kick, [B,[B,[B,A]]] = 0" : "A drift, B kick")};
 }
 
-Proof prove_composition(const Composition& composition, int order) {
-  const Finding base = prove_step_symplectic(composition.base);
+Proof prove_composition(const Composition& composition, int order, const Surroundings& around) {
+  const Finding base = prove_step_symplectic(composition.base, around);
   Finding symplectic = base;
-  if (base.verdict == Verdict::proved) {
+  if (holds(base.verdict)) {
     symplectic.detail =
         fmt::format("each of the {} factors is: {}", composition.substeps.size(), base.detail);
   }
-  const Finding base_symmetric = prove_symmetric(composition.base);
+  const Finding base_symmetric = prove_symmetric(composition.base, around);
+  const bool odd = holds(base_symmetric.verdict);
   const bool palindrome = is_palindrome(composition.substeps);
-  const bool symmetric = palindrome && base_symmetric.verdict == Verdict::proved;
+  const Verdict symmetric =
+      both(palindrome ? Verdict::proved : Verdict::refuted, base_symmetric.verdict);
   const bool exact = all_rational(composition.substeps);
-  const bool odd = base_symmetric.verdict == Verdict::proved;
   OrderFound found;
   if (exact) {
     std::vector<Rational> numbers;
@@ -212,12 +213,16 @@ Proof prove_composition(const Composition& composition, int order) {
     for (const Expression& c : composition.substeps) numbers.push_back(value_of_exact(c));
     found = order_of_composition(numbers, order + 1, odd);
   }
-  return {symplectic,
-          {"symmetric", symmetric ? Verdict::proved : Verdict::refuted,
-           symmetric    ? "the base is symmetric, the substeps the same from both ends"
-           : palindrome ? "the base is not symmetric"
-                        : "the substeps from the other end, its adjoint's, are others"},
-          order_finding(found, exact, "k for the h^k term of the base's own vector field")};
+  const std::string both_ends =
+      palindrome
+          ? "the substeps are the same from both ends, and the base: " + base_symmetric.detail
+          : "the substeps from the other end, its adjoint's, are others";
+  const Verdict of_base = odd ? base_symmetric.verdict : Verdict::proved;
+  return {
+      symplectic,
+      {"symmetric", symmetric, both_ends},
+      resting_on(of_base, "the symmetry of the base is tested only",
+                 order_finding(found, exact, "k for the h^k term of the base's own vector field"))};
 }
 
 // A kick has the Jacobian [[1, 0], [-b h V'', 1]], a drift [[1, a h T''], [0, 1]].  With generic

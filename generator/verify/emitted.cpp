@@ -96,6 +96,21 @@ std::string scope(const Scheme& scheme, const Sequence& sequence, bool loops) {
          (text.empty() ? "" : ", " + text) + "; the solver around them only by measuring";
 }
 
+// Of the model's own names: "bar(q)" and the like have their corners from these.
+bool is_of_model(const Corner& corner) {
+  return std::ranges::all_of(symbols(corner.function), [](const std::string& name) {
+    return name.find_first_of("(#=") == std::string::npos;
+  });
+}
+
+void add_corners(const std::vector<Corner>& more, std::vector<Corner>& all) {
+  for (const Corner& corner : more) {
+    if (!is_of_model(corner)) continue;
+    const auto same = [&](const Corner& known) { return known.function == corner.function; };
+    if (std::ranges::none_of(all, same)) all.push_back(corner);
+  }
+}
+
 }  // namespace
 
 Identities identities_of(const Evaluation& evaluation, const std::string& what,
@@ -109,7 +124,8 @@ Identities identities_of(const Evaluation& evaluation, const std::string& what,
 }
 
 Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                      const Expression& hamiltonian) {
+                      const Expression& hamiltonian, const Surroundings& around,
+                      std::optional<Decision> of_k) {
   const std::string property = "emitted code";
   const bool loops = mechanics.keeps_sums();
   std::optional<Derivatives> derivatives;
@@ -124,26 +140,25 @@ Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Pr
   parts.push_back(identities_of(program.invariants, "invariant", invariants));
   Decision total{.verdict = Verdict::proved};
   for (const Identities& part : parts) {
-    const Decision decision = decide(part);
+    const Decision decision = decide(part, around);
     total.claims += decision.claims;
     total.by_algebra += decision.by_algebra;
     total.points = std::max(total.points, decision.points);
-    if (decision.verdict == Verdict::proved) continue;
-    total.verdict = decision.verdict;
-    if (decision.verdict == Verdict::tested) continue;
-    return {property, decision.verdict, decision.witness};
+    add_corners(decision.corners, total.corners);
+    total.verdict = both(total.verdict, decision.verdict);
+    if (!holds(decision.verdict)) return {property, decision.verdict, decision.witness};
   }
   const std::string detail = to_text(total) + scope(scheme, program.sequence, loops);
   // What stands around loops is the same text for every model and is not read.
-  if (loops) total.verdict = Verdict::tested;
+  if (loops) total.verdict = both(total.verdict, Verdict::tested);
   if (!is_raised(scheme)) return {property, total.verdict, detail};
   const GeneratingFunction& function = *program.plan.equations.function;
-  const Decision of_k = decide_function(mechanics, *derivatives, scheme.member(), function);
-  if (of_k.verdict != Verdict::tested) return {property, of_k.verdict, of_k.witness};
-  return {property, Verdict::tested,
+  if (!of_k) of_k = decide_function(mechanics, *derivatives, scheme.member(), function, around);
+  if (!holds(of_k->verdict)) return {property, of_k->verdict, of_k->witness};
+  return {property, both(total.verdict, of_k->verdict),
           fmt::format("{} with K in place of H; grad K has a symmetric Jacobian and its step is "
                       "the flow up to h^{}, at {} points to 1e-30",
-                      detail, function.order, of_k.points)};
+                      detail, function.order, of_k->points)};
 }
 
 }  // namespace hamgen

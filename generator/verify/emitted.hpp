@@ -32,6 +32,7 @@ namespace hamgen {
 // grad K and the Hessian that Newton's iteration takes: a gradient, and one whose step follows the
 // flow of H to its order, at random points.
 [[nodiscard]] Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,
-                                       const Member& member, const GeneratingFunction& function);
+                                       const Member& member, const GeneratingFunction& function,
+                                       const Surroundings& around = {});
 
 }  // namespace hamgen

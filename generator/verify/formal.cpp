@@ -6,17 +6,19 @@
 
 namespace hamgen {
 
-FormalPoint::FormalPoint(const Mechanics& mechanics, int number) : mechanics_(mechanics) {
-  std::mt19937_64 source(static_cast<std::uint64_t>(number) + 1);
+// Of the kinds of points those that are no larger than the scenes: the terms of a series of order
+// 10 grow like the tenth power of what they are made of.
+FormalPoint::FormalPoint(const Mechanics& mechanics, const Surroundings& around, int number)
+    : mechanics_(mechanics) {
+  constexpr int kinds[] = {4, 0, 1};
+  SamplePoint draw(around, 5 * (number / 3) + kinds[number % 3], 0);
   for (const Quantity& parameter : mechanics.parameters) {
-    symbols_[parameter.name] = {random_precise(source)};
+    symbols_[parameter.name] = {draw(parameter.name)};
   }
-  symbols_["E0"] = {random_precise(source)};
+  symbols_["E0"] = {draw("E0")};
   symbols_["h"] = {precise(0), precise(1)};
-  for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
-    z_.push_back(random_precise(source));
-  }
-  random_ = random_precise(source) / precise(10);
+  for (const Quantity& variable : mechanics.variables) z_.push_back(draw(variable.name));
+  random_ = SamplePoint({}, 4, 5 * number)("h");
 }
 
 std::vector<PowerSeries> FormalPoint::state() const {

@@ -7,6 +7,7 @@
 
 #include "generator/verify/expected_step.hpp"
 #include "generator/verify/power_series.hpp"
+#include "generator/verify/sample_points.hpp"
 
 namespace hamgen {
 
@@ -14,7 +15,7 @@ namespace hamgen {
 class FormalPoint {
  public:
   // The same for every process; `number` counts points.
-  FormalPoint(const Mechanics& mechanics, int number);
+  FormalPoint(const Mechanics& mechanics, const Surroundings& around, int number);
   void move(std::size_t i, const Precise& by) { z_[i] = z_[i] + by; }
   void set_step(const PowerSeries& h) { symbols_["h"] = h; }
   [[nodiscard]] const PowerSeries& step() const { return symbols_.at("h"); }
@@ -34,7 +35,7 @@ class FormalPoint {
   const Mechanics& mechanics_;
   std::map<std::string, PowerSeries> symbols_;  // parameters and h
   std::vector<Precise> z_;
-  Precise random_;  // one number more, from 1/40 to 7/40
+  Precise random_;  // one number more, a small step
 };
 
 // J g of a gradient.

@@ -50,17 +50,18 @@ Witness differ(const std::string& what, const std::vector<Precise>& emitted,
 class FunctionCheck {
  public:
   FunctionCheck(const Mechanics& mechanics, const Derivatives& derivatives, const Member& member,
-                const GeneratingFunction& function)
+                const GeneratingFunction& function, const Surroundings& around)
       : mechanics_(mechanics),
         derivatives_(derivatives),
         member_(member),
         function_(function),
+        around_(around),
         size_(mechanics.variables.size()),
         length_(static_cast<std::size_t>(function.order)) {}
 
   // Throws std::domain_error where something is not defined.
   Witness at(int point) const {
-    const FormalPoint here(mechanics_, point);
+    const FormalPoint here(mechanics_, around_, point);
     if (Witness witness = follows_the_flow(here)) return witness;
     return has_a_symmetric_jacobian(here);
   }
@@ -162,6 +163,7 @@ class FunctionCheck {
   const Derivatives& derivatives_;
   const Member& member_;
   const GeneratingFunction& function_;
+  const Surroundings& around_;
   std::size_t size_;
   std::size_t length_;
 };
@@ -169,8 +171,9 @@ class FunctionCheck {
 }  // namespace
 
 Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,
-                         const Member& member, const GeneratingFunction& function) {
-  const FunctionCheck check(mechanics, derivatives, member, function);
+                         const Member& member, const GeneratingFunction& function,
+                         const Surroundings& around) {
+  const FunctionCheck check(mechanics, derivatives, member, function, around);
   Decision decision;
   const int wanted = check.points();
   // A point may lie outside the domain of H: then another is taken.

@@ -17,6 +17,7 @@ constexpr std::size_t kNormalisable = 2000;
 constexpr int kPoints = 200;
 // The first points only refute: most mistakes show at once.
 constexpr int kFirstPoints = 3;
+constexpr int kAttempts = 100;
 
 std::size_t tree_size(const Expression& e, std::map<const void*, std::size_t>& known) {
   if (e.operands().empty()) return 1;
@@ -77,39 +78,59 @@ bool vanishes_with_roots(GiNaC::ex numerator, const SquareRoots& roots, SymbolTa
 
 // Is it not zero at some point?  Cheaper than any algebra.
 bool differs_from_zero(const Expression& e) {
-  std::mt19937_64 source(1);
-  std::map<std::string, Precise> free;
-  for (const std::string& name : symbols(e)) {
-    if (name != "pi") free.emplace(name, random_precise(source));
+  for (int number = 0; number < kFirstPoints; ++number) {
+    SamplePoint point({}, 4, number);  // the first is a positive one
+    std::map<std::string, Precise> free;
+    for (const std::string& name : symbols(e)) {
+      if (name != "pi") free.emplace(name, point(name));
+    }
+    const auto value = PreciseValues(free, {}).scaled(e);
+    if (value) return !is_zero(*value);
   }
-  const auto value = PreciseValues(std::move(free), {})(e);
-  return value && cln::abs(*value) > precise(*parse_decimal("1e-30"));
+  return false;
 }
 
 class Decider {
  public:
-  explicit Decider(const Identities& identities) : identities_(identities) {
+  // `of_program`: what is emitted has to be defined wherever the expected is.
+  Decider(const Identities& identities, const Surroundings& around, bool of_program)
+      : identities_(identities), around_(around), of_program_(of_program) {
     for (const Statement& s : identities.emitted) emitted_.emplace(s.name, s.value);
   }
 
   Decision run() {
     Decision decision{.claims = static_cast<int>(identities_.claims.size())};
-    if (!is_ordered(decision) || !test(decision, 0, kFirstPoints)) return decision;
+    decision.corners = corners_of_all();
+    if (!is_ordered(decision)) return decision;
+    const bool holds_at_first = test(decision, 0, kFirstPoints);
+    if (decision.verdict == Verdict::refuted) return decision;
     for (const Statement& s : identities_.expected) match(s.name, s.value);
     for (const Claim& claim : identities_.claims) {
       if (equal(reduced(claim.emitted), reduced(claim.expected))) ++decision.by_algebra;
     }
-    if (decision.by_algebra == decision.claims) {
+    if (decision.by_algebra == decision.claims && decision.corners.empty()) {
       decision.verdict = Verdict::proved;
       decision.points = 0;
+      decision.witness.clear();
       return decision;
     }
-    if (!test(decision, kFirstPoints, kPoints)) return decision;
+    if (!holds_at_first || !test(decision, kFirstPoints, kPoints)) return decision;
     decision.verdict = Verdict::tested;
     return decision;
   }
 
  private:
+  [[nodiscard]] std::vector<Corner> corners_of_all() const {
+    std::vector<Expression> all;
+    for (const Statement& s : identities_.emitted) all.push_back(s.value);
+    for (const Statement& s : identities_.expected) all.push_back(s.value);
+    for (const Claim& claim : identities_.claims) {
+      all.push_back(claim.emitted);
+      all.push_back(claim.expected);
+    }
+    return corners(all);
+  }
+
   // Every value is computed once, and before it is used.
   bool is_ordered(Decision& decision) const {
     std::set<std::string> later;
@@ -211,19 +232,15 @@ class Decider {
     std::erase_if(
         free, [&](const std::string& name) { return name == "pi" || definitions.contains(name); });
     for (int point = first; point < last; ++point) {
-      std::mt19937_64 source(static_cast<std::uint64_t>(point) + 1);
       // A point may lie outside the domain of H: then another is taken.
       for (int attempt = 0;; ++attempt) {
-        if (attempt == 50) {
+        if (attempt == kAttempts) {
           decision.witness = "no point was found where all of it is defined";
           return false;
         }
+        SamplePoint draw(around_, point, attempt);
         std::map<std::string, Precise> values;
-        for (const std::string& name : free) {
-          const Precise value = random_precise(source);
-          // The step is small: closed roots need it.
-          values.emplace(name, name == "h" ? value / precise(10) : value);
-        }
+        for (const std::string& name : free) values.emplace(name, draw(name));
         const auto outcome = compare(values, definitions, decision);
         if (!outcome) continue;
         if (!*outcome) return false;
@@ -237,31 +254,32 @@ class Decider {
   // Empty outside the domain.
   std::optional<bool> compare(const std::map<std::string, Precise>& free,
                               const Substitution& definitions, Decision& decision) const {
-    static const Precise tolerance = precise(*parse_decimal("1e-30"));
     PreciseValues values(free, definitions);
     for (const Claim& claim : identities_.claims) {
       if (!values(claim.expected)) return std::nullopt;
+      if (!of_program_ && !values(claim.emitted)) return std::nullopt;
     }
     for (const Claim& claim : identities_.claims) {
-      const auto emitted = values(claim.emitted);
-      const auto expected = values(claim.expected);
+      const auto emitted = values.scaled(claim.emitted);
+      const auto expected = values.scaled(claim.expected);
       if (!emitted) {
         decision.verdict = Verdict::refuted;
         decision.witness = claim.what + " is not defined at a random point where it should be";
         return false;
       }
-      const Precise size = std::max(cln::abs(*emitted), cln::abs(*expected));
-      if (cln::abs(*emitted - *expected) <= tolerance * size) continue;
-      if (size <= tolerance) continue;  // two zeros
+      if (is_zero(*emitted - *expected)) continue;
       decision.verdict = Verdict::refuted;
-      decision.witness = fmt::format("{} is {:.10g} and should be {:.10g} at a random point",
-                                     claim.what, to_double(*emitted), to_double(*expected));
+      decision.witness =
+          fmt::format("{} is {:.10g} and should be {:.10g} at a random point", claim.what,
+                      to_double(emitted->value), to_double(expected->value));
       return false;
     }
     return true;
   }
 
   const Identities& identities_;
+  const Surroundings& around_;
+  bool of_program_;
   Substitution emitted_;
   Substitution known_;
   ExpressionMap<Expression> opaque_;  // what a matched definition is -> its symbol
@@ -289,17 +307,31 @@ bool is_zero_by_algebra(const Expression& e) {
   }
 }
 
-Decision decide(const Identities& identities) { return Decider(identities).run(); }
+Decision decide(const Identities& identities, const Surroundings& around) {
+  return Decider(identities, around, true).run();
+}
+
+Decision decide_equal(const std::string& what, const Expression& a, const Expression& b,
+                      const Surroundings& around) {
+  const Identities identities{.claims = {{what, a, b}}};
+  return Decider(identities, around, false).run();
+}
+
+std::string points_text(const Decision& decision) {
+  const std::string off = off_the(decision.corners);
+  if (decision.points == 0) return "by algebra, " + off;
+  return fmt::format(
+      "at {} points around the scenes, of both signs and several scales, to 1e-40 of their terms{}",
+      decision.points, off.empty() ? "" : ", " + off);
+}
 
 std::string to_text(const Decision& decision) {
-  if (decision.verdict == Verdict::refuted || decision.verdict == Verdict::not_decided) {
-    return decision.witness;
-  }
+  if (!holds(decision.verdict)) return decision.witness;
   if (decision.verdict == Verdict::proved) {
     return fmt::format("{} identities by algebra", decision.claims);
   }
-  return fmt::format("{} identities, {} by algebra, all at {} points to 1e-30", decision.claims,
-                     decision.by_algebra, decision.points);
+  return fmt::format("{} identities, {} by algebra, all {}", decision.claims, decision.by_algebra,
+                     points_text(decision));
 }
 
 }  // namespace hamgen

@@ -7,7 +7,9 @@
 
 #include "generator/algebra/expression.hpp"
 #include "generator/program/program.hpp"
-#include "generator/verify/proof.hpp"
+#include "generator/verify/corners.hpp"
+#include "generator/verify/sample_points.hpp"
+#include "generator/verify/verdict.hpp"
 
 namespace hamgen {
 
@@ -26,21 +28,31 @@ struct Identities {
   std::vector<Claim> claims;
 };
 
-// How well the claims are known.  `proved`: every difference is zero after normalisation.
-// `tested`: equal to 1e-30 of their size at `points` random points.  `refuted`: the witness says
-// which claim fails, where and by how much.
+// How well the claims are known.  `proved`: every difference is zero after normalisation, and no
+// side has a corner.  `tested`: at `points` random points the sides differ by less than 1e-40 of
+// the terms they are made of.  `refuted`: the witness says which claim fails, where and by how
+// much.
 struct Decision {
   Verdict verdict = Verdict::not_decided;
   int claims = 0;
   int by_algebra = 0;  // of them
   int points = 0;
   std::string witness;
+  std::vector<Corner> corners;  // that the points were off
 };
 
-[[nodiscard]] Decision decide(const Identities& identities);
+// What a program computes: an emitted value that is not defined where the expected one is refutes
+// the claim.
+[[nodiscard]] Decision decide(const Identities& identities, const Surroundings& around = {});
+// Two expressions, at points where both are defined.
+[[nodiscard]] Decision decide_equal(const std::string& what, const Expression& a,
+                                    const Expression& b, const Surroundings& around = {});
 
 // "12 identities by algebra", or with the number of points.
 [[nodiscard]] std::string to_text(const Decision& decision);
+// How a claim is known that is not proved: "at 200 points around the scenes, of both signs and
+// several scales, to 1e-40 of their terms", or by algebra, and which corners that is off.
+[[nodiscard]] std::string points_text(const Decision& decision);
 
 // Is the expression zero by algebra?  False also where that takes too long to find out.
 [[nodiscard]] bool is_zero_by_algebra(const Expression& e);

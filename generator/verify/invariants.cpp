@@ -15,8 +15,11 @@ constexpr int kMostFreedom = 64;  // degrees of freedom of a bracket that is exp
 // An invariant and H with their derivatives.
 class Bracket {
  public:
-  Bracket(const Mechanics& mechanics, const Expression& energy, const Expression& invariant)
-      : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)) {
+  Bracket(const Mechanics& mechanics, const Expression& energy, const Expression& invariant,
+          const Surroundings& around)
+      : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)),
+        corners_(corners({energy, invariant})),
+        around_(around) {
     std::vector<GiNaC::symbol> variables;
     for (std::size_t i = 0; i < 2 * n_; ++i) {
       const std::string& name = mechanics.variables[i].name;
@@ -106,12 +109,19 @@ class Bracket {
   }
   [[nodiscard]] Decision equal(const std::string& what, const GiNaC::ex& a,
                                const GiNaC::ex& b) const {
-    const GiNaC::ex difference = (a - b).expand();
-    if (difference.is_zero()) return {.verdict = Verdict::proved, .claims = 1, .by_algebra = 1};
-    return decide({.claims = {{what, from_ginac(a, table_), from_ginac(b, table_)}}});
+    // What is derived says nothing at a corner.
+    const Verdict smooth = corners_.empty() ? Verdict::proved : Verdict::tested;
+    Decision decision{.verdict = Verdict::proved, .claims = 1, .by_algebra = 1};
+    if (!(a - b).expand().is_zero() || !corners_.empty())
+      decision = decide_equal(what, from_ginac(a, table_), from_ginac(b, table_), around_);
+    decision.verdict = resting_on(smooth, decision.verdict);
+    decision.corners = corners_;
+    return decision;
   }
 
   std::size_t n_;
+  std::vector<Corner> corners_;
+  const Surroundings& around_;
   mutable SymbolTable table_;
   std::vector<GiNaC::ex> energy_, invariant_, form_;
   bool polynomial_ = true;
@@ -138,8 +148,7 @@ Finding conserved_by_member(const Bracket& bracket, const Member& member) {
   const Decision decision = bracket.zero(what, bracket.along_flow(*r));
   if (decision.verdict == Verdict::proved) return {"", Verdict::proved, what + " is 0 for this H"};
   if (decision.verdict == Verdict::tested) {
-    return {"", Verdict::tested,
-            fmt::format("{} is 0 for this H at {} points to 1e-30", what, decision.points)};
+    return {"", Verdict::tested, fmt::format("{} is 0 for this H {}", what, points_text(decision))};
   }
   return {"", decision.verdict, decision.witness};
 }
@@ -147,20 +156,26 @@ Finding conserved_by_member(const Bracket& bracket, const Member& member) {
 Finding conserved_by_splitting(const Bracket& bracket) {
   const Decision of_drift = bracket.zero("{I, T}", bracket.drift());
   const Decision of_kick = bracket.zero("{I, V}", bracket.kick());
-  if (of_drift.verdict == Verdict::proved && of_kick.verdict == Verdict::proved) {
-    return {"", Verdict::proved, "{I, T} = {I, V} = 0: every drift and every kick conserves it"};
+  const Verdict verdict = both(of_drift.verdict, of_kick.verdict);
+  if (holds(verdict)) {
+    const std::string where = verdict == Verdict::proved
+                                  ? ""
+                                  : " " + points_text(of_drift.points > 0 ? of_drift : of_kick);
+    return {
+        "", verdict,
+        fmt::format("{{I, T}} = {{I, V}} = 0{}: every drift and every kick conserves it", where)};
   }
   return {"", Verdict::not_decided,
           "not conserved by its drifts and kicks one by one: conserved up to the order"};
 }
 
 // A symplectic Runge-Kutta method conserves quadratic invariants (Cooper 1987; HLW IV.2.2).
-Finding conserved_by_tableau(const Bracket& bracket, bool symplectic) {
+Finding conserved_by_tableau(const Bracket& bracket, Verdict symplectic) {
   if (bracket.is_linear()) {
     return {"", Verdict::proved, "linear: every Runge-Kutta method conserves it"};
   }
-  if (symplectic && bracket.is_quadratic()) {
-    return {"", Verdict::proved, "quadratic, and the tableau is symplectic"};
+  if (holds(symplectic) && bracket.is_quadratic()) {
+    return {"", symplectic, "quadratic, and the tableau is symplectic"};
   }
   return {"", Verdict::not_decided,
           bracket.is_quadratic() ? "quadratic, and the tableau is not symplectic: conserved up to "
@@ -168,12 +183,12 @@ Finding conserved_by_tableau(const Bracket& bracket, bool symplectic) {
                                  : kUpToTheOrder};
 }
 
-Finding conserved(const Bracket& bracket, const Scheme& scheme, bool swept) {
+Finding conserved(const Bracket& bracket, const Scheme& scheme, bool solved, Verdict symplectic) {
   if (std::holds_alternative<Splitting>(scheme.method)) return conserved_by_splitting(bracket);
   if (std::holds_alternative<RungeKutta>(scheme.method)) {
-    return conserved_by_tableau(bracket, scheme.symplectic);
+    return conserved_by_tableau(bracket, symplectic);
   }
-  if (swept && !bracket.is_linear()) {
+  if (!solved && !bracket.is_linear()) {
     return {"", Verdict::not_decided, "the sweeps leave the step unsolved"};
   }
   return conserved_by_member(bracket, scheme.member());
@@ -182,7 +197,8 @@ Finding conserved(const Bracket& bracket, const Scheme& scheme, bool swept) {
 }  // namespace
 
 Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
-                       const Scheme& scheme, bool swept) {
+                       const Scheme& scheme, bool solved, Verdict symplectic,
+                       const Surroundings& around) {
   Proof proof;
   for (const NamedExpression& invariant : mechanics.invariants) {
     const std::string name = invariant.name + " invariant";
@@ -192,20 +208,18 @@ Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian
                                    mechanics.degrees_of_freedom, kMostFreedom)});
       continue;
     }
-    const Bracket bracket(mechanics, hamiltonian, invariant.value);
+    const Bracket bracket(mechanics, hamiltonian, invariant.value, around);
     const Decision decision = bracket.difference();
-    if (decision.verdict != Verdict::proved) {
-      const bool tested = decision.verdict == Verdict::tested;
-      proof.push_back({name, decision.verdict,
-                       tested ? fmt::format("{{I, H}} = 0 at {} points to 1e-30", decision.points)
-                              : decision.witness});
-      if (!tested) continue;
-    } else {
-      proof.push_back({name, Verdict::proved, "{I, H} = 0"});
+    if (!holds(decision.verdict)) {
+      proof.push_back({name, decision.verdict, decision.witness});
+      continue;
     }
-    Finding of_step = conserved(bracket, scheme, swept);
+    const bool proved = decision.verdict == Verdict::proved;
+    proof.push_back(
+        {name, decision.verdict, "{I, H} = 0" + (proved ? "" : " " + points_text(decision))});
+    Finding of_step = conserved(bracket, scheme, solved, symplectic);
     of_step.property = invariant.name + " conserved by the step";
-    proof.push_back(std::move(of_step));
+    proof.push_back(resting_on(decision.verdict, "{I, H} = 0 is tested only", std::move(of_step)));
   }
   return proof;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace hamgen {
 
@@ -15,6 +16,41 @@ double spectral_radius(const Eigen::MatrixXd& matrix) {
   for (const std::complex<double>& value : eigenvalues(matrix))
     largest = std::max(largest, std::abs(value));
   return largest;
+}
+
+double margin_of(const Eigen::MatrixXd& m, bool symplectic) {
+  if (!m.allFinite()) return -1.0;
+  if (symplectic) {
+    // det M = 1: the eigenvalues have modulus 1 and are two iff |trace| < 2, that is
+    // det(M + I) = 2 + trace > 0 and det(M - I) = 2 - trace > 0, the latter small for a small h.
+    const double diagonal = (m(0, 0) - 1.0) * (m(1, 1) - 1.0);
+    const double across = m(0, 1) * m(1, 0);
+    const double size = std::abs(diagonal) + std::abs(across);
+    return std::min(1.0 + 0.5 * m.trace(), size > 0.0 ? (diagonal - across) / size : 0.0);
+  }
+  return 1.0 - spectral_radius(m);
+}
+
+double margin_together(const Eigen::MatrixXd& m, int free_motions) {
+  if (!m.allFinite()) return -1.0;
+  const Eigen::MatrixXd sum = m + m.inverse();
+  if (!sum.allFinite()) return -1.0;
+  // In rounded numbers two that meet and two that have left the axis look alike: both are a border.
+  std::vector<std::complex<double>> pairs = eigenvalues(sum);
+  std::ranges::sort(pairs, {}, [](const auto& x) { return x.real(); });
+  std::vector<double> margins;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double across = std::abs(pairs[k].imag());
+    double margin = 1.0 - std::abs(pairs[k].real()) / 2.0;
+    if (across > 1e-6 * (1.0 + std::abs(pairs[k]))) margin = -across;
+    const std::size_t next = k - k % 2 + 2;
+    if (margin > 0.0 && next < pairs.size() && std::abs(pairs[next] - pairs[k]) < 1e-5)
+      margin = 0.0;
+    margins.push_back(margin);
+  }
+  std::ranges::sort(margins, {}, [](double x) { return std::abs(x); });
+  const auto skipped = static_cast<std::ptrdiff_t>(2 * free_motions);
+  return *std::min_element(margins.begin() + skipped, margins.end());
 }
 
 }  // namespace hamgen

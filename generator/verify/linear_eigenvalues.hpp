@@ -1,4 +1,4 @@
-// Eigenvalues of a real matrix.
+// Eigenvalues of a real matrix in doubles, and how far those of a step are from leaving the circle.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,5 +10,12 @@ namespace hamgen {
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 // The largest of their absolute values.
 [[nodiscard]] double spectral_radius(const Eigen::MatrixXd& matrix);
+
+// Below zero, or not finite, where the powers of a 2 x 2 matrix are unbounded.
+[[nodiscard]] double margin_of(const Eigen::MatrixXd& m, bool symplectic);
+// The same for more degrees of freedom, and 0 where rounding hides the answer.  The eigenvalues
+// lambda of a symplectic M are unimodular and semisimple if all lambda + 1/lambda, eigenvalues of
+// M + M^-1 that are there twice, are real, different and between -2 and 2.  Free motions have 2.
+[[nodiscard]] double margin_together(const Eigen::MatrixXd& m, int free_motions);
 
 }  // namespace hamgen

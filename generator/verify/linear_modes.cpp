@@ -7,6 +7,7 @@
 
 #include "generator/verify/linear_eigenvalues.hpp"
 #include "generator/verify/linear_step.hpp"
+#include "generator/verify/rational_step.hpp"
 
 namespace hamgen {
 
@@ -108,6 +109,47 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
   }
   std::ranges::sort(spectrum.frequencies);
   if (!positive) spectrum.resonant = has_jordan_block(linear_flow(s), spectrum.frequencies);
+  return spectrum;
+}
+
+// det(x - A) = p(x^2): the factors of p, each with its multiplicity m and its negative roots -w^2.
+LinearSpectrum exact_spectrum(const ExactMatrix& s) {
+  const ExactMatrix a = linear_flow(s);
+  const ExactMatrix square = a * a;
+  const RationalPolynomial of_a = characteristic_polynomial(a);
+  RationalPolynomial p;
+  for (std::size_t k = 0; k < of_a.size(); k += 2) p.push_back(of_a[k]);
+  LinearSpectrum spectrum;
+  while (!p.empty() && p.front() == 0) {
+    ++spectrum.free_motions;
+    p.erase(p.begin());
+  }
+  for (const auto& [factor, multiplicity] : square_free_factors(p)) {
+    RationalPolynomial mirrored = factor;
+    for (std::size_t k = 1; k < mirrored.size(); k += 2) mirrored[k] = -mirrored[k];
+    const auto roots = positive_roots(mirrored);
+    for (const auto& [low, high] : roots) {
+      const double w = std::sqrt(to_double(Rational((low + high) / 2)));
+      spectrum.frequencies.insert(spectrum.frequencies.end(),
+                                  static_cast<std::size_t>(multiplicity), w);
+    }
+    spectrum.growing += multiplicity * (degree(factor) - static_cast<int>(roots.size()));
+    const auto planes = static_cast<std::size_t>(2 * multiplicity * degree(factor));
+    if (multiplicity > 1 && !roots.empty() && s.size - rank(value_at(factor, square)) < planes)
+      spectrum.resonant = true;
+  }
+  std::ranges::sort(spectrum.frequencies);
+  Eigen::MatrixXd rounded(s.size, s.size);
+  for (std::size_t i = 0; i < s.size; ++i) {
+    for (std::size_t j = 0; j < s.size; ++j)
+      rounded(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = to_double(a(i, j));
+  }
+  for (const std::complex<double>& lambda : eigenvalues(rounded)) {
+    spectrum.largest = std::max(spectrum.largest, std::abs(lambda));
+    if (spectrum.growing > 0) spectrum.growth_rate = std::max(spectrum.growth_rate, lambda.real());
+  }
+  if (spectrum.growing == 0 && !spectrum.frequencies.empty())
+    spectrum.largest = spectrum.frequencies.back();
   return spectrum;
 }
 

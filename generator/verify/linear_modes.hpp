@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/schemes/scheme.hpp"
+#include "generator/verify/exact_matrix.hpp"
 
 namespace hamgen {
 
@@ -19,6 +20,8 @@ struct LinearSpectrum {
   double largest = 0.0;  // of the absolute values of eigenvalues of A
 };
 [[nodiscard]] LinearSpectrum linear_spectrum(const Eigen::MatrixXd& s);
+// The same in rationals: counts and Jordan blocks are exact, and a growth however slow is one.
+[[nodiscard]] LinearSpectrum exact_spectrum(const ExactMatrix& s);
 
 // Systems S_k, 2 x 2, each an invariant plane of the flow and of the scheme's step; empty if no
 // such planes are known.  With S = [[V, 0], [0, T]]:

@@ -5,42 +5,71 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/algebra/evaluate.hpp"
 #include "generator/verify/linear_stability.hpp"
+#include "generator/verify/rational_step.hpp"
 
 namespace hamgen {
 
 namespace {
 
-using Point = std::map<std::string, Precise>;
+using Point = std::map<std::string, Rational>;
+
+// Is the value of a function at a rational point rational by itself?
+bool is_exact_value(const std::string& name, const Rational& x) {
+  if (name == "abs") return true;
+  if (name == "log") return x == 1;
+  if (name == "sqrt")
+    return mpz_perfect_square_p(x.get_num_mpz_t()) != 0 &&
+           mpz_perfect_square_p(x.get_den_mpz_t()) != 0;
+  return x == 0 && name != "acos" && name != "acosh" && name != "atan2";
+}
+
+// Is the value of the expression there an exact one, or its first 50 digits?
+bool is_exact(const Expression& e, const Point& point) {
+  if (e.is_number()) return true;
+  if (e.kind() == Kind::symbol) {
+    const auto value = point.find(e.name());
+    return value != point.end() && is_short(value->second);
+  }
+  if (!std::ranges::all_of(e.operands(), [&](const Expression& x) { return is_exact(x, point); }))
+    return false;
+  const auto first = evaluate(e.operands()[0], point);
+  if (!first) return false;
+  if (e.kind() == Kind::function) return is_exact_value(e.name(), *first);
+  if (e.kind() != Kind::power) return true;
+  const auto exponent = evaluate(e.operands()[1], point);
+  if (!exponent) return false;
+  return exponent->get_den() == 1 || (exponent->get_den() == 2 && is_exact_value("sqrt", *first));
+}
 
 // H'' at the point; empty where it is not defined.
 std::optional<QuadraticPart> quadratic_part(const Mechanics& mechanics, const Point& point) {
   const auto size = static_cast<std::size_t>(2 * mechanics.degrees_of_freedom);
-  QuadraticPart part{mechanics.degrees_of_freedom, std::vector<double>(size * size)};
-  const Substitution none;
-  PreciseValues values(point, none);
+  QuadraticPart part{mechanics.degrees_of_freedom, std::vector<Rational>(size * size)};
   for (const auto& [place, derivative] : mechanics.hessian) {
-    const std::optional<Precise> value = values(derivative);
+    const std::optional<Rational> value = evaluate(derivative, point);
     if (!value) return std::nullopt;
+    part.exact = part.exact && is_exact(derivative, point);
     const auto i = static_cast<std::size_t>(place.first);
     const auto j = static_cast<std::size_t>(place.second);
-    part.hessian[i * size + j] = part.hessian[j * size + i] = to_double(*value);
+    part.hessian[i * size + j] = part.hessian[j * size + i] = *value;
   }
-  // With 60 digits cos(pi/2) is not quite zero.
-  double largest = 0.0;
-  for (const double entry : part.hessian) largest = std::max(largest, std::abs(entry));
-  for (double& entry : part.hessian) {
-    if (std::abs(entry) < 1e-60 * largest) entry = 0.0;
+  if (part.exact) return part;
+  // With 50 digits cos(pi/2) is not quite zero.
+  Rational largest = 0;
+  for (const Rational& entry : part.hessian) largest = std::max(largest, Rational(abs(entry)));
+  largest *= *parse_decimal("1e-45");
+  for (Rational& entry : part.hessian) {
+    if (abs(entry) < largest) entry = 0;
   }
   return part;
 }
 
 bool is_equilibrium(const Mechanics& mechanics, const Point& point) {
-  const Substitution none;
-  PreciseValues values(point, none);
   return std::ranges::all_of(mechanics.gradient, [&](const Expression& component) {
-    const std::optional<Precise> value = values(component);
-    return value && std::abs(to_double(*value)) < 1e-50;
+    const std::optional<Rational> value = evaluate(component, point);
+    return value && abs(*value) < *parse_decimal("1e-45");
   });
 }
 
@@ -62,13 +91,40 @@ std::string flow_text(const LinearStability& found) {
   return text;
 }
 
+// "up to h = 1.0067 (h w = 1.3), and from 1.036 to 1.185"
 std::string bound_text(const LinearStability& found) {
-  if (found.bounded_for_every_h) return "; for every h";
-  if (found.frequencies.empty() || !found.margin) return "";
-  if (!found.largest_h) return "; no bound of h was found";
-  const double w = found.frequencies.back();
-  return fmt::format("; bounded up to h = {:.8g} (h w = {:.6g})", *found.largest_h,
-                     *found.largest_h * w);
+  if (found.verdict == Verdict::refuted || found.frequencies.empty()) return "";
+  std::string text;
+  if (found.bounded_for_every_h) {
+    text = "; for every h";
+  } else if (!found.searched) {
+    return found.verdict == Verdict::not_decided ? "" : "; up to which h is not known";
+  } else if (found.bounded_steps.empty()) {
+    return "";
+  } else {
+    constexpr std::size_t most = 4;
+    const double w = found.frequencies.back();
+    const std::size_t count = found.bounded_steps.size();
+    for (std::size_t k = 0; k < std::min(count, most); ++k) {
+      const auto& [from, to] = found.bounded_steps[k];
+      text += text.empty() ? "; bounded " : ", and ";
+      if (from > 0.0) text += fmt::format("from h = {:.8g} ", from);
+      if (std::isinf(to)) {
+        text += "on";
+      } else {
+        text +=
+            fmt::format("{} h = {:.8g} (h w = {:.6g})", from > 0.0 ? "to" : "up to", to, to * w);
+        if (to >= found.looked_to) text += ", as far as was looked";
+      }
+    }
+    if (count > most) text += fmt::format(", and {} more beyond", count - most);
+  }
+  if (std::isfinite(found.looked_to)) text += "; by intervals of h";
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < std::min(found.borders.size(), most); ++k)
+    text += fmt::format("{} {:.8g}", k == 0 ? "; on the border at h =" : ",", found.borders[k]);
+  if (found.borders.size() > most) text += ", ...";
+  return text;
 }
 
 // The mode whose angle is nearest to 2 pi/m, m = 3 to 6, as a part of that.
@@ -96,20 +152,18 @@ std::string resonance_text(const LinearStability& found) {
 }  // namespace
 
 std::vector<LinearPoint> linear_points(const Mechanics& mechanics, const Scheme& scheme,
-                                       const std::map<std::string, Rational>& point, double h) {
-  Point state;
-  for (const auto& [name, value] : point) state.emplace(name, precise(value));
-  const Substitution none;
-  const std::optional<Precise> energy = PreciseValues(state, none)(mechanics.energy);
+                                       const std::map<std::string, Rational>& point,
+                                       const Rational& h) {
+  const std::optional<Rational> energy = evaluate(mechanics.energy, point);
   if (!energy) return {};
-  Point origin = state;
+  Point origin = point;
   for (const Quantity& variable : mechanics.variables)
-    origin.insert_or_assign(variable.name, precise(0));
+    origin.insert_or_assign(variable.name, Rational(0));
   // What C may depend on.
-  Point values = state;
+  Point values = point;
   values.insert_or_assign("E0", *energy);
   std::vector<LinearPoint> points;
-  const auto here = quadratic_part(mechanics, state);
+  const auto here = quadratic_part(mechanics, point);
   if (here) points.push_back({"initial state", linear_stability(*here, scheme, values, h)});
   if (!is_equilibrium(mechanics, origin)) return points;
   const auto there = quadratic_part(mechanics, origin);

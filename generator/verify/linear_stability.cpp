@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "generator/verify/bounded_powers.hpp"
+#include "generator/verify/linear_angles.hpp"
 #include "generator/verify/linear_eigenvalues.hpp"
+#include "generator/verify/linear_enclosed_steps.hpp"
 #include "generator/verify/linear_modes.hpp"
+#include "generator/verify/linear_parts.hpp"
 #include "generator/verify/linear_step.hpp"
 
 namespace hamgen {
@@ -19,80 +22,13 @@ using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 
 constexpr Eigen::Index kMostTogether = 64;  // degrees of freedom of a matrix that has no modes
-constexpr double kBorder = 1e-10;           // a margin that is not told from 0
-constexpr double kFirst = 1e-3;             // h w where the search for a bound begins
-constexpr double kLast = 1e3;               // and where it ends
-
-// Below zero, or not finite, where the powers of M are unbounded.
-double margin_of(const MatrixXd& m, bool symplectic) {
-  if (!m.allFinite()) return -1.0;
-  if (symplectic) {
-    // det M = 1: the eigenvalues have modulus 1 and are two iff |trace| < 2, that is
-    // det(M + I) = 2 + trace > 0 and det(M - I) = 2 - trace > 0, the latter small for a small h.
-    const double diagonal = (m(0, 0) - 1.0) * (m(1, 1) - 1.0);
-    const double across = m(0, 1) * m(1, 0);
-    const double size = std::abs(diagonal) + std::abs(across);
-    return std::min(1.0 + 0.5 * m.trace(), size > 0.0 ? (diagonal - across) / size : 0.0);
-  }
-  return 1.0 - spectral_radius(m);
-}
-
-// The same for more degrees of freedom.  The eigenvalues lambda of a symplectic M are unimodular
-// and semisimple if all lambda + 1/lambda, eigenvalues of M + M^-1 that are there twice, are real
-// and between -2 and 2.  Free motions have 2.
-double margin_together(const MatrixXd& m, int free_motions) {
-  if (!m.allFinite()) return -1.0;
-  const MatrixXd sum = m + m.inverse();
-  if (!sum.allFinite()) return -1.0;
-  std::vector<double> margins;
-  for (const std::complex<double>& twice : eigenvalues(sum)) {
-    const double across = std::abs(twice.imag());
-    margins.push_back(across > 1e-6 * (1.0 + std::abs(twice)) ? -across
-                                                              : 1.0 - std::abs(twice.real()) / 2.0);
-  }
-  std::ranges::sort(margins, {}, [](double x) { return std::abs(x); });
-  const auto skipped = static_cast<std::ptrdiff_t>(2 * free_motions);
-  return *std::min_element(margins.begin() + skipped, margins.end());
-}
-
-// The smallest h in [low, high] where the function is below zero; empty if none was found.  Between
-// the points of a grid it looks at minima, so that a narrow gap is not stepped over.
-std::optional<double> first_below_zero(const std::function<double(double)>& function, double low,
-                                       double high, double ratio) {
-  const auto crossing = [&](double good, double bad) {
-    for (int halving = 0; halving < 60 && bad - good > 1e-14 * bad; ++halving) {
-      const double middle = 0.5 * (good + bad);
-      (function(middle) < 0.0 ? bad : good) = middle;
-    }
-    return bad;
-  };
-  double before = low;
-  double here = low;
-  double value_before = function(low);
-  double value_here = value_before;
-  if (value_here < -kBorder) return low;
-  for (double next = low * ratio; next <= high; next *= ratio) {
-    const double value = function(next);
-    if (value_here < 0.1 && value_here < value_before && value_here < value) {
-      double left = before;
-      double right = next;
-      constexpr double golden = 0.618033988749895;
-      for (int i = 0; i < 40; ++i) {
-        const double a = right - golden * (right - left);
-        const double b = left + golden * (right - left);
-        (function(a) < function(b) ? right : left) = function(a) < function(b) ? b : a;
-      }
-      const double lowest = 0.5 * (left + right);
-      if (function(lowest) < -kBorder) return crossing(before, lowest);
-    }
-    if (value < -kBorder) return crossing(here, next);
-    before = here;
-    value_before = value_here;
-    here = next;
-    value_here = value;
-  }
-  return std::nullopt;
-}
+constexpr std::size_t kMostExact = 8;       // of one whose characteristic polynomial is computed
+constexpr std::size_t kMostSearched = 3;    // of one whose h are searched
+constexpr std::size_t kMostPlanes = 64;
+constexpr double kBorder = 1e-10;  // a margin that is not told from 0
+// Relative changes that a statement about rounded numbers must survive.
+const char* const kDigitsOfValues = "1e-30";
+const char* const kDigitsOfModes = "1e-12";
 
 bool is_oscillation(const Matrix2d& s, double smallest) {
   return s.determinant() > 0.25 * smallest * smallest;
@@ -110,56 +46,13 @@ std::string cayley_text(const Scheme& scheme) {
   return "the Cayley transform (1 - hA/2)^-1 (1 + hA/2) of A = J S, and theta = 2 atan(h w/2)";
 }
 
-// The modes of a linear part, each a plane of its own.
-class Modes {
- public:
-  Modes(std::vector<Matrix2d> planes, const LinearStep& step)
-      : planes_(std::move(planes)), step_(step), symplectic_(step.scheme().symplectic) {
-    std::ranges::sort(planes_, {}, [](const Matrix2d& s) { return s.determinant(); });
-  }
-
-  // Equal planes once; without beta and gamma the bound is one for h w, and the fastest meets it
-  // first.
-  [[nodiscard]] double margin(double h) const {
-    double smallest = 1.0;
-    const bool one = scales();
-    for (std::size_t k = one ? planes_.size() - 1 : 0; k < planes_.size(); ++k) {
-      if (k > 0 && !one && planes_[k].isApprox(planes_[k - 1], 1e-12)) continue;
-      smallest = std::min(smallest, margin_of(step_.matrix(h, planes_[k]), symplectic_));
-    }
-    return smallest;
-  }
-  // The mode that is unbounded, or else the fastest.
-  [[nodiscard]] std::size_t critical(double h) const {
-    std::vector<double> margins;
-    for (const Matrix2d& s : planes_) margins.push_back(margin_of(step_.matrix(h, s), symplectic_));
-    const auto smallest = std::ranges::min_element(margins);
-    if (*smallest > kBorder) return planes_.size() - 1;
-    return static_cast<std::size_t>(smallest - margins.begin());
-  }
-  [[nodiscard]] double angle(std::size_t k, double h) const {
-    // Of M without what it damps: 2 - trace = det(M - I) = 4 sin^2(theta/2) keeps its digits.
-    Matrix2d m = step_.matrix(h, planes_[k]);
-    m /= std::sqrt(std::abs(m.determinant()));
-    const double minus = (m(0, 0) - 1.0) * (m(1, 1) - 1.0) - m(0, 1) * m(1, 0);
-    const double plus = 2.0 + m.trace();
-    return 2.0 * std::atan2(std::sqrt(std::max(minus, 0.0)), std::sqrt(std::max(plus, 0.0)));
-  }
-  [[nodiscard]] const std::vector<Matrix2d>& planes() const { return planes_; }
-  [[nodiscard]] bool symplectic() const { return symplectic_; }
-
- private:
-  [[nodiscard]] bool scales() const {
-    const Scheme& scheme = step_.scheme();
-    return !scheme.has_member() || (!has_beta(scheme.member()) && !has_gamma(scheme.member()) &&
-                                    std::ranges::all_of(scheme.member().c, [](const auto& entry) {
-                                      return !depends_on(entry.second, "h");
-                                    }));
-  }
-  std::vector<Matrix2d> planes_;
-  const LinearStep& step_;
-  bool symplectic_;
-};
+// Is M a function of h A alone, in the coordinates of the modes?
+bool scales(const Scheme& scheme) {
+  return !scheme.has_member() || (!has_beta(scheme.member()) && !has_gamma(scheme.member()) &&
+                                  std::ranges::all_of(scheme.member().c, [](const auto& entry) {
+                                    return !depends_on(entry.second, "h");
+                                  }));
+}
 
 // X and D of the mode, where the condition of linear_margin is the one.
 std::string closed_form(const Scheme& scheme, const LinearStep& step, const Matrix2d& s, double h) {
@@ -172,49 +65,178 @@ std::string closed_form(const Scheme& scheme, const LinearStep& step, const Matr
                      square * (alpha - 0.5) * (alpha - 0.5));
 }
 
-void decide_by_modes(const Modes& modes, const LinearStep& step, LinearStability& result) {
-  const double fastest = result.frequencies.back();
-  const std::size_t critical = modes.critical(result.h);
-  const Matrix2d& s = modes.planes()[critical];
-  const double w = std::sqrt(s.determinant());
-  const MatrixXd m = step.matrix(result.h, s);
-  if (!m.allFinite()) {
-    result.detail = fmt::format("the step has no finite matrix for w = {:.6g}", w);
-    return;
+ExactMatrix rational(const Matrix2d& s) {
+  return {2,
+          {from_double(s(0, 0)), from_double(s(0, 1)), from_double(s(1, 0)), from_double(s(1, 1))}};
+}
+
+// What is asked of one linear part.
+struct Question {
+  const Scheme& scheme;
+  const Scheme& scheme_of_one;
+  const std::map<std::string, Rational>& values;
+  ExactMatrix s;
+  bool exact = false;  // S is no rounded number
+  Rational h;
+};
+
+void keep(const std::optional<StableSteps>& more, std::optional<StableSteps>& all) {
+  all = more && all ? std::optional(intersection(*all, *more)) : std::nullopt;
+}
+
+StableSteps every_h() { return {.intervals = {{0.0, std::numeric_limits<double>::infinity()}}}; }
+
+// In rationals if that is possible, else by intervals of h.
+std::optional<StableSteps> steps_of_part(const Scheme& scheme,
+                                         const std::map<std::string, Rational>& values,
+                                         const ExactMatrix& s, const LinearSpectrum& spectrum) {
+  if (auto found = stable_steps(RationalStep(scheme, values), s, spectrum.free_motions))
+    return found;
+  if (spectrum.growing > 0) return std::nullopt;
+  return enclosed_steps(scheme, values, s, spectrum.free_motions, spectrum.frequencies.back());
+}
+
+// One stability function over the frequencies, or one for each plane.
+std::optional<StableSteps> steps_of_modes(const Question& question, const Modes& modes) {
+  const RationalStep step(question.scheme_of_one, question.values);
+  const ExactMatrix unit = ExactMatrix::identity(2);
+  const bool one = scales(question.scheme);
+  std::optional<StableSteps> in_y;
+  if (!question.scheme.symplectic) in_y = damped_steps(step, unit);
+  if (question.scheme.symplectic && one) in_y = stable_steps(step, unit, 0);
+  std::optional<StableSteps> all = every_h();
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < modes.planes().size(); ++k) {
+    if (k > 0 && modes.planes()[k].isApprox(modes.planes()[k - 1], 1e-12)) continue;
+    if (!one && ++different > kMostPlanes) return std::nullopt;
+    if (one && !in_y) return std::nullopt;
+    const ExactMatrix plane = rational(modes.planes()[k]);
+    keep(one ? std::optional(divided_by(*in_y, modes.frequency(k)))
+             : steps_of_part(question.scheme_of_one, question.values, plane, exact_spectrum(plane)),
+         all);
   }
-  const double margin = margin_of(m, modes.symplectic());
-  result.margin = margin;
-  result.largest_h = first_below_zero([&](double h) { return modes.margin(h); }, kFirst / fastest,
-                                      kLast / fastest, 1.01);
-  const std::string what = modes.symplectic() ? "|trace M|/2" : "spectral radius of M";
-  const std::string value =
-      fmt::format("{} = {:.8g} of w = {:.6g}", what,
-                  modes.symplectic() ? std::abs(m.trace()) / 2.0 : 1.0 - margin, w) +
-      closed_form(step.scheme(), step, s, result.h);
-  // Without det M = 1 an eigenvalue of modulus 1 is no border.
-  const double border = modes.symplectic() ? kBorder : -kBorder;
-  if (margin > border) {
-    result.verdict = Verdict::tested;
-    result.detail = (modes.symplectic() ? "bounded: " : "damped: ") + value;
-  } else if (margin < -kBorder) {
-    result.verdict = Verdict::refuted;
-    result.detail = "unbounded: " + value;
-  } else {
-    result.detail = "on the border: " + value;
+  if (all && !one) all->exact = false;
+  return all;
+}
+
+std::optional<StableSteps> steps_of_parts(const Question& question,
+                                          const std::vector<LinearPart>& parts) {
+  std::optional<StableSteps> all = every_h();
+  for (const LinearPart& part : parts) {
+    const std::size_t n = part.s.size / 2;
+    if (n > kMostSearched) return std::nullopt;
+    const LinearSpectrum spectrum = exact_spectrum(part.s);
+    if (spectrum.free_motions == static_cast<int>(n)) continue;
+    keep(steps_of_part(part.scheme, question.values, part.s, spectrum), all);
+  }
+  return all;
+}
+
+std::string mode_text(const Question& question, const LinearStep& step, const Modes& modes,
+                      std::size_t k) {
+  const double h = to_double(question.h);
+  const Matrix2d m = modes.matrix(k, h);
+  const bool symplectic = question.scheme.symplectic;
+  return fmt::format("{} = {:.8g} of w = {:.6g}",
+                     symplectic ? "|trace M|/2" : "spectral radius of M",
+                     symplectic ? std::abs(m.trace()) / 2.0 : std::sqrt(m.determinant()),
+                     modes.frequency(k)) +
+         closed_form(step.scheme(), step, modes.planes()[k], h);
+}
+
+void set_verdict(Powers powers, bool exact, LinearStability& result) {
+  switch (powers) {
+    case Powers::bounded:
+      result.verdict = exact ? Verdict::proved : Verdict::tested;
+      break;
+    case Powers::growing:
+    case Powers::resonant:
+      result.verdict = Verdict::refuted;
+      break;
+    case Powers::undecided:
+      result.verdict = Verdict::not_decided;
+  }
+}
+
+void decide_by_modes(const Question& question, const LinearStep& step, const Modes& modes,
+                     LinearStability& result) {
+  const RationalStep exact_step(question.scheme_of_one, question.values);
+  const bool one = modes.planes().size() == 1 && question.s.size == 2;
+  const bool exact = one && question.exact && exact_step.is_exact();
+  const bool symplectic = question.scheme.symplectic;
+  std::size_t critical = modes.planes().size() - 1;
+  Powers all = Powers::bounded;
+  for (std::size_t k = 0; k < modes.planes().size(); ++k) {
+    const ExactMatrix plane = one ? question.s : rational(modes.planes()[k]);
+    Powers now = Powers::undecided;
+    if (symplectic) {
+      now = powers_at(exact_step, question.h, plane, 0, exact, kDigitsOfModes);
+    } else {
+      // The eigenvalues are conjugate.  One of modulus 1 is no border: what is damped is bounded.
+      const Rational excess = determinant(exact_step.matrix(question.h, plane)) - 1;
+      now = excess > 0 ? Powers::growing : Powers::bounded;
+      if (!exact && std::abs(to_double(excess)) < 1e-12) now = Powers::undecided;
+    }
+    if (now == Powers::bounded) continue;
+    if (all == Powers::bounded || all == Powers::undecided) {
+      critical = k;
+      all = now;
+    }
+  }
+  const Matrix2d m = modes.matrix(critical, result.h);
+  result.margin = margin_of(m, symplectic);
+  set_verdict(all, exact, result);
+  const char* words = all == Powers::growing     ? "unbounded: "
+                      : all == Powers::resonant  ? "unbounded, by a Jordan block: "
+                      : all == Powers::undecided ? "on the border: "
+                      : symplectic               ? "bounded: "
+                                                 : "damped: ";
+  result.detail = words + mode_text(question, step, modes, critical);
+}
+
+void decide_exactly(const Question& question, const std::vector<LinearPart>& parts,
+                    LinearStability& result) {
+  bool exact = question.exact;
+  Powers all = Powers::bounded;
+  for (const LinearPart& part : parts) {
+    const RationalStep step(part.scheme, question.values);
+    const LinearSpectrum spectrum = exact_spectrum(part.s);
+    const bool exact_part = question.exact && step.is_exact();
+    exact = exact && exact_part;
+    if (spectrum.free_motions * 2 == static_cast<int>(part.s.size)) continue;
+    const Powers now =
+        powers_at(step, question.h, part.s, spectrum.free_motions, exact_part, kDigitsOfValues);
+    if (now != Powers::bounded && (all == Powers::bounded || all == Powers::undecided)) all = now;
+  }
+  set_verdict(all, exact, result);
+  const std::string what = fmt::format("of M, {0} x {0},", question.s.size);
+  switch (all) {
+    case Powers::bounded:
+      result.detail = fmt::format(
+          "bounded: the eigenvalues {} have modulus 1 and as many eigenvectors, by Sturm sequences "
+          "and ranks",
+          what);
+      break;
+    case Powers::growing:
+      result.detail = fmt::format("unbounded: an eigenvalue {} has another modulus than 1", what);
+      break;
+    case Powers::resonant:
+      result.detail = fmt::format("unbounded: a multiple eigenvalue {} has a Jordan block", what);
+      break;
+    case Powers::undecided:
+      result.detail = fmt::format(
+          "on the border: an eigenvalue {} is -1, 1 or multiple, as far as "
+          "its digits show",
+          what);
   }
 }
 
 void decide_together(const MatrixXd& s, const LinearStep& step, LinearStability& result) {
-  const auto margin = [&](double h) {
-    return margin_together(step.matrix(h, s), result.free_motions);
-  };
-  const double fastest = result.frequencies.back();
-  result.margin = margin(result.h);
-  result.largest_h = first_below_zero(margin, 10 * kFirst / fastest, kLast / 10 / fastest, 1.05);
+  result.margin = margin_together(step.matrix(result.h, s), result.free_motions);
   const std::string what = fmt::format("the eigenvalues of M + M^-1, {} x {},", s.rows(), s.cols());
   if (*result.margin > kBorder) {
     result.verdict = Verdict::tested;
-    result.detail = fmt::format("bounded: {} are real and at most {:.6g} in size", what,
+    result.detail = fmt::format("bounded: {} are real, apart and at most {:.6g} in size", what,
                                 2.0 * (1.0 - *result.margin));
   } else if (*result.margin < -kBorder) {
     result.verdict = Verdict::refuted;
@@ -224,18 +246,18 @@ void decide_together(const MatrixXd& s, const LinearStep& step, LinearStability&
   }
 }
 
-// theta of every mode, and where the fastest resonates before it becomes unbounded.
-void find_resonances(const Modes& modes, LinearStability& result) {
-  for (std::size_t k = 0; k < modes.planes().size(); ++k)
-    result.angles.push_back(modes.angle(k, result.h));
-  const double fastest = result.frequencies.back();
-  const double last = std::min(result.largest_h.value_or(10.0 / fastest), 10.0 / fastest);
-  for (const int m : {3, 4, 5, 6}) {
-    const double goal = 2.0 * std::numbers::pi / m;
-    const auto missing = [&](double h) { return goal - modes.angle(modes.planes().size() - 1, h); };
-    const auto h = first_below_zero(missing, kFirst / fastest, last, 1.02);
-    if (h) result.resonant_h.emplace(m, *h);
-  }
+void keep_steps(const std::optional<StableSteps>& steps, LinearStability& result) {
+  if (!steps) return;
+  result.searched = true;
+  // The line says both: bounded here, and up to where.
+  if (!steps->exact) result.verdict = resting_on(Verdict::tested, result.verdict);
+  // What is unbounded carries no bound.
+  if (result.verdict == Verdict::refuted) return;
+  result.bounded_for_every_h = steps->is_every_h();
+  result.largest_h = steps->first_end();
+  result.bounded_steps = steps->intervals;
+  result.borders = steps->borders;
+  result.looked_to = steps->looked_to;
 }
 
 // Of a tableau and of C = 0 the iteration is linear in A, and its spectral radius that of an
@@ -265,18 +287,25 @@ double linear_margin(double h, double omega_squared, double alpha, double beta, 
 }
 
 LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme,
-                                 const std::map<std::string, Precise>& values, double h) {
+                                 const std::map<std::string, Rational>& values,
+                                 const Rational& step_size) {
   const Eigen::Index size = 2 * part.degrees_of_freedom;
-  const MatrixXd s = Eigen::Map<const MatrixXd>(part.hessian.data(), size, size);
-  const LinearSpectrum spectrum = linear_spectrum(s);
-  LinearStability result{.h = h,
+  MatrixXd s(size, size);
+  for (Eigen::Index k = 0; k < size * size; ++k)
+    s(k / size, k % size) = to_double(part.hessian[static_cast<std::size_t>(k)]);
+  const ExactMatrix rational_s{static_cast<std::size_t>(size), part.hessian};
+  const bool exact = part.exact && rational_s.size <= 2 * kMostExact;
+  const LinearSpectrum spectrum = exact ? exact_spectrum(rational_s) : linear_spectrum(s);
+  LinearStability result{.h = to_double(step_size),
                          .frequencies = spectrum.frequencies,
                          .free_motions = spectrum.free_motions,
                          .growing = spectrum.growing,
                          .growth_rate = spectrum.growth_rate};
-  const LinearStep step(scheme, values);
+  std::map<std::string, Precise> precise_values;
+  for (const auto& [name, value] : values) precise_values.emplace(name, precise(value));
+  const LinearStep step(scheme, precise_values);
   const std::optional<Scheme> one = scheme_of_one(scheme);
-  const LinearStep step_of_one(one ? *one : scheme, values);
+  const LinearStep step_of_one(one ? *one : scheme, precise_values);
   find_iteration_radius(s, spectrum.largest, step, step_of_one, result);
   if (result.frequencies.empty()) {
     result.detail = "the flow has no oscillation here that a step could make unbounded";
@@ -304,21 +333,34 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
     if (planes->size() == result.frequencies.size()) modes.emplace(std::move(*planes), step_of_one);
   }
   const auto* tableau = std::get_if<RungeKutta>(&scheme.method);
-  if (is_cayley(scheme)) {
-    result.verdict = Verdict::proved;
+  const Question question{scheme, one ? *one : scheme, values, rational_s, exact, step_size};
+  const bool is_function_of_flow = is_cayley(scheme) || (tableau != nullptr && scheme.symplectic);
+  if (is_function_of_flow) {
+    // Of exactly known oscillations; rounding may take slow growth for one.
+    result.verdict = exact ? Verdict::proved : Verdict::tested;
     result.bounded_for_every_h = true;
-    result.detail = "M is " + cayley_text(scheme);
-  } else if (tableau != nullptr && scheme.symplectic) {
     // R(x) R(-x) = 1, and Gauss methods are A-stable (HLW II.1.3, IV.1): no pole at x = i y.
-    result.verdict = Verdict::proved;
-    result.bounded_for_every_h = true;
-    result.detail = "|R(iy)| = 1 for the stability function R of Gauss collocation, for every y";
-  } else if (modes) {
-    decide_by_modes(*modes, step_of_one, result);
+    result.detail =
+        is_cayley(scheme)
+            ? "M is " + cayley_text(scheme)
+            : "|R(iy)| = 1 for the stability function R of Gauss collocation, for every y";
+  } else if (modes && (tableau != nullptr || size == 2 || result.growing > 0 || !exact ||
+                       rational_s.size > 2 * kMostExact)) {
+    decide_by_modes(question, step_of_one, *modes, result);
+    keep_steps(size == 2 && tableau == nullptr ? steps_of_part(scheme, values, rational_s, spectrum)
+                                               : steps_of_modes(question, *modes),
+               result);
   } else if (result.growing > 0) {
     result.detail =
         "the flow itself grows, and no planes of its oscillations are known that the "
         "step keeps";
+  } else if (rational_s.size <= 2 * kMostExact) {
+    const std::vector<LinearPart> parts = parts_of(scheme, rational_s);
+    decide_exactly(question, parts, result);
+    result.margin = margin_together(step.matrix(result.h, s), result.free_motions);
+    const bool by_modes = modes && (scales(scheme) || parts.front().s.size > 2 * kMostSearched);
+    keep_steps(by_modes ? steps_of_modes(question, *modes) : steps_of_parts(question, parts),
+               result);
   } else if (part.degrees_of_freedom > kMostTogether) {
     result.detail = fmt::format(
         "{} degrees of freedom, more than {}, and no modes are known that "
@@ -327,7 +369,12 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
   } else {
     decide_together(s, step, result);
   }
-  if (modes && result.verdict != Verdict::refuted) find_resonances(*modes, result);
+  if (modes && result.verdict != Verdict::refuted) {
+    for (std::size_t k = 0; k < modes->planes().size(); ++k)
+      result.angles.push_back(modes->angle(k, result.h));
+    const double last = 10.0 / result.frequencies.back();
+    result.resonant_h = modes->resonant_steps(std::min(result.largest_h.value_or(last), last));
+  }
   return result;
 }
 

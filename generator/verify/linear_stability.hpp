@@ -10,13 +10,15 @@
 #include "generator/schemes/scheme.hpp"
 #include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
+#include "generator/verify/stable_steps.hpp"
 
 namespace hamgen {
 
 // H = ... + (z - z0)^T S (z - z0)/2: S row by row, 2n x 2n.
 struct QuadraticPart {
   int degrees_of_freedom = 0;
-  std::vector<double> hessian;
+  std::vector<Rational> hessian;
+  bool exact = true;  // its entries are no rounded numbers
 };
 
 // The flow z' = A z with A = J S, its oscillations exp(+-i w t) and the scheme's step z -> M z.
@@ -34,7 +36,13 @@ struct LinearStability {
   // Positive where bounded: a distance of trace M from -2 and 2, or of an eigenvalue from 1.
   std::optional<double> margin;
   bool bounded_for_every_h = false;
-  // The powers are bounded for all steps below this one; empty: not found, or every_h.
+  // For which h > 0 they are, from-to; the last may end at infinity.  Empty where that is not
+  // known, and where the step is unbounded at this h.
+  bool searched = false;
+  std::vector<std::pair<double, double>> bounded_steps;
+  std::vector<double> borders;  // single h in between at which they may not be
+  double looked_to = std::numeric_limits<double>::infinity();
+  // The end of the first of them, where it begins at 0.
   std::optional<double> largest_h;
 
   // theta of the eigenvalues exp(+-i theta) of M, in the order of the frequencies; empty where M is
@@ -54,10 +62,14 @@ struct LinearStability {
 [[nodiscard]] double linear_margin(double h, double omega_squared, double alpha, double beta,
                                    double gamma);
 
-// `values` are those of the parameters, and of E0, that the scheme's coefficients use.
+// `values` are those of the parameters, and of E0, that the scheme's coefficients use.  By
+// structure first: a method that is a function of hJS needs the spectrum alone, one that looks the
+// same in every mode one stability function of h w.  Else parts of up to three degrees of freedom
+// in exact rationals (stable_steps.hpp).  `proved` where S, C, the scheme's coefficients and h are
+// exact.
 [[nodiscard]] LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme,
-                                               const std::map<std::string, Precise>& values,
-                                               double h);
+                                               const std::map<std::string, Rational>& values,
+                                               const Rational& h);
 
 // At one point of the phase space.
 struct LinearPoint {
@@ -69,7 +81,7 @@ struct LinearPoint {
 [[nodiscard]] std::vector<LinearPoint> linear_points(const Mechanics& mechanics,
                                                      const Scheme& scheme,
                                                      const std::map<std::string, Rational>& point,
-                                                     double h);
+                                                     const Rational& h);
 
 // Its lines of a proof: the flow, the bound, resonances, the iteration.
 [[nodiscard]] Proof findings(const LinearPoint& point);

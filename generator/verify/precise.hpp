@@ -6,7 +6,6 @@
 
 #include <map>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,25 +24,32 @@ using Precise = cln::cl_F;
 // where there is none.
 [[nodiscard]] Precise precise_function(const std::string& name, const std::vector<Precise>& x);
 
-// A number from 1/4 to 7/4, the same in every process.
-[[nodiscard]] Precise random_precise(std::mt19937_64& source);
+// A value and the size of the terms it comes from: rounding has moved it by about `scale` times the
+// unit of the last digit, to first order.  A zero is told from a small number by it.
+struct ScaledValue {
+  Precise value, scale;
+};
+// Is a value that is exactly zero likely to come out so?  40 of the 60 digits of its terms cancel.
+[[nodiscard]] bool is_zero(const ScaledValue& x);
+[[nodiscard]] ScaledValue operator-(const ScaledValue& a, const ScaledValue& b);
 
 // The values of expressions at one point: of free symbols, and of definitions computed when they
 // are first asked for.  Empty where an expression is not defined or not real.
 class PreciseValues {
  public:
-  PreciseValues(std::map<std::string, Precise> free, const Substitution& definitions)
-      : values_(std::move(free)), definitions_(definitions) {}
+  PreciseValues(const std::map<std::string, Precise>& free, const Substitution& definitions);
   [[nodiscard]] std::optional<Precise> operator()(const Expression& e);
+  [[nodiscard]] std::optional<ScaledValue> scaled(const Expression& e);
 
  private:
   // Throws std::domain_error outside the domain.
-  [[nodiscard]] Precise value(const Expression& e);
-  [[nodiscard]] Precise symbol(const std::string& name);
+  [[nodiscard]] ScaledValue value(const Expression& e);
+  [[nodiscard]] ScaledValue computed(const Expression& e);
+  [[nodiscard]] ScaledValue symbol(const std::string& name);
 
-  std::map<std::string, Precise> values_;
+  std::map<std::string, ScaledValue> values_;
   const Substitution& definitions_;
-  std::map<const void*, std::pair<Expression, Precise>> done_;  // by node, which is kept alive
+  std::map<const void*, std::pair<Expression, ScaledValue>> done_;  // by node, which is kept alive
 };
 
 }  // namespace hamgen

@@ -8,50 +8,51 @@
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
 #include "generator/schemes/scheme.hpp"
+#include "generator/verify/identities.hpp"
+#include "generator/verify/sample_points.hpp"
+#include "generator/verify/verdict.hpp"
 
 namespace hamgen {
 
-// `tested`: no counterexample at many random points, which is less than a proof.  `measured`: a
-// number, without a claim.
-enum class Verdict { proved, tested, refuted, not_decided, measured };
-
-struct Finding {
-  std::string property;  // "symplectic"
-  Verdict verdict = Verdict::not_decided;
-  std::string detail;  // how, or the failing entry with its value, or why it is open
-};
-
-using Proof = std::vector<Finding>;
-
 // Everything that can be decided by algebra about the scheme's step for this system, and about the
 // program that computes it.  `hamiltonian` is H with its sums written out.
+// Claims are tried `around` the places where the model is used.
 [[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                           const Expression& hamiltonian);
+                           const Expression& hamiltonian, const Surroundings& around = {});
+
+inline constexpr const char* kGauge = "gauge in sp(2n)";
 
 // The single proofs.  A member must satisfy C J + J C^T = 0; the residual entries are exact.
-[[nodiscard]] Finding prove_gauge(const Member& member);
+[[nodiscard]] Finding prove_gauge(const Member& member, const Surroundings& around = {});
 // A+ J A+^T = A- J A-^T with a generic symmetric S of symbols, entry by entry, on the first
 // min(n, 3) degrees of freedom; beyond, by the factorisation of the difference.
-[[nodiscard]] Finding prove_step_symplectic(const Member& member);
-[[nodiscard]] Finding prove_symmetric(const Member& member);
-[[nodiscard]] Finding prove_order(const Member& member);
-// A fixed number of sweeps in place of the solution: the order of M^T J M - J by its power series.
-[[nodiscard]] Finding prove_swept(const Mechanics& mechanics, const Member& member, int sweeps);
+[[nodiscard]] Finding prove_step_symplectic(const Member& member, const Surroundings& around = {});
+[[nodiscard]] Finding prove_symmetric(const Member& member, const Surroundings& around = {});
+[[nodiscard]] Finding prove_order(const Member& member, const Surroundings& around = {});
+// The order of a K is what its flow shows: no better known than by points.
+[[nodiscard]] Finding prove_raised_order(const GeneratingFunction& function, const Decision& of_k);
+// A fixed number of sweeps in place of the solution, symplectic and symmetric: as the member, where
+// they solve its equations; else the orders of M^T J M - J and of the way back by power series.
+[[nodiscard]] Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
+                                const Surroundings& around = {});
 // Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal
 // series, which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
 [[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);
 [[nodiscard]] Finding prove_shears(const Splitting& splitting);
-[[nodiscard]] Proof prove_composition(const Composition& composition, int order);
+[[nodiscard]] Proof prove_composition(const Composition& composition, int order,
+                                      const Surroundings& around = {});
 [[nodiscard]] Proof prove_tableau(const RungeKutta& tableau, int order);
-// {I, H} = 0, and whether the scheme conserves I exactly.  `hamiltonian` is H written out.
+// {I, H} = 0, and whether the scheme conserves I exactly, which is known no better.  `hamiltonian`
+// is H written out; `solved`: no equations are left over by sweeps; `symplectic` is the verdict.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
-                                     const Scheme& scheme, bool swept);
+                                     const Scheme& scheme, bool solved, Verdict symplectic,
+                                     const Surroundings& around = {});
 // The instructions of the program, substituted back into expressions, are the step's equations,
-// their derivatives, their solution and H.
+// their derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
+// stands in for H, which is asked here if it is left out.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
-                                    const Program& program, const Expression& hamiltonian);
-
-[[nodiscard]] std::string to_text(Verdict verdict);
-[[nodiscard]] std::string to_text(const Proof& proof);
+                                    const Program& program, const Expression& hamiltonian,
+                                    const Surroundings& around = {},
+                                    std::optional<Decision> of_k = {});
 
 }  // namespace hamgen

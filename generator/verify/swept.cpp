@@ -1,9 +1,11 @@
-// How far a fixed number of sweeps is from a symplectic map.
+// How far a fixed number of sweeps is from a symplectic map, and from one that is its own adjoint.
 //
 // Z after K sweeps is an explicit formula in z and h, so its Jacobian M has a power series in h:
 // the first term of M^T J M - J that does not vanish is the order of the defect for this H and this
 // member.  In general it is K + 2: each sweep multiplies the error of the gradient by
 // h H'' (1/2 + C) J, from O(h) of the predictor on, and h J times it is the error of Z.
+#include "generator/verify/swept.hpp"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -16,10 +18,40 @@ namespace hamgen {
 namespace {
 
 constexpr int kPointsOfSweeps = 3;
-constexpr int kMostSeriesSweeps = 8;  // beyond, the general order is given
+constexpr int kMostSeriesSweeps = 8;  // beyond, one number for h is taken
 constexpr std::size_t kLargestSwept = 20;
 
-using SeriesMatrix = std::vector<std::vector<PowerSeries>>;
+// A series, and that of the sizes of the terms it was added up from.
+struct ScaledSeries {
+  PowerSeries value, scale;
+};
+
+PowerSeries sizes(const PowerSeries& a) {
+  PowerSeries result;
+  for (const Precise& x : a) result.push_back(cln::abs(x));
+  return result;
+}
+
+struct LeadingTerm {
+  std::size_t power = 0;
+  std::string entry;
+  double value = 0;
+};
+
+// The lowest power of h at which the series is not zero: differences with 1e-20 leave 40 digits.
+std::optional<LeadingTerm> leading_term(const ScaledSeries& defect, const std::string& entry) {
+  static const Precise zero = precise(*parse_decimal("1e-25"));
+  for (std::size_t k = 0; k < defect.value.size(); ++k) {
+    const Precise value = coefficient(defect.value, k);
+    if (cln::abs(value) > zero * coefficient(defect.scale, k))
+      return LeadingTerm{k, entry, to_double(value)};
+  }
+  return std::nullopt;
+}
+
+void keep_lower(const std::optional<LeadingTerm>& found, std::optional<LeadingTerm>& lowest) {
+  if (found && (!lowest || found->power < lowest->power)) lowest = found;
+}
 
 class SweptStep {
  public:
@@ -31,41 +63,76 @@ class SweptStep {
         size_(mechanics.variables.size()),
         length_(length) {}
 
-  // M^T J M - J by central differences, whose error is 1e-40.
-  [[nodiscard]] SeriesMatrix defect(const FormalPoint& point) const {
-    const Precise by = precise(*parse_decimal("1e-20"));
-    SeriesMatrix columns;
-    for (std::size_t j = 0; j < size_; ++j) {
-      FormalPoint up = point;
-      FormalPoint down = point;
-      up.move(j, by);
-      down.move(j, -by);
-      const auto above = after(up);
-      const auto below = after(down);
-      auto& column = columns.emplace_back();
-      for (std::size_t i = 0; i < size_; ++i) {
-        column.push_back(cln::recip(by + by) * (above[i] - below[i]));
-      }
-    }
+  // Of M^T J M - J, by central differences, whose error is 1e-40.  Of a large system only some
+  // columns.
+  [[nodiscard]] std::optional<LeadingTerm> symplectic_defect(const FormalPoint& point) const {
     const std::size_t n = size_ / 2;
-    SeriesMatrix result(size_, std::vector<PowerSeries>(size_));
-    for (std::size_t i = 0; i < size_; ++i) {
-      for (std::size_t j = 0; j < size_; ++j) {
-        PowerSeries sum{precise(j == i + n ? -1 : (i == j + n ? 1 : 0))};
+    std::vector<std::size_t> places;
+    for (std::size_t j = 0; j < size_; ++j) {
+      if (size_ <= kLargestSwept || j % n < 2) places.push_back(j);
+    }
+    std::map<std::size_t, std::vector<PowerSeries>> columns;
+    for (const std::size_t j : places) columns[j] = column(point, j);
+    std::optional<LeadingTerm> lowest;
+    for (const std::size_t i : places) {
+      for (const std::size_t j : places) {
+        if (j <= i) continue;
+        ScaledSeries sum{{precise(j == i + n ? -1 : 0)}, {precise(j == i + n ? 1 : 0)}};
         for (std::size_t k = 0; k < n; ++k) {
-          sum = sum + product(columns[i][k], columns[j][n + k], length_) -
-                product(columns[i][n + k], columns[j][k], length_);
+          add(sum, columns[i][k], columns[j][n + k], 1);
+          add(sum, columns[i][n + k], columns[j][k], -1);
         }
-        result[i][j] = sum;
+        keep_lower(leading_term(sum, fmt::format("entry ({}, {})", i + 1, j + 1)), lowest);
       }
     }
-    return result;
+    return lowest;
+  }
+
+  // Of a step back from the end of a step, against its start.
+  [[nodiscard]] std::optional<LeadingTerm> reversal_defect(const FormalPoint& point) const {
+    const std::vector<PowerSeries> start = point.state();
+    const std::vector<PowerSeries> end = after(point, start);
+    FormalPoint mirrored = point;
+    mirrored.set_step(-point.step());
+    const std::vector<PowerSeries> back = after(mirrored, end);
+    // No component is more exact than the largest terms of the step.
+    PowerSeries scale(length_, precise(0));
+    for (std::size_t i = 0; i < size_; ++i) {
+      const PowerSeries size = sizes(end[i]);
+      for (std::size_t k = 0; k < length_; ++k)
+        scale[k] = std::max({scale[k], coefficient(size, k), cln::abs(coefficient(back[i], k))});
+    }
+    std::optional<LeadingTerm> lowest;
+    for (std::size_t i = 0; i < size_; ++i) {
+      keep_lower(leading_term({back[i] - start[i], scale}, fmt::format("component {}", i + 1)),
+                 lowest);
+    }
+    return lowest;
   }
 
  private:
+  void add(ScaledSeries& sum, const PowerSeries& a, const PowerSeries& b, int sign) const {
+    sum.value = sum.value + precise(sign) * product(a, b, length_);
+    sum.scale = sum.scale + product(sizes(a), sizes(b), length_);
+  }
+
+  [[nodiscard]] std::vector<PowerSeries> column(const FormalPoint& point, std::size_t j) const {
+    const Precise by = precise(*parse_decimal("1e-20"));
+    FormalPoint up = point;
+    FormalPoint down = point;
+    up.move(j, by);
+    down.move(j, -by);
+    const auto above = after(up, up.state());
+    const auto below = after(down, down.state());
+    std::vector<PowerSeries> result;
+    for (std::size_t i = 0; i < size_; ++i)
+      result.push_back(cln::recip(by + by) * (above[i] - below[i]));
+    return result;
+  }
+
   // z moved by h J g, each component's series shifted by h.
-  [[nodiscard]] std::vector<PowerSeries> after(const FormalPoint& point) const {
-    const std::vector<PowerSeries> z = point.state();
+  [[nodiscard]] std::vector<PowerSeries> after(const FormalPoint& point,
+                                               const std::vector<PowerSeries>& z) const {
     const auto gauge = point.gauge(member_, length_);
     auto moved = [&](const std::vector<PowerSeries>& gradient) {
       auto field = rotated(gradient);
@@ -95,11 +162,11 @@ class SweptStep {
 
 // The first points at which all of it is defined.
 template <class Use>
-void at_points(const Mechanics& mechanics, const Use& use) {
+void at_points(const Mechanics& mechanics, const Surroundings& around, const Use& use) {
   int used = 0;
   for (int number = 0; used < kPointsOfSweeps && number < 50; ++number) {
     try {
-      use(FormalPoint(mechanics, number));
+      use(FormalPoint(mechanics, around, number));
       ++used;
     } catch (const std::domain_error&) {
       continue;
@@ -107,63 +174,68 @@ void at_points(const Mechanics& mechanics, const Use& use) {
   }
 }
 
-struct LeadingTerm {
-  std::size_t power = 0;
-  std::size_t row = 0, column = 0;
-  double value = 0;
-};
-
-// The lowest power of h in which some entry is not zero.
-std::optional<LeadingTerm> leading_term(const SeriesMatrix& defect, std::size_t length) {
-  static const Precise zero = precise(*parse_decimal("1e-25"));
-  for (std::size_t k = 0; k < length; ++k) {
-    for (std::size_t i = 0; i < defect.size(); ++i) {
-      for (std::size_t j = i + 1; j < defect.size(); ++j) {
-        const Precise value = coefficient(defect[i][j], k);
-        if (cln::abs(value) > zero) return LeadingTerm{k, i, j, to_double(value)};
-      }
-    }
+Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
+                     const Member& member, int sweeps, const Surroundings& around) {
+  const std::string general = fmt::format(
+      "{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{})", sweeps, sweeps + 2);
+  const bool by_series = sweeps <= kMostSeriesSweeps;
+  const auto length = by_series ? static_cast<std::size_t>(sweeps) + 6 : 1;
+  const SweptStep step(mechanics, derivatives, member, sweeps, length);
+  std::optional<LeadingTerm> defect;
+  std::optional<LeadingTerm> reversal;
+  at_points(mechanics, around, [&](FormalPoint point) {
+    if (!by_series) point.set_step({point.random()});
+    const auto of_matrix = step.symplectic_defect(point);
+    const auto of_way_back = step.reversal_defect(point);
+    keep_lower(of_matrix, defect);
+    keep_lower(of_way_back, reversal);
+  });
+  Finding symplectic{"symplectic", Verdict::refuted, general};
+  Finding symmetric{"symmetric", Verdict::refuted, "the predictor is explicit Euler"};
+  if (!defect) {
+    symplectic = {"symplectic", Verdict::not_decided,
+                  general + " in general, and nothing of it was found at the points looked at"};
+  } else if (by_series) {
+    symplectic.detail = fmt::format(
+        "{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{}), by its power "
+        "series; {} begins with {:.4g} h^{} at a random point",
+        sweeps, defect->power, defect->entry, defect->value, defect->power);
+  } else {
+    symplectic.detail +=
+        fmt::format(" in general; {} is {:.4g} at a random point", defect->entry, defect->value);
   }
-  return std::nullopt;
+  if (!reversal) {
+    symmetric = {"symmetric", Verdict::not_decided,
+                 "the step is unsolved, and yet no step back was found that misses the start"};
+  } else if (by_series) {
+    symmetric.detail += fmt::format("; a step back misses the start, {} by {:.4g} h^{}",
+                                    reversal->entry, reversal->value, reversal->power);
+  }
+  return {symplectic, symmetric};
 }
 
 }  // namespace
 
-Finding prove_swept(const Mechanics& mechanics, const Member& member, int sweeps) {
-  const std::string general = fmt::format(
-      "{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{})", sweeps, sweeps + 2);
-  if (sweeps > kMostSeriesSweeps || mechanics.variables.size() > kLargestSwept) {
-    return {"symplectic", Verdict::refuted, general};
+Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
+                  const Surroundings& around) {
+  if (mechanics.keeps_sums()) {
+    const std::string why = fmt::format(
+        "{} sweeps leave the step unsolved, and the defect, O(h^{}) in general, is not looked at "
+        "where sums stay loops",
+        sweeps, sweeps + 2);
+    return {{"symplectic", Verdict::not_decided, why}, {"symmetric", Verdict::not_decided, why}};
   }
   const Derivatives derivatives(mechanics);
-  // With one number for h first: the sweeps may have solved the equations, as they do where zbar
-  // does not depend on itself.
-  std::optional<LeadingTerm> defect;
-  const SweptStep step(mechanics, derivatives, member, sweeps, 1);
-  at_points(mechanics, [&](FormalPoint point) {
-    point.set_step({point.random()});
-    if (!defect) defect = leading_term(step.defect(point), 1);
-  });
-  if (!defect) {
-    return {"symplectic", Verdict::tested,
-            fmt::format("{} sweeps solve these equations: M^T J M - J is below 1e-25 at {} random "
-                        "points",
-                        sweeps, kPointsOfSweeps)};
+  if (!sweeps_solve(mechanics, derivatives, member, sweeps))
+    return prove_unsolved(mechanics, derivatives, member, sweeps, around);
+  Proof proof{prove_step_symplectic(member, around), prove_symmetric(member, around)};
+  for (Finding& finding : proof) {
+    finding.detail = fmt::format(
+        "{} sweep{} solve{} these equations: zbar does not depend on "
+        "itself; {}",
+        sweeps, sweeps == 1 ? "" : "s", sweeps == 1 ? "s" : "", finding.detail);
   }
-  const auto length = static_cast<std::size_t>(sweeps) + 6;
-  const SweptStep series(mechanics, derivatives, member, sweeps, length);
-  std::optional<LeadingTerm> leading;
-  at_points(mechanics, [&](const FormalPoint& point) {
-    const auto found = leading_term(series.defect(point), length);
-    if (found && (!leading || found->power < leading->power)) leading = found;
-  });
-  if (!leading) return {"symplectic", Verdict::refuted, general + " at most"};
-  return {
-      "symplectic", Verdict::refuted,
-      fmt::format("{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{}), by its "
-                  "power series; entry ({}, {}) begins with {:.4g} h^{} at a random point",
-                  sweeps, leading->power, leading->row + 1, leading->column + 1, leading->value,
-                  leading->power)};
+  return proof;
 }
 
 }  // namespace hamgen

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/mechanics/step_series.hpp"
@@ -27,25 +28,22 @@ GiNaC::matrix canonical_j(unsigned n) {
 
 }  // namespace
 
-Finding prove_gauge(const Member& member) {
-  int points = 0;
+Finding prove_gauge(const Member& member, const Surroundings& around) {
+  std::optional<Decision> at_points;
   for (const auto& [place, value] : gauge_defect(member)) {
     // Expanding shows no zero; points may.
-    const Decision decision = decide({.claims = {{"C J + J C^T", value, Expression(0)}}});
-    points = std::max(points, decision.points);
-    if (decision.verdict == Verdict::proved || decision.verdict == Verdict::tested) continue;
-    return {"gauge in sp(2n)", decision.verdict,
+    const Decision decision = decide_equal("C J + J C^T", value, Expression(0), around);
+    if (decision.verdict == Verdict::tested) at_points = decision;
+    if (holds(decision.verdict)) continue;
+    return {kGauge, decision.verdict,
             fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,
                         to_text(value))};
   }
-  if (points > 0) {
-    return {"gauge in sp(2n)", Verdict::tested,
-            fmt::format("C J + J C^T = 0 at {} points to 1e-30", points)};
-  }
-  return {"gauge in sp(2n)", Verdict::proved, "C J + J C^T = 0, entry by entry"};
+  if (at_points) return {kGauge, Verdict::tested, "C J + J C^T = 0 " + points_text(*at_points)};
+  return {kGauge, Verdict::proved, "C J + J C^T = 0, entry by entry"};
 }
 
-Finding prove_step_symplectic(const Member& member) {
+Finding prove_step_symplectic(const Member& member, const Surroundings& around) {
   const int n = member.degrees_of_freedom;
   const int m = std::min(n, 3);
   const auto size = static_cast<unsigned>(2 * m);
@@ -72,24 +70,24 @@ Finding prove_step_symplectic(const Member& member) {
   const GiNaC::matrix minus = one.add(js.mul(one.mul_scalar(half).sub(c)));
   const GiNaC::matrix left = plus.mul(j).mul(plus.transpose());
   const GiNaC::matrix right = minus.mul(j).mul(minus.transpose());
-  int points = 0;
+  std::optional<Decision> at_points;
   for (unsigned row = 0; row < size; ++row) {
     for (unsigned column = 0; column < size; ++column) {
       const GiNaC::ex difference = (left(row, column) - right(row, column)).expand();
       if (difference.is_zero()) continue;
       const Expression entry = from_ginac(difference, table);
-      const Decision decision = decide({.claims = {{"A+ J A+^T", entry, Expression(0)}}});
-      points = std::max(points, decision.points);
-      if (decision.verdict == Verdict::proved || decision.verdict == Verdict::tested) continue;
+      const Decision decision = decide_equal("A+ J A+^T", entry, Expression(0), around);
+      if (decision.verdict == Verdict::tested) at_points = decision;
+      if (holds(decision.verdict)) continue;
       return {"symplectic", decision.verdict,
               fmt::format("entry ({}, {}) of A+ J A+^T - A- J A-^T is {}", row + 1, column + 1,
                           to_text(entry))};
     }
   }
-  if (points > 0 && m == n) {
-    return {"symplectic", Verdict::tested,
-            fmt::format("A+ J A+^T = A- J A-^T at {} points to 1e-30; for exactly solved steps",
-                        points)};
+  if (at_points && m == n) {
+    return {
+        "symplectic", Verdict::tested,
+        fmt::format("A+ J A+^T = A- J A-^T {}; for exactly solved steps", points_text(*at_points))};
   }
   if (m == n) {
     return {"symplectic", Verdict::proved,
@@ -97,7 +95,7 @@ Finding prove_step_symplectic(const Member& member) {
                         "to zero; for exactly solved steps",
                         size * size)};
   }
-  const Finding gauge = prove_gauge(member);
+  const Finding gauge = prove_gauge(member, around);
   return {
       "symplectic", gauge.verdict,
       fmt::format("A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J, and {}; checked entry by "
@@ -105,39 +103,27 @@ Finding prove_step_symplectic(const Member& member) {
                   gauge.detail, m, n)};
 }
 
-Finding prove_symmetric(const Member& member) {
-  int points = 0;
+Finding prove_symmetric(const Member& member, const Surroundings& around) {
+  std::optional<Decision> at_points;
   for (const auto& [place, value] : member.c) {
     const Expression reflected = substitute(value, {{"h", -Expression::symbol("h", kRankOfStep)}});
     if (vanishes(reflected + value)) continue;
-    const Decision decision = decide({.claims = {{"C(-h)", reflected, -value}}});
-    if (decision.verdict == Verdict::proved) continue;
-    if (decision.verdict == Verdict::tested) {
-      points = decision.points;
-      continue;
-    }
+    const Decision decision = decide_equal("C(-h)", reflected, -value, around);
+    if (decision.verdict == Verdict::tested) at_points = decision;
+    if (holds(decision.verdict)) continue;
     return {"symmetric", decision.verdict,
             fmt::format("C(-h) + C(h) has the entry ({}, {}) = {}; the adjoint is the member -C",
                         place.first + 1, place.second + 1, to_text(reflected + value))};
   }
-  if (points > 0) {
-    return {"symmetric", Verdict::tested,
-            fmt::format("C(-h) = -C(h) at {} points to 1e-30", points)};
-  }
+  if (at_points) return {"symmetric", Verdict::tested, "C(-h) = -C(h) " + points_text(*at_points)};
   return {"symmetric", Verdict::proved, "C(-h) = -C(h): the step is its own adjoint"};
 }
 
 // With f = J grad H and C = C0 + h C1 + O(h^2), the step minus the flow is
 //   h^2 f'(C0 f) + h^3 ( f'(C1 f) - f''(f, f)/24 + f'(f'(f))/12 + terms in C0 ) + O(h^4):
 // zbar = z + h (1/2 + C) f + ..., Z = z + h f(zbar), against the flow's h^2/2 f'f + h^3/6 (...).
-Finding prove_order(const Member& member) {
-  if (member.generating_order > 0) {
-    return {fmt::format("order {}", member.generating_order), Verdict::proved,
-            fmt::format(
-                "K solves the Hamilton-Jacobi equation of the generating function, term by term "
-                "to h^{}",
-                member.generating_order - 1)};
-  }
+Finding prove_order(const Member& member, const Surroundings& around) {
+  std::optional<Decision> at_points;
   for (const auto& [place, value] : member.c) {
     const auto series = step_series(value, 2);
     if (!series) {
@@ -146,13 +132,28 @@ Finding prove_order(const Member& member) {
                           place.first + 1, place.second + 1, to_text(value))};
     }
     const Expression& at_zero = series->front();
-    if (is_zero_by_algebra(at_zero)) continue;
+    const Decision decision = decide_equal("C(0)", at_zero, Expression(0), around);
+    if (decision.verdict == Verdict::tested) at_points = decision;
+    if (holds(decision.verdict)) continue;
+    if (decision.verdict == Verdict::not_decided)
+      return {"order", decision.verdict, decision.witness};
     return {"order 1", Verdict::proved,
             fmt::format("leading error h^2 f'(C0 f), f = J grad H; C0 has the entry ({}, {}) = {}",
                         place.first + 1, place.second + 1, to_text(at_zero))};
   }
-  return {"order 2", Verdict::proved,
-          "C(0) = 0; leading error h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12), f = J grad H"};
+  return {"order 2", at_points ? Verdict::tested : Verdict::proved,
+          fmt::format("C(0) = 0{}; leading error h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12), f = "
+                      "J grad H",
+                      at_points ? " " + points_text(*at_points) : "")};
+}
+
+Finding prove_raised_order(const GeneratingFunction& function, const Decision& of_k) {
+  const std::string property = fmt::format("order {}", function.order);
+  if (!holds(of_k.verdict)) return {property, of_k.verdict, of_k.witness};
+  return {property, of_k.verdict,
+          fmt::format("K is from the Hamilton-Jacobi equation of the generating function, to h^{}; "
+                      "the flow of H satisfies its step to h^{} at {} points to 1e-30",
+                      function.order - 1, function.order, of_k.points)};
 }
 
 }  // namespace hamgen

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
@@ -134,36 +135,57 @@ std::vector<Rational> legendre_polynomial(int s) {
   return p;
 }
 
-// Is the tableau, to its digits, collocation at the zeros of the shifted Legendre polynomial, whose
-// exact orthogonality is checked in rationals?
-bool is_gauss(const Numbers& t) {
-  const int s = static_cast<int>(t.b.size());
+Rational value_of(const std::vector<Rational>& polynomial, const Rational& x) {
+  Rational value = 0;
+  for (std::size_t k = polynomial.size(); k-- > 0;) value = value * x + polynomial[k];
+  return value;
+}
+
+// Is the tableau collocation at the zeros of the shifted Legendre polynomial, with 34 digits of its
+// irrational coefficients?  In exact rationals: P_s is orthogonal to all lower powers, it changes
+// its sign within 1e-34 of each node, and B(s) and C(s) hold up to 1e-34.
+bool is_gauss(const RungeKutta& tableau) {
+  const int s = static_cast<int>(tableau.b.size());
   const std::vector<Rational> p = legendre_polynomial(s);
+  const Rational digits = *parse_decimal("1e-34");
+  const auto power = [](const Rational& x, int k) { return *hamgen::integer_power(x, k); };
   for (int k = 0; k < s; ++k) {
     Rational integral = 0;  // of P_s(x) x^k from 0 to 1
     for (int j = 0; j <= s; ++j) integral += p[static_cast<std::size_t>(j)] / (j + k + 1);
     if (integral != 0) return false;
   }
-  for (std::size_t i = 0; i < t.c.size(); ++i) {
-    Precise value = precise(0);
-    for (int j = s; j >= 0; --j) value = value * t.c[i] + precise(p[static_cast<std::size_t>(j)]);
-    if (size_of_precise(value) > kTableauDigits) return false;
+  std::vector<std::vector<Rational>> rows;
+  std::vector<Rational> nodes;
+  for (const auto& row : tableau.a) {
+    auto& numbers = rows.emplace_back();
+    for (const Expression& e : row) numbers.push_back(numeric_value(e));
+    nodes.push_back(std::accumulate(numbers.begin(), numbers.end(), Rational(0)));
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (value_of(p, nodes[i] - digits) * value_of(p, nodes[i] + digits) >= 0) return false;
     for (std::size_t j = 0; j < i; ++j) {
-      if (size_of_precise(t.c[i] - t.c[j]) < 1e-3) return false;
+      if (abs(nodes[i] - nodes[j]) < Rational(1, 1000)) return false;
     }
     // C(s): sum_j a_ij c_j^(k-1) = c_i^k / k.
     for (int k = 1; k <= s; ++k) {
-      Precise sum = -(power_of_node(t.c[i], k) / precise(k));
-      for (std::size_t j = 0; j < t.c.size(); ++j)
-        sum = sum + t.a[i][j] * power_of_node(t.c[j], k - 1);
-      if (size_of_precise(sum) > kTableauDigits) return false;
+      Rational sum = -power(nodes[i], k) / k;
+      for (std::size_t j = 0; j < nodes.size(); ++j) sum += rows[i][j] * power(nodes[j], k - 1);
+      if (abs(sum) > digits) return false;
     }
   }
+  // B(s): sum_i b_i c_i^(k-1) = 1/k.
   for (int k = 1; k <= s; ++k) {
-    if (size_of_precise(quadrature_defect(t, k)) > kTableauDigits) return false;
+    Rational sum = Rational(-1, k);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sum += numeric_value(tableau.b[i]) * power(nodes[i], k - 1);
+    if (abs(sum) > digits) return false;
   }
   return true;
 }
+
+// What `proved` means where coefficients are irrational.
+constexpr const char* kDigitsOfNodes =
+    "the coefficients give it to 34 digits (signs of P_s in exact rationals)";
 
 Finding symplectic_tableau(const Numbers& t, bool gauss) {
   for (std::size_t i = 0; i < t.b.size(); ++i) {
@@ -178,11 +200,11 @@ Finding symplectic_tableau(const Numbers& t, bool gauss) {
   if (gauss) {
     // m_ij = b_i a_ij + b_j a_ji - b_i b_j: sum_ij c_i^(k-1) m_ij c_j^(l-1) = (1/(k+l)) (1/k + 1/l)
     // - 1/(k l) = 0 for k, l <= s by B(2s) and C(s), and the Vandermonde matrix is regular.
-    return {
-        "symplectic", Verdict::proved,
-        "collocation at the zeros of the shifted Legendre polynomial P_s: the integrals of P_s x^k "
-        "vanish exactly for k < s, and B(2s) and C(s) give b_i a_ij + b_j a_ji = b_i b_j; for "
-        "exactly solved stages"};
+    return {"symplectic", Verdict::proved,
+            fmt::format("collocation at the zeros of the shifted Legendre polynomial P_s: the "
+                        "integrals of P_s x^k vanish exactly for k < s, and B(2s) and C(s) give "
+                        "b_i a_ij + b_j a_ji = b_i b_j; {}; for exactly solved stages",
+                        kDigitsOfNodes)};
   }
   return {"symplectic", t.exact ? Verdict::proved : Verdict::tested,
           t.exact ? "b_i a_ij + b_j a_ji = b_i b_j; for exactly solved stages"
@@ -209,9 +231,9 @@ Finding order_of_gauss(const Numbers& t) {
   const int s = static_cast<int>(t.b.size());
   return {
       fmt::format("order {}", 2 * s), Verdict::proved,
-      fmt::format("B({0}), C({1}) and D({1}) of collocation at the zeros of P_{1}; leading error "
-                  "h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ..., f = J grad H",
-                  2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)))};
+      fmt::format("B({0}), C({1}) and D({1}) of collocation at the zeros of P_{1}; {4}; leading "
+                  "error h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ..., f = J grad H",
+                  2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)), kDigitsOfNodes)};
 }
 
 // The trees of an order and their conditions; more than order 7 is never asked for.
@@ -236,7 +258,7 @@ Finding order_by_trees(const Numbers& t, int claimed) {
 
 Proof prove_tableau(const RungeKutta& tableau, int order) {
   const Numbers numbers = numbers_of(tableau);
-  const bool gauss = is_gauss(numbers);
+  const bool gauss = is_gauss(tableau);
   return {symplectic_tableau(numbers, gauss), symmetric_tableau(numbers, gauss),
           gauss ? order_of_gauss(numbers) : order_by_trees(numbers, order)};
 }

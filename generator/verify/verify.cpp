@@ -1,28 +1,67 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
+#include "generator/verify/corners.hpp"
+#include "generator/verify/emitted.hpp"
+#include "generator/verify/identities.hpp"
 #include "generator/verify/proof.hpp"
+#include "generator/verify/swept.hpp"
 
 namespace hamgen {
 
 namespace {
 
-Proof prove_member(const Mechanics& mechanics, const Member& member, std::optional<int> sweeps) {
-  Proof proof{prove_gauge(member)};
-  if (sweeps) {
-    proof.push_back(prove_swept(mechanics, member, *sweeps));
-    proof.push_back({"symmetric", Verdict::refuted, "the predictor is explicit Euler"});
+// K stands in for H.
+const GeneratingFunction* raised_function(const Scheme& scheme, const Program& program) {
+  if (!scheme.is_member() || scheme.member().generating_order == 0) return nullptr;
+  return &*program.plan.equations.function;
+}
+
+// The step back takes K(zbar, -h): it is the adjoint's only if K is even in h.
+Decision decide_even(const GeneratingFunction& function, const Surroundings& around) {
+  Decision all{.verdict = Verdict::proved};
+  for (const Expression& slope : function.gradient) {
+    const Expression mirrored = substitute(slope, {{"h", -Expression::symbol("h", kRankOfStep)}});
+    if (mirrored == slope) continue;
+    const Decision one = decide_equal("grad K(zbar, -h)", mirrored, slope, around);
+    all.verdict = both(all.verdict, one.verdict);
+    if (!holds(one.verdict)) return one;
+  }
+  return all;
+}
+
+Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+                   const Surroundings& around, const std::optional<Decision>& of_k) {
+  const Member& member = scheme.member();
+  Proof proof{prove_gauge(member, around)};
+  if (program.plan.sweeps) {
+    std::ranges::move(prove_swept(mechanics, member, *program.plan.sweeps, around),
+                      std::back_inserter(proof));
     return proof;
   }
-  proof.push_back(prove_step_symplectic(member));
-  proof.push_back(prove_symmetric(member));
-  proof.push_back(prove_order(member));
+  proof.push_back(prove_step_symplectic(member, around));
+  Finding symmetric = prove_symmetric(member, around);
+  const GeneratingFunction* function = raised_function(scheme, program);
+  if (function == nullptr) {
+    proof.push_back(std::move(symmetric));
+    proof.push_back(prove_order(member, around));
+    return proof;
+  }
+  if (holds(symmetric.verdict)) {
+    const Decision even = decide_even(*function, around);
+    symmetric = resting_on(even.verdict,
+                           even.verdict == Verdict::tested
+                               ? "K(-h) = K(h) " + points_text(even)
+                               : "K is not known to be even in h: " + even.witness,
+                           std::move(symmetric));
+  }
+  proof.push_back(std::move(symmetric));
+  proof.push_back(prove_raised_order(*function, *of_k));
   return proof;
 }
 
-Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, std::optional<int> sweeps) {
+Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+                   const Surroundings& around, const std::optional<Decision>& of_k) {
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
     const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
     return prove_splitting(*splitting, scheme.order, nystrom);
@@ -31,48 +70,44 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, std::option
     return prove_tableau(*tableau, scheme.order);
   }
   if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
-    return prove_composition(*composition, scheme.order);
+    return prove_composition(*composition, scheme.order, around);
   }
-  return prove_member(mechanics, scheme.member(), sweeps);
+  return prove_member(mechanics, scheme, program, around, of_k);
+}
+
+Verdict verdict_of(const Proof& proof, const std::string& property) {
+  const auto found = std::ranges::find(proof, property, &Finding::property);
+  return found == proof.end() ? Verdict::not_decided : found->verdict;
+}
+
+bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const Program& program) {
+  if (!program.plan.sweeps) return true;
+  return !mechanics.keeps_sums() &&
+         sweeps_solve(mechanics, Derivatives(mechanics), scheme.member(), *program.plan.sweeps);
 }
 
 }  // namespace
 
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-             const Expression& hamiltonian) {
-  Proof proof = prove_method(mechanics, scheme, program.plan.sweeps);
-  const bool swept = program.plan.sweeps.has_value();
-  std::ranges::move(prove_invariants(mechanics, hamiltonian, scheme, swept),
-                    std::back_inserter(proof));
-  proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian));
+             const Expression& hamiltonian, const Surroundings& around) {
+  std::optional<Decision> of_k;
+  if (const GeneratingFunction* function = raised_function(scheme, program))
+    of_k = decide_function(mechanics, Derivatives(mechanics), scheme.member(), *function, around);
+  Proof proof = prove_method(mechanics, scheme, program, around, of_k);
+  // A step is what it is proved to be where H has the derivatives it is made of.
+  const std::vector<Corner> corners_of_h = corners_of_hamiltonian(mechanics);
+  if (!corners_of_h.empty()) {
+    for (Finding& finding : proof) {
+      if (finding.property != kGauge)
+        finding = resting_on(Verdict::tested, off_the(corners_of_h), std::move(finding));
+    }
+  }
+  std::ranges::move(
+      prove_invariants(mechanics, hamiltonian, scheme, is_solved(mechanics, scheme, program),
+                       verdict_of(proof, "symplectic"), around),
+      std::back_inserter(proof));
+  proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian, around, of_k));
   return proof;
-}
-
-std::string to_text(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::proved:
-      return "proved";
-    case Verdict::tested:
-      return "tested";
-    case Verdict::refuted:
-      return "refuted";
-    case Verdict::not_decided:
-      return "not decided";
-    case Verdict::measured:
-      return "measured";
-  }
-  return "";
-}
-
-std::string to_text(const Proof& proof) {
-  std::size_t width = 0;
-  for (const Finding& finding : proof) width = std::max(width, finding.property.size());
-  std::string text;
-  for (const Finding& finding : proof) {
-    text += fmt::format("{:{}}  {:11}  {}\n", finding.property, width, to_text(finding.verdict),
-                        finding.detail);
-  }
-  return text;
 }
 
 }  // namespace hamgen

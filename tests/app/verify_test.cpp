@@ -74,7 +74,7 @@ TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
   const std::string model = (models / "harmonic.ham").string();
   const Json euler =
       find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "1/2"}), "linear stability");
-  EXPECT_EQ(euler.at("verdict"), "tested");
+  EXPECT_EQ(euler.at("verdict"), "proved");
   EXPECT_EQ(euler.at("frequencies"), Json::array({1.0}));
   EXPECT_NEAR(euler.at("largest_h").get<double>(), 2.0, 1e-9);
   // cos theta = 1 - h^2 w^2/2.
@@ -84,6 +84,10 @@ TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
       find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "2.5"}), "linear stability");
   EXPECT_EQ(beyond.at("verdict"), "refuted");
   EXPECT_LT(beyond.at("margin").get<double>(), 0.0);
+  // What is unbounded carries no bound.
+  EXPECT_TRUE(beyond.at("largest_h").is_null());
+  EXPECT_TRUE(beyond.at("bounded_steps").empty());
+  EXPECT_EQ(euler.at("bounded_steps"), Json::array({Json::array({0.0, 2.0})}));
   const Json midpoint = find(findings(model, {"--h", "5"}), "linear stability");
   EXPECT_EQ(midpoint.at("verdict"), "proved");
   EXPECT_TRUE(midpoint.at("bounded_for_every_h"));
@@ -117,6 +121,57 @@ TEST(Verify, MeasuresTheDefectOfAnInvariantThatIsRefuted) {
   const Json rows = findings((models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
   EXPECT_EQ(find(rows, "L conserved by the step").at("verdict"), "refuted");
   EXPECT_GT(find(rows, "L measured").at("defect").get<double>(), 1e-6);
+}
+
+// It says what it measures only of steps that were taken.
+TEST(Verify, MeasuresNothingWhereNoStepIsTaken) {
+  const Json rows = findings((models / "pendulum.ham").string(),
+                             {"--measure", "--solver", "fixed-point", "--h", "1000"});
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "not decided");
+  EXPECT_EQ(find(rows, "tangent map of the step").at("verdict"), "missing");
+  EXPECT_EQ(find(rows, "reversal").at("verdict"), "missing");
+}
+
+TEST(Verify, EndsWithFiveWhereAMeasurementRefutes) {
+  const std::string pendulum = (models / "pendulum.ham").string();
+  // Not symplectic, which this list does not ask for; and yet it shows.
+  const Json rows =
+      findings(pendulum, {"--scheme", "rk4", "--require", "order:4", "--measure", "--h", "1/2"}, 5);
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "refuted");
+  EXPECT_EQ(hamgen({"verify", pendulum, "--scheme", "rk4", "--require", "order:4"}).status, 0);
+  EXPECT_EQ(hamgen({"verify", pendulum, "--scheme", "rk4"}).status, 5);
+}
+
+TEST(Verify, TakesTheOptionsOfARun) {
+  const std::string pendulum = (models / "pendulum.ham").string();
+  // w^2 = eps cos(q): 2 there, by the run's own parameter and state.
+  const Json rows = findings(pendulum, {"--set", "eps=2", "--initial", "q=0,p=0", "--h", "1/2"});
+  EXPECT_NEAR(find(rows, "linear stability").at("frequencies").at(0).get<double>(), std::sqrt(2.0),
+              1e-12);
+  EXPECT_EQ(hamgen({"verify", pendulum, "--initial", "z=0"}).status, 2);
+}
+
+// A model without a scene is measured along 1000 steps from the state that is given.
+TEST(Verify, NeedsNoSceneToMeasure) {
+  const Scratch scratch;
+  scratch.write("spring.ham",
+                "coordinate q\nmomentum p\nH = p^2/2 + q^2/2\ninvariant E = (p^2 + q^2)/2\n");
+  const std::string model = scratch.path("spring.ham");
+  const Result without = hamgen({"verify", model, "--measure"});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_TRUE(contains(without.err, "--initial q=0.1,p=0 --h 0.01\n")) << without.err;
+  const Json rows = findings(model, {"--measure", "--initial", "q=0.1,p=0", "--h", "0.01"});
+  EXPECT_EQ(find(rows, "E measured").at("steps"), 1000);
+  EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "tested");
+}
+
+TEST(Check, SaysWhereHHasACorner) {
+  const Scratch scratch;
+  scratch.write("ball.ham", "coordinate q\nmomentum p\nH = p^2/2 + (abs(q) - q)^2/8\n");
+  const Result result = hamgen({"check", scratch.path("ball.ham")});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(contains(result.err, "ball.ham:3:5: warning: H has a corner where q = 0, by abs(q)"))
+      << result.err;
 }
 
 TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {

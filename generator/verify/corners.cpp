@@ -1,0 +1,134 @@
+#include "generator/verify/corners.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "generator/algebra/from_ginac.hpp"
+
+namespace hamgen {
+
+namespace {
+
+constexpr std::size_t kLargestRadicand = 60;  // terms of a sum that is looked at for a square
+
+bool has_symbols(const Expression& e) {
+  std::set<std::string> names = symbols(e);
+  names.erase("pi");
+  return !names.empty();
+}
+
+// Is the exponent an even integer times 1?
+bool is_even(const Rational& exponent) {
+  return exponent.get_den() == 1 && mpz_even_p(exponent.get_num_mpz_t()) != 0;
+}
+
+// Factors of a sum that divide it an even number of times, functions in it taken as symbols.
+std::vector<std::pair<Expression, int>> even_factors(const Expression& sum) {
+  std::vector<std::pair<Expression, int>> result;
+  if (sum.operands().size() > kLargestRadicand) return result;
+  SymbolTable table;
+  GiNaC::exmap functions;
+  const GiNaC::ex numerator = to_ginac(sum, table).to_polynomial(functions).numer().expand();
+  const GiNaC::ex factored = GiNaC::sqrfree(numerator);
+  const auto look = [&](const GiNaC::ex& factor) {
+    if (!GiNaC::is_a<GiNaC::power>(factor)) return;
+    const GiNaC::ex& exponent = factor.op(1);
+    if (!exponent.info(GiNaC::info_flags::even)) return;
+    const GiNaC::ex base = factor.op(0).subs(functions, GiNaC::subs_options::no_pattern);
+    result.emplace_back(from_ginac(base, table), GiNaC::ex_to<GiNaC::numeric>(exponent).to_int());
+  };
+  if (GiNaC::is_a<GiNaC::mul>(factored)) {
+    for (std::size_t i = 0; i < factored.nops(); ++i) look(factored.op(i));
+  } else {
+    look(factored);
+  }
+  return result;
+}
+
+class Search {
+ public:
+  explicit Search(std::vector<Corner>& found) : found_(found) {}
+
+  void look(const Expression& e) {
+    if (e.operands().empty() || !seen_.insert(e.identity()).second) return;
+    for (const Expression& operand : e.operands()) look(operand);
+    if (e.kind() == Kind::function) of_function(e);
+    if (e.kind() == Kind::power) of_root(e, e.operands()[0], e.operands()[1]);
+  }
+
+ private:
+  void add(const Expression& function, std::string place) {
+    if (std::ranges::none_of(found_, [&](const Corner& c) { return c.function == function; })) {
+      found_.push_back({function, std::move(place)});
+    }
+  }
+
+  void of_function(const Expression& e) {
+    const Expression& x = e.operands()[0];
+    if (!has_symbols(e)) return;
+    if (e.name() == "abs") add(e, to_text(x) + " = 0");
+    if (e.name() == "sqrt") of_root(e, x, Expression(Rational(1, 2)));
+    if (e.name() == "atan2")
+      add(e, fmt::format("{} = 0 and {} < 0", to_text(x), to_text(e.operands()[1])));
+  }
+
+  // (f^m)^r is |f|^(m r) for an even m: smooth where m r is even again.
+  void of_root(const Expression& e, const Expression& base, const Expression& exponent) {
+    if (!exponent.is_number() || exponent.number().get_den() == 1 || !has_symbols(base)) return;
+    const auto test = [&](const Expression& inner, const Rational& m) {
+      const Rational power = m * exponent.number();
+      if (is_even(m) && !is_even(power) && has_symbols(inner)) add(e, to_text(inner) + " = 0");
+    };
+    const auto of_factor = [&](const Expression& factor) {
+      Expression inside = factor;
+      Rational times = 1;
+      if (factor.kind() == Kind::power && factor.operands()[1].is_number()) {
+        inside = factor.operands()[0];
+        times = factor.operands()[1].number();
+        test(inside, times);
+      }
+      if (inside.kind() != Kind::sum) return;
+      for (const auto& [inner, m] : even_factors(inside)) test(inner, times * m);
+    };
+    if (base.kind() == Kind::product) {
+      for (const Expression& factor : base.operands()) of_factor(factor);
+    } else {
+      of_factor(base);
+    }
+  }
+
+  std::vector<Corner>& found_;
+  std::set<const void*> seen_;
+};
+
+}  // namespace
+
+std::vector<Corner> corners(const std::vector<Expression>& expressions) {
+  std::vector<Corner> found;
+  Search search(found);
+  for (const Expression& e : expressions) search.look(e);
+  return found;
+}
+
+std::vector<Corner> corners_of_hamiltonian(const Mechanics& mechanics) {
+  if (!mechanics.keeps_sums()) return corners(mechanics.energy);
+  std::vector<Expression> summands;
+  for (const Kernel& kernel : mechanics.kernels) summands.push_back(kernel.value);
+  return corners(summands);
+}
+
+std::vector<Corner> corners(const Expression& e) { return corners(std::vector{e}); }
+
+std::string off_the(const std::vector<Corner>& corners) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(corners.size(), most); ++i) {
+    text += (i == 0 ? "off the corners of " : " and ") + to_text(corners[i].function);
+  }
+  if (corners.size() > most) text += fmt::format(" and {} more", corners.size() - most);
+  return text;
+}
+
+}  // namespace hamgen

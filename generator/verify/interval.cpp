@@ -1,0 +1,132 @@
+#include "generator/verify/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hamgen {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// One unit for a sum or a product; the library's functions are right to a few.
+Interval outwards(double low, double high, int units = 1) {
+  if (std::isnan(low) || std::isnan(high)) return {-kInfinity, kInfinity};
+  for (int k = 0; k < units; ++k) {
+    low = std::nextafter(low, -kInfinity);
+    high = std::nextafter(high, kInfinity);
+  }
+  return {low, high};
+}
+
+constexpr int kUnitsOfFunctions = 4;
+
+template <class Function>
+Interval ascending(const Interval& x, Function f) {
+  return outwards(f(x.low), f(x.high), kUnitsOfFunctions);
+}
+
+// A cosine is monotone between multiples of pi, of which these are within x.
+Interval cosine(const Interval& x) {
+  if (!(x.high - x.low < 6.0) || std::abs(x.high) > 1e9) return {-1.0, 1.0};
+  Interval result = outwards(std::min(std::cos(x.low), std::cos(x.high)),
+                             std::max(std::cos(x.low), std::cos(x.high)), kUnitsOfFunctions);
+  const double turns = std::ceil(x.low / std::numbers::pi - 1e-9);
+  for (double k = turns; k * std::numbers::pi <= x.high + 1e-9; k += 1.0)
+    (std::fmod(std::abs(k), 2.0) < 0.5 ? result.high : result.low) =
+        std::fmod(std::abs(k), 2.0) < 0.5 ? 1.0 : -1.0;
+  return {std::max(result.low, -1.0), std::min(result.high, 1.0)};
+}
+
+std::optional<Interval> function_of(const std::string& name, const Interval& x) {
+  const Interval half_pi = outwards(std::numbers::pi / 2, std::numbers::pi / 2);
+  if (name == "sin") return cosine(x - half_pi);
+  if (name == "cos") return cosine(x);
+  if (name == "tan") return cosine(x - half_pi) / cosine(x);
+  if (name == "exp") return ascending(x, [](double t) { return std::exp(t); });
+  if (name == "sinh") return ascending(x, [](double t) { return std::sinh(t); });
+  if (name == "tanh") return ascending(x, [](double t) { return std::tanh(t); });
+  if (name == "atan") return ascending(x, [](double t) { return std::atan(t); });
+  if (name == "asinh") return ascending(x, [](double t) { return std::asinh(t); });
+  if (name == "cosh" || name == "abs") {
+    const double least = x.holds(0.0) ? 0.0 : std::min(std::abs(x.low), std::abs(x.high));
+    const Interval size{least, std::max(std::abs(x.low), std::abs(x.high))};
+    if (name == "abs") return size;
+    return ascending(size, [](double t) { return std::cosh(t); });
+  }
+  if (name == "sqrt" && x.low >= 0.0) return ascending(x, [](double t) { return std::sqrt(t); });
+  if (name == "log" && x.low > 0.0) return ascending(x, [](double t) { return std::log(t); });
+  return std::nullopt;
+}
+
+std::optional<Interval> power_of(const Interval& base, const Expression& exponent) {
+  if (!exponent.is_number() || !exponent.number().get_num().fits_slong_p()) return std::nullopt;
+  const long over = exponent.number().get_num().get_si();
+  if (exponent.number().get_den() == 1) return power(base, over);
+  if (base.low < 0.0 || (over < 0 && base.low <= 0.0)) return std::nullopt;
+  const double e = to_double(exponent.number());
+  const Interval ends{std::pow(base.low, e), std::pow(base.high, e)};
+  return outwards(std::min(ends.low, ends.high), std::max(ends.low, ends.high), kUnitsOfFunctions);
+}
+
+}  // namespace
+
+Interval operator+(const Interval& a, const Interval& b) {
+  return outwards(a.low + b.low, a.high + b.high);
+}
+
+Interval operator-(const Interval& a, const Interval& b) {
+  return outwards(a.low - b.high, a.high - b.low);
+}
+
+Interval operator*(const Interval& a, const Interval& b) {
+  if ((a.low == 0.0 && a.high == 0.0) || (b.low == 0.0 && b.high == 0.0)) return {};
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return outwards(low, high);
+}
+
+Interval operator/(const Interval& a, const Interval& b) {
+  if (b.holds(0.0)) return {-kInfinity, kInfinity};
+  return a * outwards(1.0 / b.high, 1.0 / b.low);
+}
+
+Interval power(const Interval& a, long n) {
+  if (n < 0) return Interval(1.0) / power(a, -n);
+  Interval result(1.0);
+  for (long k = 0; k < n; ++k) result = result * a;
+  if (n % 2 == 0 && n > 0) result.low = std::max(result.low, 0.0);
+  return result;
+}
+
+Interval enclosing(const Rational& value) {
+  const double near = to_double(value);
+  return from_double(near) == value ? Interval(near) : outwards(near, near);
+}
+
+std::optional<Interval> enclosure(const Expression& e,
+                                  const std::map<std::string, Interval>& symbols) {
+  if (e.is_number()) return enclosing(e.number());
+  if (e.kind() == Kind::symbol) {
+    if (e.name() == "pi") return outwards(std::numbers::pi, std::numbers::pi);
+    const auto value = symbols.find(e.name());
+    return value == symbols.end() ? std::nullopt : std::optional(value->second);
+  }
+  std::optional<Interval> result;
+  for (const Expression& operand : e.operands()) {
+    const auto next = enclosure(operand, symbols);
+    if (!next) return std::nullopt;
+    if (!result) {
+      result = next;
+      if (e.kind() == Kind::power) return power_of(*next, e.operands()[1]);
+    } else {
+      result = e.kind() == Kind::sum ? *result + *next : *result * *next;
+    }
+  }
+  if (e.kind() != Kind::function) return result;
+  return e.operands().size() == 1 ? function_of(e.name(), *result) : std::nullopt;
+}
+
+}  // namespace hamgen
