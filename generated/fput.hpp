@@ -57,6 +57,107 @@ inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 
+// H(q, p).
+inline Real energy(const Parameters& par, const State& z) {
+  Real sum = 0.0;
+  for (int i = 1; i <= 32; ++i) {
+    const Real p_i = z.p[i - 1];
+    sum += 0.5 * (p_i * p_i);
+  }
+  for (int i = 1; i <= 31; ++i) {
+    const Real q_i_plus_1 = z.q[i];
+    const Real q_i = z.q[i - 1];
+    const Real t1 = q_i_plus_1 - q_i;
+    const Real t2 = t1 * t1;
+    sum += 0.5 * t2 + (1.0 / 3.0) * par.alpha * t1 * t2;
+  }
+  const Real q_1 = z.q[0];
+  const Real q_32 = z.q[31];
+  const Real t1 = q_1 * q_1;
+  const Real t2 = q_32 * q_32;
+  sum += 0.5 * t1 + 0.5 * t2 + (1.0 / 3.0) * par.alpha * q_1 * t1 -
+      (1.0 / 3.0) * par.alpha * q_32 * t2;
+  return sum;
+}
+
+// A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
+// as many diagonals again above it.  Row i holds columns i - Width on.
+template <int Size, int Width>
+class BandMatrix {
+ public:
+  static constexpr int size = Size;
+  void clear() {
+    for (auto& row : entry_) {
+      for (Real& value : row) value = 0;
+    }
+  }
+  void put(int row, int column, Real value) { at(row, column) += value; }
+  // False if the matrix is singular or not finite.
+  bool factorise() {
+    for (int c = 0; c < size; ++c) {
+      const int last_row = c + Width < size ? c + Width : size - 1;
+      const int last_column = c + 2 * Width < size ? c + 2 * Width : size - 1;
+      int pivot = c;
+      for (int r = c + 1; r <= last_row; ++r) {
+        if (magnitude(at(r, c)) > magnitude(at(pivot, c))) pivot = r;
+      }
+      if (!(magnitude(at(pivot, c)) > 0)) return false;
+      pivot_[c] = pivot;
+      if (pivot != c) {
+        for (int j = c; j <= last_column; ++j) {
+          const Real kept = at(c, j);
+          at(c, j) = at(pivot, j);
+          at(pivot, j) = kept;
+        }
+      }
+      const Real reciprocal = 1 / at(c, c);
+      for (int r = c + 1; r <= last_row; ++r) {
+        const Real factor = at(r, c) * reciprocal;
+        factor_[c][r - c - 1] = factor;
+        for (int j = c + 1; j <= last_column; ++j) at(r, j) -= factor * at(c, j);
+      }
+    }
+    return true;
+  }
+  void solve(Real (&x)[size]) const {
+    for (int c = 0; c < size; ++c) {
+      const Real kept = x[c];
+      x[c] = x[pivot_[c]];
+      if (pivot_[c] != c) x[pivot_[c]] = kept;
+      const int last_row = c + Width < size ? c + Width : size - 1;
+      for (int r = c + 1; r <= last_row; ++r) x[r] -= factor_[c][r - c - 1] * x[c];
+    }
+    for (int r = size - 1; r >= 0; --r) {
+      const int last_column = r + 2 * Width < size ? r + 2 * Width : size - 1;
+      for (int j = r + 1; j <= last_column; ++j) x[r] -= at(r, j) * x[j];
+      x[r] /= at(r, r);
+    }
+  }
+
+ private:
+  static constexpr int columns = 3 * Width + 1;
+  Real& at(int row, int column) { return entry_[row][column - row + Width]; }
+  const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }
+  Real entry_[size][columns] = {};
+  Real factor_[size][Width] = {};
+  int pivot_[size] = {};
+};
+
+using Matrix = BandMatrix<32, 1>;
+
+// What depends on h and the parameters alone.
+struct Coefficients {
+  Real half_h = 0.0;  // h/2
+  Real scale = 0.0;   // the matrix is I + scale V''
+};
+
+inline Coefficients prepare(const Parameters&, Real h) {
+  Coefficients k;
+  k.half_h = 0.5 * h;
+  k.scale = 0.25 * (h * h);
+  return k;
+}
+
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -145,6 +246,132 @@ struct NewtonRule {
   }
 };
 
+// Start values of the implicit equations and what is remembered of their solution.
+struct Start {
+  Real value[32] = {};     // the coordinates of zbar
+  bool known = false;      // else the state itself is the start
+  Real momentum[32] = {};  // of zbar
+  Real slope[64] = {};     // grad H(zbar), dH/dq first
+  Real lack[32] = {};      // of the equations at zbar, then the increment
+  NewtonRule<2> rule;
+  Matrix matrix;
+};
+
+// dq[i] = dH/dq_i.
+inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
+  for (int i = 0; i < n; ++i) dq[i] = 0.0;
+  for (int i = 1; i <= 31; ++i) {
+    const Real q_i_plus_1 = q[i];
+    const Real q_i = q[i - 1];
+    const Real t1 = q_i_plus_1 - q_i;
+    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
+    dq[i] += t2;
+    dq[i - 1] -= t2;
+  }
+  const Real q_1 = q[0];
+  const Real q_32 = q[31];
+  dq[0] += q_1 + par.alpha * (q_1 * q_1);
+  dq[31] += q_32 - par.alpha * (q_32 * q_32);
+}
+
+// dp[i] = dH/dp_i.
+inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
+  for (int i = 0; i < n; ++i) dp[i] = 0.0;
+  for (int i = 1; i <= 32; ++i) {
+    const Real p_i = p[i - 1];
+    dp[i - 1] += p_i;
+  }
+}
+
+// grad H at the stage, whose momenta follow from its coordinates.
+inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
+                     const State& carry, Start& start) {
+  potential_gradient(par, start.value, start.slope);
+  for (int i = 0; i < n; ++i) {
+    const Real p_push = k.half_h * start.slope[i];
+    const Real change = carry.p[i] - p_push;
+    start.momentum[i] = z.p[i] + change;
+  }
+  kinetic_gradient(par, start.momentum, start.slope + n);
+}
+
+// The derivative of the equations' residual, q first, at a stage.
+inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at,
+                          Matrix& matrix) {
+  matrix.clear();
+  for (int i = 0; i < n; ++i) matrix.put(i, i, 1.0);
+  for (int i = 1; i <= 31; ++i) {
+    const Real q_i_plus_1 = at[i];
+    const Real q_i = at[i - 1];
+    const Real t1 = 1.0 + 2.0 * par.alpha * (q_i_plus_1 - q_i);
+    matrix.put(i, i, k.scale * t1);
+    matrix.put(i, i - 1, -k.scale * t1);
+    matrix.put(i - 1, i, -k.scale * t1);
+    matrix.put(i - 1, i - 1, k.scale * t1);
+  }
+  const Real q_1 = at[0];
+  const Real q_32 = at[31];
+  const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
+  matrix.put(0, 0, k.scale * entry_1);
+  const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
+  matrix.put(31, 31, k.scale * entry_2);
+}
+
+// dz = Z - z for one step from z + carry.
+[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, Start& start, State& dz) {
+  StepReport report;
+  if (!start.known) {
+    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+  }
+  // Newton's iteration on what the equations lack.
+  start.rule.begin();
+  for (int iteration = 1;; ++iteration) {
+    evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
+    differentiate(par, k, start.value, start.matrix);
+    if (!start.matrix.factorise()) {
+      report.iterations += iteration;
+      return report;
+    }
+    start.matrix.solve(start.lack);
+    Real size = 0;
+    Real scale = 0;
+    for (int i = 0; i < n; ++i) {
+      size += magnitude(start.lack[i]);
+      scale += magnitude(start.value[i]) + magnitude(z.q[i]);
+    }
+    const Verdict verdict = start.rule(size, scale, iteration);
+    if (verdict == Verdict::failed) {
+      report.iterations += iteration;
+      report.increment = size;
+      return report;
+    }
+    if (verdict == Verdict::done) {
+      report.iterations += iteration;
+      break;
+    }
+    for (int i = 0; i < n; ++i) {
+      start.value[i] += start.lack[i];
+    }
+  }
+  for (int i = 0; i < n; ++i) start.value[i] += start.lack[i];
+  evaluate(par, k, z, carry, start);
+  for (int i = 0; i < n; ++i) {
+    dz.q[i] = carry.q[i] + h * start.slope[n + i];
+    dz.p[i] = carry.p[i] - h * start.slope[i];
+  }
+  Real length = 0;
+  for (int i = 0; i < n; ++i) length += dz.q[i] * dz.q[i] + dz.p[i] * dz.p[i];
+  // False for infinities and NaN alike.
+  report.converged = length <= 1.0e308;
+  if (!report.converged) report.increment = length;
+  return report;
+}
+
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -204,169 +431,33 @@ struct History {
   }
 };
 
-// H(q, p).
-inline Real energy(const Parameters& par, const State& z) {
-  Real sum = 0.0;
-  for (int i = 1; i <= 32; ++i) {
-    const Real p_i = z.p[i - 1];
-    sum += 0.5 * (p_i * p_i);
-  }
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = z.q[i];
-    const Real q_i = z.q[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = t1 * t1;
-    sum += 0.5 * t2 + (1.0 / 3.0) * par.alpha * t1 * t2;
-  }
-  const Real q_1 = z.q[0];
-  const Real q_32 = z.q[31];
-  const Real t1 = q_1 * q_1;
-  const Real t2 = q_32 * q_32;
-  sum += 0.5 * t1 + 0.5 * t2 + (1.0 / 3.0) * par.alpha * q_1 * t1 -
-      (1.0 / 3.0) * par.alpha * q_32 * t2;
-  return sum;
-}
-
-// dq[i] = dH/dq_i.
-inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
-  for (int i = 0; i < n; ++i) dq[i] = 0.0;
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = q[i];
-    const Real q_i = q[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
-    dq[i] += t2;
-    dq[i - 1] -= t2;
-  }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  dq[0] += q_1 + par.alpha * (q_1 * q_1);
-  dq[31] += q_32 - par.alpha * (q_32 * q_32);
-}
-
-// dp[i] = dH/dp_i.
-inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
-  for (int i = 0; i < n; ++i) dp[i] = 0.0;
-  for (int i = 1; i <= 32; ++i) {
-    const Real p_i = p[i - 1];
-    dp[i - 1] += p_i;
-  }
-}
-
-// A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
-// as many diagonals again above it.  Row i holds columns i - Width on.
-template <int Size, int Width>
-class BandMatrix {
- public:
-  static constexpr int size = Size;
-  void clear() {
-    for (auto& row : entry_) {
-      for (Real& value : row) value = 0;
-    }
-  }
-  void put(int row, int column, Real value) { at(row, column) += value; }
-  // False if the matrix is singular or not finite.
-  bool factorise() {
-    for (int c = 0; c < size; ++c) {
-      const int last_row = c + Width < size ? c + Width : size - 1;
-      const int last_column = c + 2 * Width < size ? c + 2 * Width : size - 1;
-      int pivot = c;
-      for (int r = c + 1; r <= last_row; ++r) {
-        if (magnitude(at(r, c)) > magnitude(at(pivot, c))) pivot = r;
-      }
-      if (!(magnitude(at(pivot, c)) > 0)) return false;
-      pivot_[c] = pivot;
-      if (pivot != c) {
-        for (int j = c; j <= last_column; ++j) {
-          const Real kept = at(c, j);
-          at(c, j) = at(pivot, j);
-          at(pivot, j) = kept;
-        }
-      }
-      const Real reciprocal = 1 / at(c, c);
-      for (int r = c + 1; r <= last_row; ++r) {
-        const Real factor = at(r, c) * reciprocal;
-        factor_[c][r - c - 1] = factor;
-        for (int j = c + 1; j <= last_column; ++j) at(r, j) -= factor * at(c, j);
-      }
-    }
-    return true;
-  }
-  void solve(Real (&x)[size]) const {
-    for (int c = 0; c < size; ++c) {
-      const Real kept = x[c];
-      x[c] = x[pivot_[c]];
-      if (pivot_[c] != c) x[pivot_[c]] = kept;
-      const int last_row = c + Width < size ? c + Width : size - 1;
-      for (int r = c + 1; r <= last_row; ++r) x[r] -= factor_[c][r - c - 1] * x[c];
-    }
-    for (int r = size - 1; r >= 0; --r) {
-      const int last_column = r + 2 * Width < size ? r + 2 * Width : size - 1;
-      for (int j = r + 1; j <= last_column; ++j) x[r] -= at(r, j) * x[j];
-      x[r] /= at(r, r);
-    }
-  }
-
- private:
-  static constexpr int columns = 3 * Width + 1;
-  Real& at(int row, int column) { return entry_[row][column - row + Width]; }
-  const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }
-  Real entry_[size][columns] = {};
-  Real factor_[size][Width] = {};
-  int pivot_[size] = {};
-};
-
-using Matrix = BandMatrix<32, 1>;
-
-// put(row, column, value) for the second derivatives, repeated entries to be added.
-template <class Put>
-inline void hessian(const Parameters& par, const Real* q, Put put) {
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = q[i];
-    const Real q_i = q[i - 1];
-    const Real t1 = 1.0 + 2.0 * par.alpha * (q_i_plus_1 - q_i);
-    put(i, i, t1);
-    put(i, i - 1, -t1);
-    put(i - 1, i, -t1);
-    put(i - 1, i - 1, t1);
-  }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  put(0, 0, 1.0 + 2.0 * par.alpha * q_1);
-  put(31, 31, 1.0 - 2.0 * par.alpha * q_32);
-}
-
 // Many steps: start values are extrapolated, rounding errors of the updates carried along.
 class Propagator {
  public:
   Propagator(const Parameters& par, Real h, const State& z)
-      : par_(par), h_(h), z_(z), half_h_(0.5 * h), scale_(0.25 * (h * h)) {}
+      : par_(par), h_(h), z_(z), k_(prepare(par, h)) {}
 
   // One step; on failure the state stays as it was.
   StepReport step() {
-    StepReport report;
-    const bool known = history_.known > 0;
-    if (known) {
-      history_.extrapolate(bar_.q);
-    } else {
-      bar_ = z_;
-    }
-    bool solved = iterate(report);
-    if (!solved && known) {
+    start_.known = history_.known > 0;
+    if (start_.known) history_.extrapolate(start_.value);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz_);
+    if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
-      rule_ = {};
-      history_ = {};
-      bar_ = z_;
-      solved = iterate(report);
+      const long long wasted = report.iterations;
+      start_.known = false;
+      start_.rule = {};
+      report = solve(par_, k_, h_, z_, carry_, start_, dz_);
+      report.iterations += wasted;
     }
-    if (!solved) return report;
-    StepReport updated = update();
-    updated.iterations = report.iterations;
-    if (updated.converged) {
-      rule_.watch(history_, bar_.q, 0, n);
-      history_.record(bar_.q);
+    if (!report.converged) return report;
+    start_.rule.watch(history_, start_.value, 0, 32);
+    history_.record(start_.value);
+    for (int i = 0; i < n; ++i) {
+      two_sum(z_.q[i], carry_.q[i], dz_.q[i]);
+      two_sum(z_.p[i], carry_.p[i], dz_.p[i]);
     }
-    return updated;
+    return report;
   }
 
   // Up to `steps` steps; stops at the first failure.  The report sums the iterations.
@@ -390,82 +481,14 @@ class Propagator {
   [[nodiscard]] const State& carry() const { return carry_; }
 
  private:
-  // Newton's iteration from bar_; the torn momenta follow from the coordinates.
-  bool iterate(StepReport& report) {
-    rule_.begin();
-    for (int iteration = 1;; ++iteration) {
-      ++report.iterations;
-      evaluate();
-      for (int i = 0; i < n; ++i) {
-        residual_[i] = (bar_.q[i] - z_.q[i]) - (carry_.q[i] + half_h_ * slope_.p[i]);
-      }
-      if (!factorise()) return false;
-      matrix_.solve(residual_);
-      Real size = 0;
-      Real scale = 0;
-      for (int i = 0; i < n; ++i) {
-        size += magnitude(residual_[i]);
-        scale += magnitude(bar_.q[i]) + magnitude(z_.q[i]);
-        bar_.q[i] -= residual_[i];
-      }
-      report.increment = size;
-      const Verdict verdict = rule_(size, scale, iteration);
-      if (verdict == Verdict::go_on) continue;
-      if (verdict == Verdict::failed) return false;
-      evaluate();
-      return true;
-    }
-  }
-
-  // The gradient at bar_, whose momenta are made from its coordinates.
-  void evaluate() {
-    potential_gradient(par_, bar_.q, slope_.q);
-    for (int i = 0; i < n; ++i) bar_.p[i] = z_.p[i] + (carry_.p[i] - half_h_ * slope_.q[i]);
-    kinetic_gradient(par_, bar_.p, slope_.p);
-  }
-
-  // The derivative of the residual at bar_.  False if it is singular.
-  bool factorise() {
-    matrix_.clear();
-    for (int i = 0; i < Matrix::size; ++i) matrix_.put(i, i, 1);
-    hessian(par_, bar_.q, [&](int row, int column, Real value) {
-      matrix_.put(row, column, scale_ * value);
-    });
-    return matrix_.factorise();
-  }
-
-  // Z = z + h J grad H(zbar).
-  StepReport update() {
-    StepReport report;
-    Real length = 0;
-    for (int i = 0; i < n; ++i) {
-      length += h_ * slope_.q[i] * (h_ * slope_.q[i]) + h_ * slope_.p[i] * (h_ * slope_.p[i]);
-    }
-    // False for infinities and NaN alike.
-    report.converged = length <= 1.0e308;
-    if (!report.converged) {
-      report.increment = length;
-      return report;
-    }
-    for (int i = 0; i < n; ++i) {
-      two_sum(z_.q[i], carry_.q[i], carry_.q[i] + h_ * slope_.p[i]);
-      two_sum(z_.p[i], carry_.p[i], carry_.p[i] - h_ * slope_.q[i]);
-    }
-    return report;
-  }
-
   Parameters par_;
   Real h_;
   State z_;
-  State carry_;  // what rounding took from z_
-  State bar_;    // zbar
-  State slope_;  // grad H(zbar): slope_.q = dH/dq
-  Real half_h_;  // h/2
-  Real scale_;   // the matrix is I + scale V''
-  Matrix matrix_;
-  Real residual_[n] = {};
-  NewtonRule<2> rule_;
-  History<n> history_;
+  State carry_;
+  Coefficients k_;
+  Start start_;
+  History<32> history_;
+  State dz_;
 };
 
 // Advances z by one step of size h.  On failure z is left unchanged.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/formats/code_writer.hpp"
-#include "generator/solvers/solve_plan.hpp"
+#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
