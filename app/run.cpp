@@ -13,6 +13,7 @@
 #include "app/output/terminal.hpp"
 #include "app/output/trajectory_table.hpp"
 #include "app/studies/initial_data.hpp"
+#include "app/studies/interpreted.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
@@ -28,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 struct RunOptions {
   MethodOptions method;
   std::string compiler;
+  bool interpret = false;
   SceneOptions scene;
   std::string every;
   std::string watch_modified;
@@ -146,6 +148,11 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
+  if (options.interpret && !options.watch_modified.empty())
+    throw UsageError(
+        "--interpret does not know the modified Hamiltonian: leave out one of the two");
+  if (options.interpret && !options.compiler.empty())
+    throw UsageError("--interpret needs no --compiler: leave out one of the two");
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
     request.step = *scene.h;
@@ -161,7 +168,10 @@ int run(const RunOptions& options) {
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler, &interrupt_flag());
+  const runtime::LoadedPlugin loaded =
+      options.interpret ? interpreted_integrator(source, request, plugin)
+                        : load_integrator(plugin, options.compiler, &interrupt_flag());
+  report.interpreted = options.interpret;
   report.from_cache = loaded.from_cache;
   report.compile_seconds = loaded.compile_seconds;
   if (!options.quiet) {
@@ -225,6 +235,8 @@ Command add_run(CLI::App& app) {
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
       ->type_name("PROGRAM");
+  parser->add_flag("--interpret", options->interpret,
+                   "without a compiler: the same step, some hundred times slower");
   return {parser, [options] { return run(*options); }};
 }
 

@@ -112,9 +112,11 @@ Compiler find_compiler(const std::optional<std::string>& explicit_choice) {
   for (const char* const name : {"g++", "clang++"}) {
     if (const std::optional<Compiler> found = compiler_from(name, "the default")) return *found;
   }
-  throw ToolError({.message =
-                       "no C++ compiler was found: neither g++ nor clang++ is in PATH\n"
-                       "help: on Debian: apt install g++; or name one with --compiler or CXX"});
+  throw ToolError(
+      {.message =
+           "no C++ compiler was found: neither g++ nor clang++ is in PATH\n"
+           "help: on Debian: apt install g++; or name one with --compiler or CXX; `hamgen run "
+           "--interpret` needs none"});
 }
 
 std::string compiler_version(const Compiler& compiler) {

@@ -29,6 +29,17 @@ bool is_complete(const hamgen_plugin& plugin) {
 
 void Library::Close::operator()(void* handle) const { ::dlclose(handle); }
 
+Library::Library(const hamgen_plugin& plugin, std::shared_ptr<const void> owner)
+    : owner_(std::move(owner)), plugin_(&plugin) {
+  if (!environment_is_ieee())
+    throw_not_loaded("(a table of functions)",
+                     "this thread does not round to nearest, or takes subnormal numbers for zero\n"
+                     "help: fesetenv(FE_DFL_ENV) before integrators are run");
+  if (plugin.version != HAMGEN_PLUGIN_VERSION || !is_complete(plugin))
+    throw_not_loaded("(a table of functions)",
+                     "it is of another version, or functions are missing");
+}
+
 Library::Library(const std::filesystem::path& object) {
   if (!environment_is_ieee())
     throw_not_loaded(object,

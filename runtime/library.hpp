@@ -18,6 +18,9 @@ class Library {
   // its arithmetic is not IEEE 754's, or that of the calling thread is not (the thread's
   // floating-point environment stays what it was).
   explicit Library(const std::filesystem::path& object);
+  // Of a table that is here already; `owner` lives as long as the library.  Throws ToolError as
+  // above.
+  Library(const hamgen_plugin& plugin, std::shared_ptr<const void> owner);
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
   ~Library();
@@ -45,6 +48,7 @@ class Library {
     void operator()(void* handle) const;
   };
   std::unique_ptr<void, Close> handle_;
+  std::shared_ptr<const void> owner_;
   const hamgen_plugin* plugin_ = nullptr;
 };
 

@@ -98,7 +98,9 @@ const std::vector<Rule>& rules() {
       {"generator/", {"generator/"}, {fmt}},
       {"runtime/", {"runtime/"}, {fmt, system}},
       // What a command measures, without a screen.
-      {"app/studies/", with_generator_values({"app/studies/"}), {fmt, other}},
+      {"app/studies/",
+       with_generator_values({"app/studies/", "generator/interpreter/"}),
+       {fmt, other}},
       // How values of studies look.
       {"app/output/", with_generator_values({"app/output/", "app/studies/"}), {fmt, other}},
       {"app/", {"app/", "generator/", "runtime/"}, {fmt, system, other}},

@@ -73,8 +73,10 @@ std::string energy_text(const RunReport& report) {
 }
 
 std::string time_text(const RunReport& report) {
-  const std::string compile =
-      report.from_cache ? "compiled before" : "compile " + seconds_text(report.compile_seconds);
+  const std::string compile = report.interpreted ? "interpreted"
+                              : report.from_cache
+                                  ? "compiled before"
+                                  : "compile " + seconds_text(report.compile_seconds);
   return fmt::format(
       "generate {}, {}, run {}: {:.3g} ns/step", seconds_text(report.generate_seconds), compile,
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
@@ -232,11 +234,10 @@ std::string json_text(const RunReport& report) {
   result["solver"] = {{"kind", report.plugin->solver},
                       {"iterations_per_step", summary.iterations_per_step()},
                       {"left_out", report.plugin->left_out}};
-  result["time"] = {{"generate_s", report.generate_seconds},
-                    {"compile_s", report.compile_seconds},
-                    {"run_s", summary.total_seconds},
-                    {"ns_per_step", summary.nanoseconds_per_step()},
-                    {"from_cache", report.from_cache}};
+  result["time"] = {
+      {"generate_s", report.generate_seconds}, {"compile_s", report.compile_seconds},
+      {"run_s", summary.total_seconds},        {"ns_per_step", summary.nanoseconds_per_step()},
+      {"from_cache", report.from_cache},       {"interpreted", report.interpreted}};
   return json_document(result);
 }
 

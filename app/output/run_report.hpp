@@ -21,6 +21,7 @@ struct RunReport {
   std::vector<double> initial_invariants;
   std::vector<double> final_invariants;
   bool from_cache = false;
+  bool interpreted = false;  // there was no compiler
   double generate_seconds = 0.0;
   double compile_seconds = 0.0;
   std::string trajectory;  // where it is and how many rows; empty if there is none

@@ -132,9 +132,10 @@ class StepWriter {
   // The line for every component that changes.
   void write_each(const std::function<std::string(const std::string&)>& line) {
     if (large_) {
-      out_.open("for (int i = 0; i < n; ++i)");
-      out_.line(line("q[i]"));
-      out_.line(line("p[i]"));
+      const char* i = composed_ ? "j" : "i";  // a substep has its number i
+      out_.open(fmt::format("for (int {0} = 0; {0} < n; ++{0})", i));
+      out_.line(line(fmt::format("q[{}]", i)));
+      out_.line(line(fmt::format("p[{}]", i)));
       out_.close();
       return;
     }

@@ -21,6 +21,7 @@ Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real
   }
   if (code_->routine("solve") == nullptr) internal_error("a step that cannot be interpreted");
   parameters_.numbers = std::move(parameters);
+  h_ = h;
   z_ = make_object<Real>(*code_->record("State"), *code_);
   carry_ = make_object<Real>(*code_->record("State"), *code_);
   z_.numbers = state;
@@ -148,10 +149,28 @@ std::vector<Real> Interpreter<Real>::values(const std::string& routine,
                                             const std::vector<Real>& state) {
   Object<Real> z;
   z.numbers = state;
+  const std::vector<Argument>& arguments = code_->routine(routine)->arguments;
+  const std::size_t half = state.size() / 2;
   Object<Real> result;
-  result.numbers.resize(
-      static_cast<std::size_t>(code_->routine(routine)->arguments.back().sizes.front()));
-  machines_.at(routine)->run({given(parameters_), given(z), given(result)});
+  std::vector<Given<Real>> list;
+  // Of a system in loops the arrays q and p, and dq and dp one after the other.
+  result.numbers.resize(std::max(static_cast<std::size_t>(arguments.back().sizes.front()),
+                                 arguments.back().name == "dp" ? state.size() : 0));
+  for (const Argument& argument : arguments) {
+    const std::string& name = argument.name;
+    if (name == "par") {
+      list.push_back(given(parameters_));
+    } else if (name == "h") {
+      list.push_back({&h_, nullptr});
+    } else if (name == "z" || name == "q") {
+      list.push_back(given(z));
+    } else if (name == "p") {
+      list.push_back({z.numbers.data() + half, &z});
+    } else {
+      list.push_back({result.numbers.data() + (name == "dp" ? half : 0), &result});
+    }
+  }
+  machines_.at(routine)->run(list);
   return result.numbers;
 }
 

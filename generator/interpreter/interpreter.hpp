@@ -32,9 +32,11 @@ class Interpreter {
 
   // H at a state.
   [[nodiscard]] Real energy(const std::vector<Real>& state);
-  // A routine that fills in values: "gradient", "invariants".
+  // A routine that fills in values: "gradient", "invariants", "modified_energies".
   [[nodiscard]] std::vector<Real> values(const std::string& routine,
                                          const std::vector<Real>& state);
+  // For the two functions above; the steps keep those that the run was begun with.
+  void evaluate_with(const std::vector<Real>& parameters) { parameters_.numbers = parameters; }
 
  private:
   struct Substep {
@@ -54,6 +56,7 @@ class Interpreter {
   std::unique_ptr<const StepCode> code_;  // the machines point into it
   typename Machine<Real>::Others machines_;
   Object<Real> parameters_, z_, carry_;
+  Real h_ = 0;
   std::vector<Substep> substeps_;
 };
 

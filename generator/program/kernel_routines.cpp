@@ -100,17 +100,22 @@ class KernelRoutine {
       std::size_t k = 0;
       int named = 0;
       for (const auto& [slots, value] : kernel.hessian) {
-        Expression entry = results[k++];
-        const Slot& row = kernel.slots[slots.first];
-        const Slot& column = kernel.slots[slots.second];
-        const bool twice = slots.first != slots.second;
-        if (!is_trivial(entry)) {
-          const std::string symbol = fmt::format("entry({})", ++named);
-          body.push_back({Let{symbol, entry}});
-          entry = Expression::symbol(symbol, kRankOfTemporary);
+        const Expression result = results[k++];
+        const StateElement row = element_of(kernel.slots[slots.first]);
+        const StateElement column = element_of(kernel.slots[slots.second]);
+        const std::string symbol = fmt::format("entry({})", named + 1);
+        const Expression entry =
+            is_trivial(result) ? result : Expression::symbol(symbol, kRankOfTemporary);
+        Body used;
+        use(routine_, used, {row, column, entry});
+        if (slots.first != slots.second) use(routine_, used, {column, row, entry});
+        std::set<std::string> read;
+        collect_symbols(used, read);
+        if (read.contains(symbol)) {
+          body.push_back({Let{symbol, result}});
+          ++named;
         }
-        use(routine_, body, {element_of(row), element_of(column), entry});
-        if (twice) use(routine_, body, {element_of(column), element_of(row), entry});
+        for (Instruction& instruction : used) body.push_back(std::move(instruction));
       }
     });
     return std::move(routine_);

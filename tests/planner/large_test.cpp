@@ -52,12 +52,12 @@ TEST(LargePlan, AHarmonicChainIsFactorisedOnce) {
 TEST(LargePlan, TheMidpointRuleHasNoTraceOfBetaAndGamma) {
   const std::string header = outcome(chain(64)).header;
   const std::string code = header.substr(header.find("#pragma once"));
-  for (const char* name : {"beta", "gamma", "alpha_", "drift", "mass", "maybe_unused"}) {
+  for (const char* name : {"beta", "gamma", "share", "drift", "mass", "maybe_unused"}) {
     EXPECT_FALSE(contains(code, name)) << name;
   }
   const std::string general =
       outcome(chain(64), {.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}).header;
-  for (const char* name : {"h_beta_", "h_gamma_", "h_alpha_", "drift_", "mass_"}) {
+  for (const char* name : {"k.h_beta", "k.h_gamma", "k.share", "k.drift", "k.mass"}) {
     EXPECT_TRUE(contains(general, name)) << name;
   }
 }

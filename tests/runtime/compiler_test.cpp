@@ -80,7 +80,8 @@ TEST_F(CompilerTest, ThatIsMissingIsNamedAndNotReplaced) {
   const Environment variable("CXX", std::nullopt);
   EXPECT_EQ(message_for({}),
             "no C++ compiler was found: neither g++ nor clang++ is in PATH\n"
-            "help: on Debian: apt install g++; or name one with --compiler or CXX");
+            "help: on Debian: apt install g++; or name one with --compiler or CXX; `hamgen run "
+            "--interpret` needs none");
 }
 
 TEST_F(CompilerTest, InTheVariableIsNeverSeenByAShell) {
