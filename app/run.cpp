@@ -233,10 +233,9 @@ Command add_run(CLI::App& app) {
   parser->add_option("--keep", options->keep, "write the emitted header there")
       ->type_name("DIRECTORY");
   add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
-      ->type_name("PROGRAM");
+  parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
-                   "without a compiler: the same step, some hundred times slower");
+                   "default: $CXX, else g++, else clang++; or none, 20 to 100 times slower");
   return {parser, [options] { return run(*options); }};
 }
 

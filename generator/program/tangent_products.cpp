@@ -118,6 +118,35 @@ void TangentBuilder::finish() {
                            .ranges = {counting("row", 2 * n_), counting("column", 2 * n_)}}});
 }
 
+Instruction tangent_call(std::string routine, std::vector<Place> arguments) {
+  return {Call{.routine = std::move(routine), .arguments = std::move(arguments)}};
+}
+
+Instruction prepared(Place h) {
+  return {Call{.routine = "prepare",
+               .arguments = {{"par"}, std::move(h)},
+               .record = "Coefficients",
+               .object = "k"}};
+}
+
+void add_step(Body& body, const StepCode& code, const std::string& h, const std::string& state) {
+  const Routine& solve = *code.routine("solve");
+  if (code.record("Coefficients") != nullptr) body.push_back(prepared({h}));
+  Call step{.routine = "solve", .arguments = {}, .record = "StepReport", .must_succeed = true};
+  for (const Argument& argument : solve.arguments) {
+    const std::string& name = argument.name;
+    if (name == "start") body.push_back({Copy{"Start", "start", "", true}});
+    if (name == "carry" || name == "dz" || name == "rest") {
+      body.push_back({Copy{"State", name == "dz" ? "moved" : name, "", true}});
+    }
+    step.arguments.push_back({name == "h"    ? h
+                              : name == "z"  ? state
+                              : name == "dz" ? "moved"
+                                             : name});
+  }
+  body.push_back({std::move(step)});
+}
+
 Routine curvature_routine(const Environment& environment, const Mechanics& mechanics) {
   const int n = environment.degrees_of_freedom;
   RoutineBuilder b(

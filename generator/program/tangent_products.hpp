@@ -60,6 +60,13 @@ class TangentBuilder : public RoutineBuilder {
   bool arrays_;
 };
 
+[[nodiscard]] Instruction tangent_call(std::string routine, std::vector<Place> arguments);
+// k = prepare(par, h)
+[[nodiscard]] Instruction prepared(Place h);
+// A step of length h (a number of this name) from the state, which must succeed: moved, rest and
+// start are locals of it.
+void add_step(Body& body, const StepCode& code, const std::string& h, const std::string& state);
+
 // Of a system in loops: curvature(par, q, p, u, y), y = H'' u.
 [[nodiscard]] Routine curvature_routine(const Environment& environment, const Mechanics& mechanics);
 

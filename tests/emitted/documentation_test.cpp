@@ -1,0 +1,49 @@
+// The program in docs/emitted-code.md is one.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "generator/base/source_text.hpp"
+#include "tests/emitted/compiled.hpp"
+
+namespace hamgen::emitted_test {
+namespace {
+
+const std::string root = HAMGEN_SOURCE_DIR;
+
+// What stands between ```cpp and ``` in the file, the first time.
+std::string program_of(const std::string& file) {
+  const std::string text = read(root + file);
+  const std::string begin = "```cpp\n";
+  const auto from = text.find(begin) + begin.size();
+  return text.substr(from, text.find("```\n", from) - from);
+}
+
+TEST(Documentation, TheProgramOfEmittedCodeRunsAndKeepsTheEnergy) {
+  std::string program = program_of("/docs/emitted-code.md");
+  const std::string include = "#include \"fput.hpp\"\n";
+  const auto at = program.find(include);
+  ASSERT_NE(at, std::string::npos);
+  const std::string header = generate(read_source(root + "/hamiltonians/fput.ham"), {}).at(0).text;
+  program.replace(at, include.size(), without_pragma(header));
+  const std::string output = run_program(program);
+  ASSERT_TRUE(output.ends_with("\n")) << output;
+  // The midpoint rule keeps it to h^2 times what the motion changes of its parts.
+  EXPECT_LT(std::abs(std::strtod(output.c_str(), nullptr)), 1e-2) << output;
+}
+
+// Every name in the table of parts is one of the header's.
+TEST(Documentation, ThePartsOfAHeaderAreThere) {
+  const std::string header =
+      generate(read_source(root + "/hamiltonians/fput.ham"), {.scheme = "gauss-4", .tangent = true})
+          .at(0)
+          .text;
+  for (const char* part :
+       {"Real", "Parameters", "State", "StepReport", "energy(", "Coefficients", "prepare(", "Start",
+        "solve(", "step(", "Propagator", "advance(", "state()", "carry()", "tangent("}) {
+    EXPECT_NE(header.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::emitted_test
