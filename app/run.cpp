@@ -235,7 +235,7 @@ Command add_run(CLI::App& app) {
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
-                   "default: $CXX, else g++, else clang++; or none, 20 to 100 times slower");
+                   "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
   return {parser, [options] { return run(*options); }};
 }
 
