@@ -16,7 +16,7 @@ long product(const std::vector<int>& sizes) {
 
 namespace {
 
-// The numbers in "FixedPointRule<12, 2>".
+// The numbers in "Refinement<12, 24>".
 std::vector<int> template_arguments(const std::string& type) {
   std::vector<int> values;
   for (std::size_t i = type.find('<'); i < type.size(); ++i) {
