@@ -79,7 +79,7 @@ const std::vector<Rule>& rules() {
       {"generator/interpreter/",
        {"generator/interpreter/", "generator/program/", "generator/numerics/",
         "generator/algebra/expression.hpp", "generator/algebra/exact.hpp", "generator/base/"},
-       {gmp, quadmath}},
+       {fmt, gmp, quadmath}},
       // Only the names they are given: they are copied into emitted files.
       {"generator/numerics/", {}, {}},
       // Expressions are what a Program's instructions hold; functions know their C++ names.

@@ -39,34 +39,28 @@ std::vector<Real> read(const double* values, const double* low, std::size_t coun
   return result;
 }
 
-// hamgen_run is opaque to the runtime: here it is an interpreter and its h.
-template <class Real>
-struct Running {
-  Interpreter<Real> interpreter;
-};
-
 template <class Real>
 hamgen_run* create(const double* parameters, const double* parameters_low, double h, double h_low,
                    const double* state, const double* state_low) {
   const Interpreted<Real>& now = *Interpreted<Real>::now;
-  auto* running = new Running<Real>{Interpreter<Real>(
+  auto* interpreter = new Interpreter<Real>(
       now.code, read<Real>(parameters, parameters_low, now.parameters),
-      static_cast<Real>(h) + static_cast<Real>(h_low), read<Real>(state, state_low, now.state))};
-  return reinterpret_cast<hamgen_run*>(running);
+      static_cast<Real>(h) + static_cast<Real>(h_low), read<Real>(state, state_low, now.state));
+  return reinterpret_cast<hamgen_run*>(interpreter);  // opaque to the runtime
 }
 
 template <class Real>
 Interpreter<Real>& interpreter_of(hamgen_run* run) {
-  return reinterpret_cast<Running<Real>*>(run)->interpreter;
+  return *reinterpret_cast<Interpreter<Real>*>(run);
 }
 template <class Real>
 const Interpreter<Real>& interpreter_of(const hamgen_run* run) {
-  return reinterpret_cast<const Running<Real>*>(run)->interpreter;
+  return *reinterpret_cast<const Interpreter<Real>*>(run);
 }
 
 template <class Real>
 void destroy(hamgen_run* run) {
-  delete reinterpret_cast<Running<Real>*>(run);
+  delete reinterpret_cast<Interpreter<Real>*>(run);
 }
 
 // As the compiled one does it.

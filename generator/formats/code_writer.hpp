@@ -133,8 +133,8 @@ class CodeWriter {
     const std::size_t start = std::max<std::size_t>(text.find(" = "), 0);
     for (std::size_t i = 1; i < std::min(width + 1, text.size()); ++i) {
       const char before = text[i - 1];
-      if (before == '(' || before == '{') ++level;
-      if ((before == ')' || before == '}') && level > 0) --level;
+      if (before == '(' || before == '{' || before == '[') ++level;
+      if ((before == ')' || before == '}' || before == ']') && level > 0) --level;
       if (text[i] != ' ' || (start != std::string::npos && i <= start + 2)) continue;
       const bool weak = before == '+' || before == '-' || before == ',' || before == '?';
       const bool strong = before == '*' || before == '/';

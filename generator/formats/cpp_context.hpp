@@ -40,7 +40,6 @@ class CppContext {
     return state_fields[static_cast<std::size_t>(i)];
   }
 
-
   // Writes the routine of this name, if there is one and it has not been written.
   void write_routine(CodeWriter& out, std::string_view name);
   // And what it calls, before it.

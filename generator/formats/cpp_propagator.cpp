@@ -33,6 +33,7 @@ class StepWriter {
     const bool by_propagator = composed_ || large_;
     if (!by_propagator) write_step();
     if (code_.unknowns > 0) out_.lines(cpp_numerics("history"));
+    if (code_.unknowns > 0 && composed_) out_.lines(cpp_numerics("forget"));
     write_propagator();
     if (by_propagator) write_step_of_propagator();
   }
@@ -249,7 +250,7 @@ class StepWriter {
       } else {
         out_.line("for (Start& start : start_) start = Start();");
       }
-      out_.line("for (auto& history : history_) history = {};");
+      out_.line("for (auto& history : history_) forget(history);");
       out_.line("return total;");
       out_.close();
     } else {

@@ -1,5 +1,7 @@
 #include "generator/interpreter/numerics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
@@ -144,7 +146,12 @@ auto at_least(int size, const Make& make) {
   if constexpr (N < Most) {
     if (size > N) return at_least<Most, 2 * N>(size, make);
   }
-  if (size > N) internal_error("a block too large to be interpreted");
+  if (size > N) {
+    throw UsageError(
+        fmt::format("the interpreter has no block of size {}, {} at most\n"
+                    "help: leave out --interpret, or make the system smaller",
+                    size, Most));
+  }
   return make(std::integral_constant<int, N>());
 }
 

@@ -102,7 +102,7 @@ struct AnyMatrix {
   virtual void solve(std::span<Real> vector) const = 0;
 };
 
-// An internal error for more than 4096 unknowns.
+// These throw UsageError for what is too large: more than 4096 unknowns.
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyHistory<Real>> make_history(int size);
 template <class Real>
@@ -113,7 +113,7 @@ template <class Real>
 [[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule();
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule();
-// For up to twice as many components of the gradient as unknowns.
+// For up to twice as many components of the gradient as unknowns, 1024 of them.
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components);
 // Up to 256 rows.

@@ -179,6 +179,9 @@ struct IterateArray {
   std::optional<Place> factorised = {};
   std::string residual = {};
 };
+// What is said where it is emitted.
+inline constexpr const char* kRefinementRemark =
+    "What the equations lack at the rounded unknowns is solved for, too.";
 // What a fixed point lacks below the last place of its unknowns: see numerics/refinement.hpp.  The
 // values of the body stay those at the unknowns; element j of the object's `change` is what the
 // component `gradient` j lacks there.

@@ -10,8 +10,9 @@ Routine begin(const Environment& environment, std::string name, const Evaluation
   Routine routine{.name = std::move(name)};
   const int size = 2 * environment.degrees_of_freedom;
   routine.arguments.push_back(parameters_argument());
-  routine.arguments.push_back(form == StateForm::record ? state_argument("z")
-                                                        : Argument{.name = "z", .sizes = {size}, .decays = true});
+  routine.arguments.push_back(form == StateForm::record
+                                  ? state_argument("z")
+                                  : Argument{.name = "z", .sizes = {size}, .decays = true});
   environment.bind_parameters(routine);
   std::set<std::string> used = used_symbols(evaluation.statements);
   for (const Expression& e : evaluation.results) collect_symbols(e, used);
@@ -47,10 +48,8 @@ Routine values_routine(const Environment& environment, std::string name,
                        const Evaluation& evaluation, StateForm form, bool sparse) {
   Routine routine = begin(environment, std::move(name), evaluation, form);
   const auto size = static_cast<int>(evaluation.results.size());
-  routine.arguments.push_back({.name = "values",
-                               .sizes = {size},
-                               .changes = true,
-                               .decays = form == StateForm::array});
+  routine.arguments.push_back(
+      {.name = "values", .sizes = {size}, .changes = true, .decays = form == StateForm::array});
   for (int i = 0; i < size; ++i) {
     const Expression& result = evaluation.results[static_cast<std::size_t>(i)];
     if (!sparse || !result.is_zero()) set(routine, {i}, result);

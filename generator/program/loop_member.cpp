@@ -135,7 +135,11 @@ class LoopMember {
     const auto array = [&](const char* name, int size, const char* remark) {
       start.fields.push_back({.name = name, .sizes = {size}, .remark = remark});
     };
-    array("value", unknowns(), arrays_.reduced ? "the coordinates of zbar" : "zbar");
+    if (iterates(arrays_) || plan_.sweeps) {
+      array("value", unknowns(), arrays_.reduced ? "the coordinates of zbar" : "zbar");
+    } else {
+      array("value", n_, arrays_.method == ArrayMethod::explicit_a ? "P" : "Q");
+    }
     if (iterates(arrays_)) {
       start.fields.push_back({.name = "known",
                               .remark = "else the state itself is the start",
@@ -419,11 +423,7 @@ class LoopMember {
                                       .count = unknowns(),
                                       .components = 2 * n_,
                                       .body = refined}});
-      b.body().back().remark = {
-          "The unknowns are rounded to the side that the iteration came from, at every step alike. "
-          " "
-          "What",
-          "the equations lack there is solved for too."};
+      b.body().back().remark = {kRefinementRemark};
     }
   }
 

@@ -94,9 +94,9 @@ Routine composition_tangent(const Environment& environment, const Program& progr
                           .arguments = {{"par"}, {"stride"}, {"now"}, {"moved"}, {"factor"}},
                           .must_succeed = true}});
   substep.push_back({Array{"product", {size, size}}});
-  Body term{
-      {Accumulate{b.entry("product").name(), b.at("factor", "", {affine("row"), affine("l")}) *
-                                                 b.at("m", "", {affine("l"), affine("column")})}}};
+  Body term{{Accumulate{b.entry("product").name(),
+                        b.product({"factor", "", {affine("row"), affine("l")}},
+                                  {"m", "", {affine("l"), affine("column")}})}}};
   Body each;
   each.push_back(for_each(counting("l", size), std::move(term)));
   substep.push_back(b.for_entries(std::move(each)));
@@ -133,8 +133,8 @@ Routine explicit_runge_kutta_tangent(const Environment& environment, const Progr
       sum += a * b.at(slope(j), "", {affine("j")});
       maps += a * b.entry(map(j));
     }
-    move.push_back({Assign{b.at("stage", "", {affine("j")}).name(),
-                           b.at("x", "", {affine("j")}) + step_size() * sum}});
+    const Expression x = b.at("x", "", {affine("j")});
+    move.push_back({Assign{b.at("stage", "", {affine("j")}).name(), x + step_size() * sum}});
     b.body().push_back(for_each(counting("j", size), std::move(move)));
     b.body().push_back(b.set_unit("moved"));
     if (!maps.is_zero()) {
@@ -217,14 +217,14 @@ Routine sweeps_tangent(const Environment& environment, const Program& program, s
   b.add_gradient(b.body(), {{"bar"}}, "g");
   b.multiply_hessian(b.body(), {{"bar"}}, "moved", "dg");
   Body sweep;
-  b.for_components(
-      sweep, [&](Body& to, const TangentBuilder::Component& of, const AffineIndex& index) {
-        const int i = index.factors.empty() ? static_cast<int>(index.constant)
-                                            : (index.constant == 0 ? 0 : n);
-        to.push_back({Assign{of("bar").name(), of("z") + row(i, [&](const AffineIndex& k) {
-                                                 return b.at("g", "", {k});
-                                               })}});
-      });
+  b.for_components(sweep, [&](Body& to, const TangentBuilder::Component& of,
+                              const AffineIndex& index) {
+    const int i =
+        index.factors.empty() ? static_cast<int>(index.constant) : (index.constant == 0 ? 0 : n);
+    const Expression z = of("z");
+    to.push_back({Assign{of("bar").name(),
+                         z + row(i, [&](const AffineIndex& k) { return b.at("g", "", {k}); })}});
+  });
   sweep.push_back(b.set_unit("moved"));
   Body columns;
   const auto widen = [&](Body& to, int i, const AffineIndex& index) {

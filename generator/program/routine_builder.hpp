@@ -26,7 +26,9 @@ namespace hamgen {
   return {For{std::move(range), std::move(body)}};
 }
 
-// Binds elements to symbols.  Sums are written in the order in which their symbols came.
+// Binds elements to symbols.  Sums and products are written in the order in which their symbols
+// came: two that are new are bound in two statements, or by `product`, for C++ leaves the order of
+// operands open.
 class RoutineBuilder {
  public:
   explicit RoutineBuilder(Routine routine) : routine_(std::move(routine)) {}
@@ -42,6 +44,10 @@ class RoutineBuilder {
         ranks_.try_emplace(symbol, kRankOfVariable + static_cast<int>(ranks_.size()));
     routine_.places.insert_or_assign(symbol, place);
     return Expression::symbol(symbol, known.first->second);
+  }
+  Expression product(const Place& first, const Place& second) {
+    const Expression factor = at(first);
+    return factor * at(second);
   }
   Expression local(const std::string& name) {
     const auto known = ranks_.try_emplace(name, kRankOfVariable + static_cast<int>(ranks_.size()));

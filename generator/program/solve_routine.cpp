@@ -132,11 +132,7 @@ class SolveRoutine {
           "Newton's iteration for the stage values: residual R, its derivatives, increments "
           "delta."};
     } else {
-      routine_.body.push_back(
-          {std::move(refinement_),
-           {"The unknowns are rounded to the side that the iteration came from, at every step "
-            "alike.  What",
-            "the equations lack there is solved for too."}});
+      routine_.body.push_back({std::move(refinement_), {kRefinementRemark}});
     }
   }
 

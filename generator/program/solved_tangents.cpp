@@ -40,8 +40,8 @@ Routine stages_tangent(const Environment& environment, const Program& program,
   Body put{{Put{{"matrix"},
                 line,
                 {0, {{"j", size}, {"column", 1}}},
-                -b.at("k", "coupling", {affine("i"), affine("j")}) *
-                    b.at("second", "", {affine("j"), affine("row"), affine("column")})}}};
+                -b.product({"k", "coupling", {affine("i"), affine("j")}},
+                           {"second", "", {affine("j"), affine("row"), affine("column")}})}}};
   Body pairs;
   Body columns;
   columns.push_back(b.for_entries(std::move(put)));
@@ -57,8 +57,8 @@ Routine stages_tangent(const Environment& environment, const Program& program,
   column.push_back(for_each(counting("i", stages), std::move(unit)));
   column.push_back({SolveFactorised{{"matrix"}, {"vector"}}});
   Body term{{Accumulate{b.entry("m").name(),
-                        b.at("second", "", {affine("i"), affine("row"), affine("l")}) *
-                            b.at("vector", "", {{0, {{"i", size}, {"l", 1}}}})}}};
+                        b.product({"second", "", {affine("i"), affine("row"), affine("l")}},
+                                  {"vector", "", {{0, {{"i", size}, {"l", 1}}}}})}}};
   Body rows;
   Body inner;
   inner.push_back(for_each(counting("l", size), std::move(term)));
@@ -143,11 +143,11 @@ class LoopMemberTangent {
     column.push_back({SolveFactorised{{"matrix"}, {"moved"}}});
     column.push_back({Array{"y", {2 * n_}}});
     add_curvature(column);
+    const Expression u_q = element("u", 0);
+    const Expression u_p = element("u", n_);
     Body result;
-    result.push_back(
-        {Assign{b_.entry("m").name(), element("u", 0) + step_size() * element("y", n_)}});
-    result.push_back(
-        {Assign{b_.entry("m", n_).name(), element("u", n_) - step_size() * element("y", 0)}});
+    result.push_back({Assign{b_.entry("m").name(), u_q + step_size() * element("y", n_)}});
+    result.push_back({Assign{b_.entry("m", n_).name(), u_p - step_size() * element("y", 0)}});
     column.push_back(for_each(counting("row", n_), std::move(result)));
     b_.body().push_back(for_each(counting("column", 2 * n_), std::move(column)));
   }
@@ -184,7 +184,8 @@ class LoopMemberTangent {
     weights_.bind(b_.routine());
     const Expression u = element("u", 0);
     if (!arrays_.reduced || !weights_.q_by_p) return u;
-    return u + *weights_.q_by_p * mass() * torn(element("u", n_));
+    const Expression own = mass();
+    return u + *weights_.q_by_p * own * torn(element("u", n_));
   }
 
   void add_curvature(Body& column) {
@@ -201,7 +202,8 @@ class LoopMemberTangent {
     column.push_back(tangent_call("curvature", {{"par"}, q, p, {"whole"}, {"y"}}));
     Expression moved = element("u", n_);
     if (weights_.p_by_q) moved = moved - *weights_.p_by_q * element("y", 0);
-    Body momenta{{Assign{element("y", n_).name(), mass() * torn(moved)}}};
+    const Expression own = mass();
+    Body momenta{{Assign{element("y", n_).name(), own * torn(moved)}}};
     column.push_back(for_each(counting("row", n_), std::move(momenta)));
   }
 

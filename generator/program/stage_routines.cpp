@@ -96,7 +96,8 @@ class StageRoutines {
   Expression combination(RoutineBuilder& b, const char* table) const {
     Expression sum(0);
     for (int m = 0; m < stages_; ++m) {
-      sum += b.at("k", table, {affine("i"), affine(m)}) * of_start(b, "slope", row_of(m));
+      const Expression entry = b.at("k", table, {affine("i"), affine(m)});
+      sum += entry * of_start(b, "slope", row_of(m));
     }
     return sum;
   }
@@ -126,7 +127,8 @@ class StageRoutines {
         {Call{.routine = "vector_field",
               .arguments = {{"par"}, {"start", "value", {first}}, {"start", "slope", {first}}}}});
     const Expression slope = of_start(b, "slope", row());
-    Body scale{{Assign{slope.name(), b.at("k", "scaled", {affine("i")}) * slope}}};
+    const Expression scaled = b.at("k", "scaled", {affine("i")});
+    Body scale{{Assign{slope.name(), scaled * slope}}};
     stage.push_back(for_each(all_components(), std::move(scale)));
     b.body().push_back(for_each(all_stages(), std::move(stage)));
     Body each;
@@ -160,9 +162,9 @@ class StageRoutines {
     b.body().push_back(for_each(counting("j", unknowns()), std::move(one)));
     // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
     Body entries;
-    const Expression weight = b.let(
-        entries, "weight",
-        b.at("k", "coupling", {affine("i"), affine("m")}) * b.at("k", "scaled", {affine("m")}));
+    const Expression coupling = b.at("k", "coupling", {affine("i"), affine("m")});
+    const Expression scaled = b.at("k", "scaled", {affine("m")});
+    const Expression weight = b.let(entries, "weight", coupling * scaled);
     const AffineIndex column{0, {{"m", dimension_}, {"c", 1}}};
     Body each;
     each.push_back({Put{matrix,
@@ -296,17 +298,14 @@ class StageRoutines {
       Body contract{{SolveFactorised{{"start", "matrix"}, {"start", "lack"}}}};
       again.push_back({If{{"start", "factorised"}, true, std::move(contract)}});
     }
-    b.body().push_back(
-        {RefineArray{.refinement = {"start", "refinement"},
-                     .point = {"start", "value"},
-                     .lack = {"start", "lack"},
-                     .gradient = {"start", "slope"},
-                     .count = unknowns(),
-                     .components = unknowns(),
-                     .body = std::move(again)},
-         {"The stages are rounded to the side that the iteration came from, at every step alike.  "
-          "What",
-          "the equations lack there is solved for too."}});
+    b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
+                                    .point = {"start", "value"},
+                                    .lack = {"start", "lack"},
+                                    .gradient = {"start", "slope"},
+                                    .count = unknowns(),
+                                    .components = unknowns(),
+                                    .body = std::move(again)},
+                        {kRefinementRemark}});
     add_result(b);
     return b.take();
   }

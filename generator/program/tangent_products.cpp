@@ -106,8 +106,8 @@ void TangentBuilder::multiply_hessian(Body& body, const TangentPoint& point, con
   scope.push_back({Array{"values", {2 * n_, 2 * n_}}});
   scope.push_back({Call{.routine = "hessian", .arguments = {{"par"}, point.place, {"values"}}}});
   Body each{{Assign{entry(out).name(), Expression(0)}}};
-  Body term{{Accumulate{entry(out).name(), at("values", "", {affine("row"), affine("l")}) *
-                                               at(in, "", {affine("l"), affine("column")})}}};
+  Body term{{Accumulate{entry(out).name(), product({"values", "", {affine("row"), affine("l")}},
+                                                   {in, "", {affine("l"), affine("column")}})}}};
   each.push_back(for_each(counting("l", 2 * n_), std::move(term)));
   scope.push_back(for_entries(std::move(each)));
   body.push_back({Scope{std::move(scope)}});

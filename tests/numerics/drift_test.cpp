@@ -73,9 +73,9 @@ TEST(Drift, ProductsWithWeightsComeWithTheirErrors) {
 }
 
 TEST(Drift, TheEquationsOfLoopsStartFromTheCarry) {
-  expect_drift_only_with(
-      {{"change = carry.p[i] - p_push", "change = -p_push"}, {" + q_push + carry.q[i]", " + q_push"}},
-      {.model = chain(25), .request = {}});
+  expect_drift_only_with({{"change = carry.p[i] - p_push", "change = -p_push"},
+                          {" + q_push + carry.q[i]", " + q_push"}},
+                         {.model = chain(25), .request = {}});
 }
 
 // Which of two neighbours the rounded stages are depends on where they came from.
@@ -99,9 +99,8 @@ TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {
 
 // Where the rounded map comes to rest is no chance.
 TEST(Drift, AFixedPointIsRefinedFromAfar) {
-  expect_drift_only_with(
-      {{"moved <= units * epsilon * length", "moved <= 0 * epsilon * length"}},
-      {.model = soft_chain(5), .request = {.solver = "fixed-point"}, .h = 0.25});
+  expect_drift_only_with({{"moved <= units * epsilon * length", "moved <= 0 * epsilon * length"}},
+                         {.model = soft_chain(5), .request = {.solver = "fixed-point"}, .h = 0.25});
 }
 
 TEST(Drift, NothingIsLostOfTheSumsOfKicks) {

@@ -103,6 +103,18 @@ TEST(LargePlan, TheProgramIsItsRecordsAndRoutines) {
   EXPECT_TRUE(contains(sweeps, "  4 sweeps:\n")) << sweeps;
 }
 
+// What is as large as the system is never made a second time on the stack, where 1e5 degrees of
+// freedom overflowed it even in a branch that was not taken.
+TEST(LargePlan, ACompositionForgetsInPlace) {
+  const std::string header = outcome(chain(40), {.scheme = "yoshida-4"}).header;
+  const std::string step = header.substr(header.find("class Propagator"));
+  EXPECT_TRUE(contains(step, "forget(history);")) << step;
+  for (const char* temporary : {"History<", "Start()"}) {
+    EXPECT_EQ(count(step.substr(0, step.find(" private:")), temporary), 0) << temporary;
+  }
+  EXPECT_FALSE(contains(step, "history = {}")) << step;
+}
+
 TEST(LargePlan, OtherSolversKeepTheLoops) {
   for (const char* solver : {"fixed-point", "sweeps:2"}) {
     const Outcome forty = outcome(chain(40), {.solver = solver});
