@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/program/kernel_routines.hpp"
+#include "generator/program/loop_coefficients.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/step_weights.hpp"
 
@@ -43,7 +44,14 @@ class LoopMember {
   void add() {
     const bool solved =
         arrays_.method == ArrayMethod::newton || arrays_.method == ArrayMethod::fixed_point;
-    if (solved || plan_.sweeps) add_coefficients();
+    if (solved || plan_.sweeps) {
+      if (std::optional<Coefficients> found =
+              loop_coefficients(environment_, weights_, arrays_, tangent_)) {
+        code_.records.push_back(std::move(found->record));
+        code_.routines.push_back(std::move(found->prepare));
+        has_coefficients_ = true;
+      }
+    }
     add_start();
     if (arrays_.reduced) code_.routines.push_back(evaluate());
     if (arrays_.matrix) code_.routines.push_back(differentiate());
@@ -58,70 +66,8 @@ class LoopMember {
   [[nodiscard]] bool newton() const { return arrays_.method == ArrayMethod::newton; }
   [[nodiscard]] bool fixed_point() const { return arrays_.method == ArrayMethod::fixed_point; }
   [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
-  [[nodiscard]] bool needs_scale() const { return arrays_.reduced && arrays_.matrix; }
   [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
   [[nodiscard]] KernelRange elements() const { return counting("i", n_); }
-
-  // --- what depends on h and the parameters alone --------------------------------------------
-
-  void add_coefficients() {
-    Record record{.name = "Coefficients",
-                  .fields = {},
-                  .remark = {"What depends on h and the parameters alone."}};
-    RoutineBuilder b({.name = "prepare",
-                      .result = {.type = "Coefficients", .object = "k"},
-                      .arguments = {parameters_argument(), {.name = "h"}}});
-    environment_.bind_parameters(b.routine());
-    for (const auto& [name, value, remark] : weights_.coefficients) {
-      record.fields.push_back({.name = name, .remark = remark});
-      b.body().push_back({Assign{b.at("k", name).name(), value}});
-    }
-    const bool one_mass = arrays_.mass.has_value();
-    const std::vector<int> sizes = one_mass ? std::vector<int>{} : std::vector<int>{n_};
-    if (needs_drift()) {
-      record.fields.push_back({.name = "drift", .sizes = {n_}, .remark = "dH/dp_i at p = 0"});
-      b.body().push_back({Array{"zero", {n_}}});
-      b.body().push_back(
-          {Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"zero"}, {"k", "drift"}}}});
-    }
-    const bool keeps_mass = !one_mass || needs_drift() || tangent_;
-    if (arrays_.reduced && keeps_mass && (needs_drift() || needs_scale())) {
-      record.fields.push_back({.name = "mass", .sizes = sizes, .remark = "d2H/dp_i^2"});
-      if (one_mass) {
-        b.body().push_back({Assign{b.at("k", "mass").name(), *arrays_.mass}});
-      } else {
-        b.body().push_back({Call{.routine = "masses", .arguments = {{"par"}, {"k", "mass"}}}});
-      }
-    }
-    if (needs_scale()) {
-      record.fields.push_back(
-          {.name = "scale", .sizes = sizes, .remark = "the matrix is I + scale V''"});
-      const Expression value = scale(keeps_mass ? mass(b) : *arrays_.mass);
-      Body each{{Assign{b.at("k", "scale", mass_index()).name(), value}}};
-      if (one_mass) {
-        b.body().push_back(std::move(each.front()));
-      } else {
-        b.body().push_back(for_each(elements(), std::move(each)));
-      }
-    }
-    if (record.fields.empty()) return;
-    code_.records.push_back(std::move(record));
-    code_.routines.push_back(b.take());
-    has_coefficients_ = true;
-  }
-
-  [[nodiscard]] std::vector<AffineIndex> mass_index() const {
-    return arrays_.mass ? std::vector<AffineIndex>{} : std::vector{affine("i")};
-  }
-  Expression mass(RoutineBuilder& b) const { return b.at("k", "mass", mass_index()); }
-
-  // D = h (h alpha (1 - alpha) m / (1 + h beta m) - gamma).
-  [[nodiscard]] Expression scale(const Expression& mass) const {
-    const Expression h = step_size();
-    const auto& [alpha, beta, gamma] = weights_.member;
-    return h *
-           (h * alpha * (Expression(1) - alpha) * mass / (Expression(1) + h * beta * mass) - gamma);
-  }
 
   // --- what is remembered ---------------------------------------------------------------------
 
@@ -198,6 +144,10 @@ class LoopMember {
   }
   static Expression state(RoutineBuilder& b, const char* object, const char* field) {
     return b.at(object, field, {affine("i")});
+  }
+
+  Expression mass(RoutineBuilder& b) const {
+    return b.at("k", "mass", loop_mass_index(arrays_, "i"));
   }
 
   // start.slope = grad H at a stage.

@@ -1,5 +1,6 @@
 // Tangent maps that solve linear equations: of implicit Runge-Kutta methods, and of members in
 // loops.
+#include "generator/program/loop_coefficients.hpp"
 #include "generator/program/method_tangents.hpp"
 #include "generator/program/step_weights.hpp"
 
@@ -171,10 +172,7 @@ class LoopMemberTangent {
     b_.body().push_back(for_each(counting("row", n_), std::move(each)));
   }
 
-  [[nodiscard]] Expression mass() {
-    return b_.at("k", "mass",
-                 arrays_.mass ? std::vector<AffineIndex>{} : std::vector{affine("row")});
-  }
+  [[nodiscard]] Expression mass() { return b_.at("k", "mass", loop_mass_index(arrays_, "row")); }
   // The displacement of a torn momentum: (u_p - h (1 - alpha) y) / (1 + h beta m), y = V'' dqbar.
   Expression torn(const Expression& value) {
     if (!weights_.p_by_p) return value;

@@ -1,0 +1,24 @@
+// What a member's step of a system in loops takes of h and the parameters alone.
+#pragma once
+
+#include <optional>
+
+#include "generator/program/coefficients.hpp"
+#include "generator/program/step_weights.hpp"
+
+namespace hamgen {
+
+// The weights, and where the momenta are torn out, each one number or an array:
+//   k.drift   dH/dp_i at p = 0
+//   k.mass    d2H/dp_i^2
+//   k.scale   D with the matrix I + D V''
+// None if the step takes nothing.
+[[nodiscard]] std::optional<Coefficients> loop_coefficients(const Environment& environment,
+                                                            const StepWeights& weights,
+                                                            const ArrayPlan& plan, bool tangent);
+
+// The index of k.mass: none if all masses are one.
+[[nodiscard]] std::vector<AffineIndex> loop_mass_index(const ArrayPlan& plan,
+                                                       const std::string& index);
+
+}  // namespace hamgen
