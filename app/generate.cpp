@@ -15,6 +15,7 @@ namespace {
 
 struct GenerateOptions {
   MethodOptions method;
+  SceneOptions scene;
   std::string output = "-";  // a directory, or standard output
   std::string format;
   std::string name_space;
@@ -66,7 +67,7 @@ int generate_files(const GenerateOptions& options) {
   if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   const SourceText source = read_source(options.method.model);
-  Request request = request_with_sizes(options.method, source);
+  Request request = request_of(options.method, options.scene, source);
   request.format = options.format;
   request.name_space = options.name_space;
   request.require = options.require;
@@ -103,8 +104,7 @@ Command add_generate(CLI::App& app) {
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");
   add_method_options(*parser, options->method);
-  add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
-      ->type_name("SIZE=N");
+  add_scene_choice(*parser, options->scene);
   return {parser, [options] { return generate_files(*options); }};
 }
 

@@ -34,7 +34,7 @@ struct RunOptions {
   std::string every;
   std::string watch_modified;
   std::string output;
-  std::string keep;
+  std::string header;
   bool json = false;
   bool quiet = false;
 };
@@ -93,8 +93,8 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 // Writes the emitted header if asked to; returns where it is, or how to see it.
 std::string keep_header(const PluginSource& plugin, const Request& request,
                         const RunOptions& options) {
-  if (options.keep.empty()) return "print it with: " + request.command;
-  const std::filesystem::path path = std::filesystem::path(options.keep) / plugin.header.path;
+  if (options.header.empty()) return "print it with: " + request.command;
+  const std::filesystem::path path = std::filesystem::path(options.header) / plugin.header.path;
   runtime::atomic_write(path, plugin.header.text);
   return path.string();
 }
@@ -148,6 +148,7 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
+  specialise(options.scene, scene, {}, setting);
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
@@ -164,7 +165,7 @@ int run(const RunOptions& options) {
   report.scene = &scene;
   const Clock::time_point begin = Clock::now();
   const PluginSource plugin = generate_plugin(
-      source, request, options.keep.empty() ? HeaderProof::left_out : HeaderProof::included);
+      source, request, options.header.empty() ? HeaderProof::left_out : HeaderProof::included);
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
@@ -193,13 +194,19 @@ int run(const RunOptions& options) {
   integrate_options.every = table ? every : 0;
   integrate_options.end_at_jump = true;
   integrate_options.stop = &interrupt_flag();
-  if (table) integrate_options.on_record = [&table](const auto& record) { table->add(record); };
+  if (table) {
+    integrate_options.on_record = [&](runtime::Record record) {
+      const std::vector<double> state = whole_state(plugin, scene, record.state);
+      record.state = state;
+      table->add(record);
+    };
+  }
   if (!options.quiet)
     integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
   report.summary = runtime::integrate(integrator, integrate_options);
   bar.remove();
 
-  report.state = integrator.state();
+  report.state = whole_state(plugin, scene, integrator.state());
   report.final_invariants = integrator.invariants();
   if (table) {
     table->publish(outcome_text(report));
@@ -230,7 +237,7 @@ Command add_run(CLI::App& app) {
       ->type_name("K");
   parser->add_flag("--json", options->json, "the result as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
-  parser->add_option("--keep", options->keep, "write the emitted header there")
+  parser->add_option("--header", options->header, "write the emitted header there")
       ->type_name("DIRECTORY");
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");

@@ -102,6 +102,7 @@ Setting verify_setting(const VerifyOptions& options) {
   const SceneValues scene = scene_values(setting.model, setting.scene);
   if (!scene.steps) setting.scene.steps = "1000";
   take_gauge_at(scene, setting.model, setting.request);
+  if (!options.scene.scene.empty()) specialise(options.scene, scene, {}, setting);
   setting.request.tangent = options.measure;  // then it is read back as well
   return setting;
 }

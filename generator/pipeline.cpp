@@ -21,6 +21,7 @@
 #include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
+#include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -127,7 +128,10 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
 
 // The stages, in order: this is the only place that knows it.
 struct Stages {
-  Model model;
+  Model model;  // as the request reads it
+  FoldedModel folded;
+  Mechanics whole;        // all degrees of freedom
+  std::vector<int> kept;  // those that do not rest
   Mechanics mechanics;
   StepEquations equations;
   SolvePlan plan;
@@ -194,43 +198,101 @@ void drop_unused_parameters(StepEquations& equations) {
                 [&](const Quantity& parameter) { return !used.contains(parameter.name); });
 }
 
+// Names of the model that the scheme's options use: they have to keep their meaning there.
+std::set<std::string> named_by_scheme(const Model& model, const Request& request) {
+  const std::string texts =
+      request.alpha + "," + request.beta + "," + request.gamma + "," + request.gauge;
+  std::set<std::string> names;
+  for (const Parameter& parameter : model.parameters) {
+    if (mentions(texts, parameter.name)) names.insert(parameter.name);
+  }
+  if (request.gauge != "locally-exact") return names;
+  // It is exact with the parameters of its reference.
+  const Values reference = read_reference(model, request.reference);
+  const std::vector<std::string> elements = element_names(model.parameters);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const bool is_element = elements[i].find('[') != std::string::npos;
+    if (is_element || reference.at(elements[i]) != request.scene->values.parameters[i])
+      names.insert(elements[i]);
+  }
+  return names;
+}
+
+FoldedModel fold_for_scene(const Model& model, const Request& request) {
+  if (!request.scene) return {model, {}};
+  SceneFacts scene = *request.scene;
+  scene.kept.merge(named_by_scheme(model, request));
+  return fold(model, scene, request.fold);
+}
+
+// The system and its scheme, and what of it the scene needs.
+struct System {
+  Mechanics whole;
+  std::vector<int> kept;
+  Mechanics mechanics;
+  Scheme scheme;
+  std::vector<std::string> left_out;
+};
+
+System make_system(const Model& model, const Request& request, bool keep_sums) {
+  System system;
+  system.whole = derive(model, keep_sums);
+  if (request.observe_curvature) system.whole.invariants = energy_curvature(system.whole);
+  system.scheme = choose_scheme(model, system.whole, request);
+  std::vector<int> rest;
+  if (request.scene) rest = resting(system.whole, system.scheme, *request.scene);
+  for (int i = 0; i < system.whole.degrees_of_freedom; ++i) {
+    if (std::ranges::find(rest, i) == rest.end()) system.kept.push_back(i);
+  }
+  if (!rest.empty()) system.left_out.push_back(to_text(rest, system.whole));
+  system.mechanics = restrict_to(system.whole, system.kept);
+  system.scheme = restrict_to(system.scheme, system.kept);
+  return system;
+}
+
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   require_defaults_in_range(model, find_scalar(request.scalar));
+  FoldedModel folded = fold_for_scene(model, request);
   // Loops know one set of parameters for all degrees of freedom.
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
       (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  Mechanics mechanics = derive(model, keep_sums);
-  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
-  const Scheme scheme = choose_scheme(model, mechanics, request);
+  System system = make_system(folded.model, request, keep_sums);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
-  StepEquations equations = discretise(mechanics, scheme, hessian);
+  StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
   if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
     // Eigen does not know quad numbers: everything is written out instead.
-    mechanics = derive(model, false);
-    equations = discretise(mechanics, choose_scheme(model, mechanics, request), hessian);
+    system = make_system(folded.model, request, false);
+    equations = discretise(system.mechanics, system.scheme, hessian);
     plan = plan_solve(equations, request.solver);
   }
   drop_unused_parameters(plan.equations);
   equations.mechanics.parameters = plan.equations.mechanics.parameters;
-  mechanics.parameters = plan.equations.mechanics.parameters;
+  system.mechanics.parameters = plan.equations.mechanics.parameters;
+  std::vector<std::string> left_out = folded.folding.left_out;
+  left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
+  plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
   Program program = build_program(plan);
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0) require_solved_step(request);
-  if (request.watch_modified > 0)
-    watch_modified(program, modified_terms(mechanics, scheme, request.watch_modified));
-  return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
-          std::move(program)};
+  if (request.watch_modified > 0) {
+    watch_modified(program,
+                   modified_terms(system.mechanics, system.scheme, request.watch_modified));
+  }
+  return {std::move(model),       std::move(folded),           std::move(system.whole),
+          std::move(system.kept), std::move(system.mechanics), std::move(equations),
+          std::move(plan),        std::move(program)};
 }
 
 Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
-  const Expression hamiltonian = stages.mechanics.keeps_sums()
-                                     ? written_out_hamiltonian(stages.model)
-                                     : stages.mechanics.energy;
+  const Expression hamiltonian =
+      stages.mechanics.keeps_sums()
+          ? restrict_to(written_out_hamiltonian(stages.folded.model), stages.whole, stages.kept)
+          : stages.mechanics.energy;
   return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
 }
 
@@ -372,6 +434,9 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   for (const Quantity& parameter : stages.mechanics.parameters) {
     plugin.parameter_names.push_back(parameter.name);
   }
+  plugin.kept = stages.kept;
+  plugin.for_scene = request.scene.has_value();
+  plugin.degrees_of_freedom = stages.whole.degrees_of_freedom;
   plugin.needs_energy_parameter = uses_energy_parameter(stages.equations);
   if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");
   for (const NamedExpression& invariant : stages.mechanics.invariants) {

@@ -37,7 +37,7 @@ std::vector<std::string> with_generator_values(std::vector<std::string> folders)
   folders.insert(folders.end(),
                  {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
                   "generator/language/", "generator/mechanics/", "generator/schemes/",
-                  "generator/verify/", "generator/formats/scalar.hpp", "runtime/"});
+                  "generator/specialise/", "generator/verify/", "generator/formats/scalar.hpp", "runtime/"});
   return folders;
 }
 
@@ -61,6 +61,11 @@ const std::vector<Rule>& rules() {
       {"generator/schemes/matrix_function.cpp",
        {"generator/schemes/", "generator/mechanics/", "generator/algebra/", "generator/base/"},
        {ginac, eigen, other}},
+      // What a scene does not need, left out.
+      {"generator/specialise/",
+       {"generator/specialise/", "generator/schemes/", "generator/mechanics/", "generator/language/",
+        "generator/algebra/", "generator/base/"},
+       {fmt, ginac}},
       {"generator/equations/",
        {"generator/equations/", "generator/schemes/", "generator/mechanics/", "generator/language/",
         "generator/algebra/", "generator/base/"},

@@ -78,11 +78,20 @@ std::string undefined_component(const runtime::Library& library,
   return "";
 }
 
-void require_defined(const Model& model, const SceneValues& scene, const runtime::Library& library,
-                     const runtime::InitialValues& values) {
-  std::vector<std::string> names = element_names(model.coordinates);
-  const std::vector<std::string> momenta = element_names(model.momenta);
-  names.insert(names.end(), momenta.begin(), momenta.end());
+// Of the variables that the step has.
+std::vector<std::string> state_names(const PluginSource& plugin) {
+  std::vector<std::string> names;
+  for (const auto& all :
+       {element_names(plugin.model.coordinates), element_names(plugin.model.momenta)}) {
+    for (const int i : plugin.kept) names.push_back(all[static_cast<std::size_t>(i)]);
+  }
+  return names;
+}
+
+void require_defined(const PluginSource& plugin, const SceneValues& scene,
+                     const runtime::Library& library, const runtime::InitialValues& values) {
+  const Model& model = plugin.model;
+  const std::vector<std::string> names = state_names(plugin);
   const std::vector<double> state = rounded(values.state);
   const std::string component =
       undefined_component(library, names, rounded(values.parameters), state);
@@ -112,6 +121,50 @@ std::optional<Rational> exact_energy(const Model& model, const SceneValues& scen
 }
 
 }  // namespace
+
+namespace {
+
+// `whole` with these values of the kept degrees of freedom.
+template <class Number, class Values>
+std::vector<Number> with_kept(std::vector<Number> whole, const Values& values,
+                              const std::vector<int>& kept) {
+  const std::size_t n = whole.size() / 2;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const auto place = static_cast<std::size_t>(kept[i]);
+    whole[place] = values[i];
+    whole[n + place] = values[kept.size() + i];
+  }
+  return whole;
+}
+
+}  // namespace
+
+std::vector<runtime::Wide> whole_state(const PluginSource& plugin, const SceneValues& scene,
+                                       const std::vector<runtime::Wide>& state) {
+  std::vector<runtime::Wide> whole;
+  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
+    for (const Rational& value : *half) whole.push_back(wide(value));
+  }
+  return with_kept(std::move(whole), state, plugin.kept);
+}
+
+std::vector<double> whole_state(const PluginSource& plugin, const SceneValues& scene,
+                                std::span<const double> state) {
+  std::vector<double> whole;
+  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
+    for (const Rational& value : *half) whole.push_back(to_double(value));
+  }
+  return with_kept(std::move(whole), state, plugin.kept);
+}
+
+std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
+                                      const std::vector<runtime::Wide>& whole) {
+  std::vector<runtime::Wide> state;
+  for (const std::size_t first : {std::size_t{0}, whole.size() / 2}) {
+    for (const int i : plugin.kept) state.push_back(whole[first + static_cast<std::size_t>(i)]);
+  }
+  return state;
+}
 
 runtime::Wide wide(const Rational& value) {
   const TripleDouble parts = to_triple(value);
@@ -193,7 +246,7 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
                                       const runtime::Library& library) {
   const Model& model = plugin.model;
-  require_folded_defaults(model, scene);
+  if (!plugin.for_scene) require_folded_defaults(model, scene);
   const auto scalar =
       std::ranges::find(all_scalars(), library.plugin().scalar_digits, &ScalarType::digits);
   require_in_range(model, scene, *scalar);
@@ -204,16 +257,22 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   values.defined_everywhere = is_defined_everywhere(model);
   values.h = wide(*scene.h);
   for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const Rational& value : *half) values.state.push_back(wide(value));
+    for (const int i : plugin.kept)
+      values.state.push_back(wide((*half)[static_cast<std::size_t>(i)]));
   }
   for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i) {
-    const auto found = std::ranges::find(names, plugin.parameter_names[i]);
+    const std::string& name = plugin.parameter_names[i];
+    auto found = std::ranges::find(names, name);
+    // An array whose entries are equal is one number.
+    if (found == names.end())
+      found = std::ranges::find_if(
+          names, [&name](const std::string& each) { return each.starts_with(name + "["); });
     if (found == names.end()) internal_error("a plugin parameter the model does not have");
     values.parameters.push_back(
         wide(scene.parameters[static_cast<std::size_t>(found - names.begin())]));
   }
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
-  require_defined(model, scene, library, values);
+  require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;
   std::optional<Rational> energy;
   if (scalar->digits > 53) energy = exact_energy(model, scene);
