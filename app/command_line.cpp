@@ -99,6 +99,13 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME,...");
 }
 
+void add_observe_option(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--observe", options.observe,
+                  "q, energy, r = sqrt(x^2 + y^2); default: the scene's, or all there is")
+      ->type_name("LIST");
+}
+
 void add_scene_choice(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, "leave out what this scene does not need")
       ->type_name("NAME");
@@ -106,6 +113,7 @@ void add_scene_choice(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME=VALUE");
   add_repeated(command, "--initial", options.initial, "with --scene: another initial state")
       ->type_name("NAME=VALUE,...");
+  add_observe_option(command, options);
   command.add_flag("--whole", options.whole, "");
   add_repeated(command, "--keep", options.keep, "with --scene: leave in all, or these")
       ->type_name("NAME,...");
@@ -221,6 +229,7 @@ Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
   setting.scene.initial = all_assignments("--initial", scene.initial);
   setting.scene.h = scene.h;
   setting.scene.steps = scene.steps;
+  setting.scene.observe = scene.observe;
   return setting;
 }
 
@@ -247,7 +256,7 @@ Request request_of(const MethodOptions& options, const SceneOptions& scene,
     Setting setting = read_setting(options, scene);
     const SceneValues values = scene_values(setting.model, setting.scene);
     take_gauge_at(values, setting.model, setting.request);
-    specialise(scene, values, {}, setting);
+    specialise(scene, values, {}, Observing::as_the_scene, setting);
     return setting.request;
   }
   if (!scene.initial.empty())
@@ -267,7 +276,7 @@ Request request_of(const MethodOptions& options, const SceneOptions& scene,
 }
 
 void specialise(const SceneOptions& options, const SceneValues& values,
-                const std::vector<std::string>& varied, Setting& setting) {
+                const std::vector<std::string>& varied, Observing observing, Setting& setting) {
   const Model& model = setting.model;
   std::set<std::string> known;
   for (const auto& names : {element_names(model.coordinates), element_names(model.momenta),
@@ -277,8 +286,13 @@ void specialise(const SceneOptions& options, const SceneValues& values,
       known.insert(name.substr(0, name.find('[')));
     }
   }
-  SceneFacts facts{
-      .asked = setting.scene, .values = values, .kept = {varied.begin(), varied.end()}};
+  SceneFacts facts{.asked = setting.scene,
+                   .values = values,
+                   .kept = names_computed_from(model, setting.scene, varied)};
+  if (observing == Observing::everything) {
+    facts.values.observe.clear();
+    facts.values.formulas.clear();
+  }
   for (const std::string& list : options.keep) {
     for (const std::string_view piece : outermost_pieces(list)) {
       const std::string name(without_blanks(piece));

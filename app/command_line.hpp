@@ -65,10 +65,12 @@ struct SceneOptions {
   std::optional<std::string> h, steps;    // in place of the scene's
   bool whole = false;                     // leave in what the scene does not need
   std::vector<std::string> keep;          // NAME,...
+  std::optional<std::string> observe;     // in place of the scene's
 };
 
 // Adds --scene, --set, --initial, --whole and --keep.
 void add_scene_options(CLI::App& command, SceneOptions& options);
+void add_observe_option(CLI::App& command, SceneOptions& options);
 // The same for a command that runs nothing, where --set without --scene is for sizes.
 void add_scene_choice(CLI::App& command, SceneOptions& options);
 // Adds --h of one step size.
@@ -105,9 +107,10 @@ struct SizesAndRest {
 [[nodiscard]] Request request_of(const MethodOptions& options, const SceneOptions& scene,
                                  const SourceText& source);
 // Makes the request one for the setting's scene, unless --whole asks for more; `varied` are names
-// that get other values too.
+// that get other values too, and with them all that the scene computes from them.
+enum class Observing { as_the_scene, everything };
 void specialise(const SceneOptions& options, const SceneValues& values,
-                const std::vector<std::string>& varied, Setting& setting);
+                const std::vector<std::string>& varied, Observing observing, Setting& setting);
 // The `hamgen generate` command and the digest of the model's text: what an emitted header says of
 // its origin.
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request);

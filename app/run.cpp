@@ -60,16 +60,18 @@ long record_distance(const RunOptions& options, const SceneValues& scene) {
 
 Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
   Columns columns;
-  columns.state = element_names(plugin.model.coordinates);
-  const std::vector<std::string> momenta = element_names(plugin.model.momenta);
-  columns.state.insert(columns.state.end(), momenta.begin(), momenta.end());
-  const auto is_observed = [&scene](const std::string& name) {
-    return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
-  };
-  columns.energy = is_observed("energy");
+  const bool parts = observes_parts(plugin.model, scene);
+  std::vector<std::string> state = element_names(plugin.model.coordinates);
+  std::ranges::move(element_names(plugin.model.momenta), std::back_inserter(state));
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (parts && !observes(scene, state[i])) continue;
+    columns.state.push_back(state[i]);
+    columns.state_places.push_back(i);
+  }
+  columns.energy = observes(scene, "energy");
   columns.has_time = std::ranges::any_of(plugin.model.coordinates, &Variable::is_time);
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
-    if (!is_observed(plugin.invariant_names[i])) continue;
+    if (!observes(scene, plugin.invariant_names[i])) continue;
     columns.invariants.push_back(plugin.invariant_names[i]);
     columns.places.push_back(i);
   }
@@ -148,7 +150,7 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
-  specialise(options.scene, scene, {}, setting);
+  specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
@@ -192,7 +194,8 @@ int run(const RunOptions& options) {
   runtime::IntegrateOptions integrate_options;
   integrate_options.steps = *scene.steps;
   integrate_options.every = table ? every : 0;
-  integrate_options.end_at_jump = true;
+  integrate_options.watch_energy = watches_energy(plugin, scene);
+  integrate_options.end_at_jump = integrate_options.watch_energy;
   integrate_options.stop = &interrupt_flag();
   if (table) {
     integrate_options.on_record = [&](runtime::Record record) {
@@ -223,6 +226,7 @@ Command add_run(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
+  add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
   parser->add_option("--steps", options->scene.steps, "their number; default: the scene's")
       ->type_name("N");

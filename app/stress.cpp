@@ -70,6 +70,10 @@ int run_stress(const StressOptions& options) {
   request.axes = read_axes(options.vary);
   request.setting =
       read_setting(with_run_time_members(options.method, request.axes), options.scene);
+  std::vector<std::string> varied;
+  for (const StressAxis& axis : request.axes) varied.push_back(axis.label);
+  specialise(options.scene, complete_scene(request.setting.model, request.setting.scene), varied,
+             Observing::everything, request.setting);
   const StressMap map = stress_map(request);
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");

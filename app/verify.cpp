@@ -102,7 +102,8 @@ Setting verify_setting(const VerifyOptions& options) {
   const SceneValues scene = scene_values(setting.model, setting.scene);
   if (!scene.steps) setting.scene.steps = "1000";
   take_gauge_at(scene, setting.model, setting.request);
-  if (!options.scene.scene.empty()) specialise(options.scene, scene, {}, setting);
+  if (!options.scene.scene.empty())
+    specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
   setting.request.tangent = options.measure;  // then it is read back as well
   return setting;
 }
@@ -164,6 +165,7 @@ Command add_verify(CLI::App& app) {
   parser->add_option("--terms", options->terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
   add_scene_options(*parser, options->scene);
+  add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");

@@ -23,6 +23,7 @@
 #include "generator/program/program.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
+#include "generator/verify/specialised.hpp"
 
 namespace hamgen {
 
@@ -130,9 +131,7 @@ CppOptions cpp_options(const SourceText& source, const Program& program, const R
 struct Stages {
   Model model;  // as the request reads it
   FoldedModel folded;
-  Mechanics whole;        // all degrees of freedom
-  std::vector<int> kept;  // those that do not rest
-  Mechanics mechanics;
+  Specialised system;
   StepEquations equations;
   SolvePlan plan;
   Program program;
@@ -222,32 +221,14 @@ FoldedModel fold_for_scene(const Model& model, const Request& request) {
   if (!request.scene) return {model, {}};
   SceneFacts scene = *request.scene;
   scene.kept.merge(named_by_scheme(model, request));
-  return fold(model, scene, request.fold);
+  return fold(observed(model, scene.values), scene, request.fold);
 }
 
-// The system and its scheme, and what of it the scene needs.
-struct System {
-  Mechanics whole;
-  std::vector<int> kept;
-  Mechanics mechanics;
-  Scheme scheme;
-  std::vector<std::string> left_out;
-};
-
-System make_system(const Model& model, const Request& request, bool keep_sums) {
-  System system;
-  system.whole = derive(model, keep_sums);
-  if (request.observe_curvature) system.whole.invariants = energy_curvature(system.whole);
-  system.scheme = choose_scheme(model, system.whole, request);
-  std::vector<int> rest;
-  if (request.scene) rest = resting(system.whole, system.scheme, *request.scene);
-  for (int i = 0; i < system.whole.degrees_of_freedom; ++i) {
-    if (std::ranges::find(rest, i) == rest.end()) system.kept.push_back(i);
-  }
-  if (!rest.empty()) system.left_out.push_back(to_text(rest, system.whole));
-  system.mechanics = restrict_to(system.whole, system.kept);
-  system.scheme = restrict_to(system.scheme, system.kept);
-  return system;
+Specialised make_system(const Model& model, const Request& request, bool keep_sums) {
+  Mechanics mechanics = derive(model, keep_sums);
+  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
+  Scheme scheme = choose_scheme(model, mechanics, request);
+  return specialise(model, std::move(mechanics), std::move(scheme), request.scene);
 }
 
 Stages run_stages(const SourceText& source, const Request& request) {
@@ -258,7 +239,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
       (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  System system = make_system(folded.model, request, keep_sums);
+  Specialised system = make_system(folded.model, request, keep_sums);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
@@ -281,24 +262,29 @@ Stages run_stages(const SourceText& source, const Request& request) {
     watch_modified(program,
                    modified_terms(system.mechanics, system.scheme, request.watch_modified));
   }
-  return {std::move(model),       std::move(folded),           std::move(system.whole),
-          std::move(system.kept), std::move(system.mechanics), std::move(equations),
-          std::move(plan),        std::move(program)};
+  return {std::move(model),     std::move(folded), std::move(system),
+          std::move(equations), std::move(plan),   std::move(program)};
 }
 
-Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
+Proof prove(const Stages& stages, const Request& request,
+            const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
+  const Specialised& system = stages.system;
   const Expression hamiltonian =
-      stages.mechanics.keeps_sums()
-          ? restrict_to(written_out_hamiltonian(stages.folded.model), stages.whole, stages.kept)
-          : stages.mechanics.energy;
-  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
+      system.mechanics.keeps_sums()
+          ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
+          : system.mechanics.energy;
+  Proof proof =
+      verify(system.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
+  if (request.scene)
+    proof.push_back(prove_specialised(stages.model, stages.folded, system, *request.scene, around));
+  return proof;
 }
 
 // What the first lines of a header say of the step.
 void add_proof(const Stages& stages, const Request& request, CppOptions& options) {
-  const Proof proof = prove(stages);
+  const Proof proof = prove(stages, request);
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -405,7 +391,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
 
 Proof verify_step(const SourceText& source, const Request& request,
                   const std::optional<SceneValues>& scene) {
-  return prove(run_stages(source, request), scene);
+  return prove(run_stages(source, request), request, scene);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
@@ -431,15 +417,20 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   plugin.order = stages.equations.scheme.order;
   plugin.solver = stages.plan.solver;
   plugin.left_out = stages.plan.left_out;
-  for (const Quantity& parameter : stages.mechanics.parameters) {
+  for (const Quantity& parameter : stages.system.mechanics.parameters) {
     plugin.parameter_names.push_back(parameter.name);
   }
-  plugin.kept = stages.kept;
+  plugin.kept = stages.system.kept;
+  const Unobserved& left = stages.system.left;
+  plugin.unobserved = left.cyclic;
+  for (const int i : left.dropped)
+    plugin.unobserved.insert(plugin.unobserved.end(),
+                             {i, stages.system.whole.degrees_of_freedom + i});
+  plugin.whole_energy = left.dropped.empty();
   plugin.for_scene = request.scene.has_value();
-  plugin.degrees_of_freedom = stages.whole.degrees_of_freedom;
   plugin.needs_energy_parameter = uses_energy_parameter(stages.equations);
   if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");
-  for (const NamedExpression& invariant : stages.mechanics.invariants) {
+  for (const NamedExpression& invariant : stages.system.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);
   }
   for (const int power : stages.program.modified_powers)

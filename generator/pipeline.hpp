@@ -100,11 +100,12 @@ struct PluginSource {
   std::vector<std::string> left_out;         // what the planner left out and why
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
-  // The degrees of freedom of the model that the step has, in their order, of so many; the others
-  // rest where they begin.
+  // The degrees of freedom of the model that the step has, in their order.  Variables of the others
+  // rest where they begin, but these, by their position in the state, which nobody observes.
   std::vector<int> kept;
-  int degrees_of_freedom = 0;
-  bool for_scene = false;  // some of the model's parameters may have the scene's values
+  std::vector<int> unobserved;
+  bool whole_energy = true;  // else that of the degrees of freedom that are kept
+  bool for_scene = false;    // some of the model's parameters may have the scene's values
   bool needs_energy_parameter = false;  // the last parameter is E0
   std::string without_tangent;          // why --tangent was not heeded
   std::vector<double> singular_steps;   // the scheme has poles at their multiples

@@ -34,10 +34,10 @@ struct Rule {
 
 // The stages as one, and the values that go in and come out.
 std::vector<std::string> with_generator_values(std::vector<std::string> folders) {
-  folders.insert(folders.end(),
-                 {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
-                  "generator/language/", "generator/mechanics/", "generator/schemes/",
-                  "generator/specialise/", "generator/verify/", "generator/formats/scalar.hpp", "runtime/"});
+  folders.insert(folders.end(), {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
+                                 "generator/language/", "generator/mechanics/",
+                                 "generator/schemes/", "generator/specialise/", "generator/verify/",
+                                 "generator/formats/scalar.hpp", "runtime/"});
   return folders;
 }
 
@@ -63,8 +63,8 @@ const std::vector<Rule>& rules() {
        {ginac, eigen, other}},
       // What a scene does not need, left out.
       {"generator/specialise/",
-       {"generator/specialise/", "generator/schemes/", "generator/mechanics/", "generator/language/",
-        "generator/algebra/", "generator/base/"},
+       {"generator/specialise/", "generator/schemes/", "generator/mechanics/",
+        "generator/language/", "generator/algebra/", "generator/base/"},
        {fmt, ginac}},
       {"generator/equations/",
        {"generator/equations/", "generator/schemes/", "generator/mechanics/", "generator/language/",
@@ -93,8 +93,9 @@ const std::vector<Rule>& rules() {
         "generator/algebra/exact.hpp", "generator/algebra/functions.hpp", "generator/base/"},
        {fmt}},
       {"generator/verify/",
-       {"generator/verify/", "generator/program/", "generator/equations/", "generator/schemes/",
-        "generator/mechanics/", "generator/language/", "generator/algebra/", "generator/base/"},
+       {"generator/specialise/", "generator/verify/", "generator/program/", "generator/equations/",
+        "generator/schemes/", "generator/mechanics/", "generator/language/", "generator/algebra/",
+        "generator/base/"},
        {fmt, ginac}},
       // Eigenvalues of the linear part.
       {"generator/verify/linear_",

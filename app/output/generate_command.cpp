@@ -37,6 +37,7 @@ std::string generate_command(const std::string& model, const Request& request) {
     add("--scene", scene.values.name);
     for (const auto& [name, value] : scene.asked.set) add("--set", name + "=" + value);
     for (const auto& [name, value] : scene.asked.initial) add("--initial", name + "=" + value);
+    add("--observe", scene.asked.observe.value_or(""));
     for (const std::string& name : scene.kept) add("--keep", name);
   }
   if (request.format != "cpp-header") add("--format", request.format);  // the default

@@ -56,7 +56,7 @@ std::string numbers(const std::vector<runtime::Wide>& state, std::size_t begin, 
   constexpr std::size_t largest = 4;
   std::string text;
   for (std::size_t i = begin; i < std::min(end, begin + largest); ++i)
-    text += (i == begin ? "" : ", ") + number_text(state[i].hi);
+    text += (i == begin ? "" : ", ") + (std::isnan(state[i].hi) ? "-" : number_text(state[i].hi));
   return end > begin + largest ? text + ", ..." : text;
 }
 
@@ -66,6 +66,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string energy_text(const RunReport& report) {
+  if (!watches_energy(*report.plugin, *report.scene)) return "not observed";
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
   return fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
@@ -82,11 +83,16 @@ std::string time_text(const RunReport& report) {
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
 }
 
-std::string invariant_text(const std::string& name, double before, double after) {
+std::string invariant_text(const std::string& name, double before, double after, bool conserved) {
   if (!std::isfinite(before)) return name + " is not defined at the initial state";
   const std::string text = fmt::format("{} = {:.10g}; ", name, before);
   if (!std::isfinite(after)) return text + "not defined at the last state";
-  return text + fmt::format("last error {:.3g}", after - before);
+  return text + (conserved ? fmt::format("last error {:.3g}", after - before)
+                           : fmt::format("last {:.10g}", after));
+}
+
+bool is_formula(const std::string& name, const SceneValues& scene) {
+  return std::ranges::find(scene.formulas, name, &ObservedFormula::name) != scene.formulas.end();
 }
 
 // JSON has no nan: the status says why a value is null.
@@ -136,6 +142,9 @@ Json invariants_json(const RunReport& report) {
     result[report.plugin->invariant_names[i]] = {{"initial", number(before)},
                                                  {"final", number(after)},
                                                  {"final_error", number(after - before)}};
+  }
+  for (const Invariant& each : report.plugin->model.invariants) {
+    if (!result.contains(each.name)) result[each.name] = nullptr;  // not observed
   }
   return result;
 }
@@ -202,10 +211,13 @@ std::string summary_text(const RunReport& report) {
   text += entry("solver", solver);
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
   text += entry("energy", energy_text(report));
-  for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
-    text +=
-        entry("invariant", invariant_text(plugin.invariant_names[i], report.initial_invariants[i],
-                                          report.final_invariants[i]));
+  for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
+    const std::string& name = plugin.invariant_names[i];
+    const bool formula = is_formula(name, *report.scene);
+    text += entry(
+        formula ? "observed" : "invariant",
+        invariant_text(name, report.initial_invariants[i], report.final_invariants[i], !formula));
+  }
   const std::size_t n = report.state.size() / 2;
   text += entry("last q", numbers(report.state, 0, n));
   text += entry("last p", numbers(report.state, n, 2 * n));

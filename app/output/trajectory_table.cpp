@@ -43,7 +43,7 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
 
 void TrajectoryTable::add(const runtime::Record& record) {
   values_ = {record.time};
-  values_.insert(values_.end(), record.state.begin(), record.state.end());
+  for (const std::size_t place : columns_.state_places) values_.push_back(record.state[place]);
   if (columns_.energy) values_.push_back(record.energy);
   for (const std::size_t place : columns_.places) values_.push_back(record.invariants[place]);
   ++rows_;

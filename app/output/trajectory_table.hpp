@@ -13,7 +13,8 @@ namespace hamgen::app {
 
 // What a row holds besides step, t and the state.
 struct Columns {
-  std::vector<std::string> state;  // names: q then p
+  std::vector<std::string> state;         // names: q then p
+  std::vector<std::size_t> state_places;  // of these in the record's state
   bool energy = true;
   bool has_time = false;                // H stands for H + p_t
   std::vector<std::string> invariants;  // names

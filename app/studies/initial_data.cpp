@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "app/studies/domain.hpp"
@@ -78,6 +79,22 @@ std::string undefined_component(const runtime::Library& library,
   return "";
 }
 
+// What a parameter of the step is in the scene: one of the model, an array of equal entries, or a
+// momentum that does not change.
+const Rational& parameter_of(const std::string& name, const Model& model,
+                             const SceneValues& scene) {
+  const std::vector<std::string> names = element_names(model.parameters);
+  const auto is_it = [&name](const std::string& each) {
+    return each == name || each.starts_with(name + "[");
+  };
+  if (const auto found = std::ranges::find_if(names, is_it); found != names.end())
+    return scene.parameters[static_cast<std::size_t>(found - names.begin())];
+  const std::vector<std::string> momenta = element_names(model.momenta);
+  const auto found = std::ranges::find(momenta, name);
+  if (found == momenta.end()) internal_error("a plugin parameter the model does not have");
+  return scene.p[static_cast<std::size_t>(found - momenta.begin())];
+}
+
 // Of the variables that the step has.
 std::vector<std::string> state_names(const PluginSource& plugin) {
   std::vector<std::string> names;
@@ -127,25 +144,37 @@ namespace {
 // `whole` with these values of the kept degrees of freedom.
 template <class Number, class Values>
 std::vector<Number> with_kept(std::vector<Number> whole, const Values& values,
-                              const std::vector<int>& kept) {
+                              const PluginSource& plugin) {
   const std::size_t n = whole.size() / 2;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    const auto place = static_cast<std::size_t>(kept[i]);
+  const std::size_t m = plugin.kept.size();
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto place = static_cast<std::size_t>(plugin.kept[i]);
     whole[place] = values[i];
-    whole[n + place] = values[kept.size() + i];
+    whole[n + place] = values[m + i];
   }
+  for (const int place : plugin.unobserved)
+    whole[static_cast<std::size_t>(place)] = Number{std::numeric_limits<double>::quiet_NaN()};
   return whole;
 }
 
 }  // namespace
 
+bool watches_energy(const PluginSource& plugin, const SceneValues& scene) {
+  if (!plugin.whole_energy) return false;
+  return !observes_parts(plugin.model, scene) || observes(scene, "energy");
+}
+
 std::vector<runtime::Wide> whole_state(const PluginSource& plugin, const SceneValues& scene,
                                        const std::vector<runtime::Wide>& state) {
+  const bool is_wide = std::ranges::any_of(state, [](const auto& x) { return x.lo != 0.0; });
   std::vector<runtime::Wide> whole;
   for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const Rational& value : *half) whole.push_back(wide(value));
+    for (const Rational& value : *half) {
+      whole.push_back(wide(value));
+      if (!is_wide) whole.back().lo = 0.0;
+    }
   }
-  return with_kept(std::move(whole), state, plugin.kept);
+  return with_kept(std::move(whole), state, plugin);
 }
 
 std::vector<double> whole_state(const PluginSource& plugin, const SceneValues& scene,
@@ -154,7 +183,7 @@ std::vector<double> whole_state(const PluginSource& plugin, const SceneValues& s
   for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
     for (const Rational& value : *half) whole.push_back(to_double(value));
   }
-  return with_kept(std::move(whole), state, plugin.kept);
+  return with_kept(std::move(whole), state, plugin);
 }
 
 std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
@@ -251,7 +280,6 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
       std::ranges::find(all_scalars(), library.plugin().scalar_digits, &ScalarType::digits);
   require_in_range(model, scene, *scalar);
   require_regular_step(plugin, *scene.h);
-  const std::vector<std::string> names = element_names(model.parameters);
   const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
   runtime::InitialValues values;
   values.defined_everywhere = is_defined_everywhere(model);
@@ -260,17 +288,8 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
     for (const int i : plugin.kept)
       values.state.push_back(wide((*half)[static_cast<std::size_t>(i)]));
   }
-  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i) {
-    const std::string& name = plugin.parameter_names[i];
-    auto found = std::ranges::find(names, name);
-    // An array whose entries are equal is one number.
-    if (found == names.end())
-      found = std::ranges::find_if(
-          names, [&name](const std::string& each) { return each.starts_with(name + "["); });
-    if (found == names.end()) internal_error("a plugin parameter the model does not have");
-    values.parameters.push_back(
-        wide(scene.parameters[static_cast<std::size_t>(found - names.begin())]));
-  }
+  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i)
+    values.parameters.push_back(wide(parameter_of(plugin.parameter_names[i], model, scene)));
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
   require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;

@@ -43,7 +43,12 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 [[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(
     const PluginSource& plugin, const SceneValues& scene, const runtime::InitialValues& start);
 
-// The state of all degrees of freedom, where the step has some of them: those left out rest.
+// Is H computed along the run?  Not where the scene names what it observes and energy is not among
+// it, nor where the step lacks degrees of freedom that H depends on.
+[[nodiscard]] bool watches_energy(const PluginSource& plugin, const SceneValues& scene);
+
+// The state of all degrees of freedom, where the step has some of them: those left out rest.  What
+// nobody observes is not a number.
 [[nodiscard]] std::vector<runtime::Wide> whole_state(const PluginSource& plugin,
                                                      const SceneValues& scene,
                                                      const std::vector<runtime::Wide>& state);

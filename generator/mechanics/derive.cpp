@@ -139,9 +139,10 @@ Mechanics derive(const Model& model, bool keep_sums) {
   SymbolTable table;
   TreeConverter converter(model, table);
   for (const Invariant& invariant : model.invariants) {
-    mechanics.invariants.push_back({invariant.name, with_place(model, invariant.value->span, [&] {
-                                      return from_ginac(converter.convert(invariant.value), table);
-                                    })});
+    const Expression value = with_place(model, invariant.value->span, [&] {
+      return from_ginac(converter.convert(invariant.value), table);
+    });
+    mechanics.invariants.push_back({invariant.name, value, invariant.only_observed});
   }
   return mechanics;
 }

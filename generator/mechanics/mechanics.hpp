@@ -25,6 +25,7 @@ struct Quantity {
 struct NamedExpression {
   std::string name;
   Expression value;
+  bool only_observed = false;  // an "invariant" that need not be conserved
 };
 
 struct Mechanics {

@@ -156,6 +156,7 @@ class Folder {
     if (!equal || names.size() < 2) return;
     say(fmt::format("{}[{}..{}] as an array: all entries are equal {}", parameter.name,
                     parameter.range->first, parameter.range->last, where_));
+    for (const std::string& name : names) result_.folding.same.emplace_back(name, parameter.name);
     parameter.range.reset();
     parameter.values.resize(1);
     values_[parameter.name] = value;
@@ -231,6 +232,7 @@ class Folder {
         if (empty_differences(united) == empty_differences(result_.model)) continue;
         say(fmt::format("parameter {}: equal to {} {}", all[j].name, all[i].name, where_));
         used_.erase(all[j].name);
+        result_.folding.same.emplace_back(all[j].name, all[i].name);
         result_.model = std::move(united);
         return true;
       }

@@ -22,6 +22,27 @@ std::vector<int> new_places(int n, const std::vector<int>& kept) {
   return places;
 }
 
+// A momentum that has become a parameter.
+Expression constant_momentum(const Mechanics& whole, int i) {
+  const auto place = place_at(whole.degrees_of_freedom + i);
+  return Expression::symbol(whole.variables[place].name, kRankOfParameter + 50'000 + i);
+}
+
+// H without the terms of variables nobody looks at, which stand in no other term.
+Expression without(const Expression& energy, const std::set<std::string>& names) {
+  if (names.empty()) return energy;
+  const auto mentions = [&names](const Expression& e) {
+    const std::set<std::string> used = symbols(e);
+    return std::ranges::any_of(used, [&](const auto& name) { return names.contains(name); });
+  };
+  if (energy.kind() != Kind::sum) return mentions(energy) ? Expression(0) : energy;
+  std::vector<Expression> terms;
+  for (const Expression& term : energy.operands()) {
+    if (!mentions(term)) terms.push_back(term);
+  }
+  return Expression::sum(std::move(terms));
+}
+
 Substitution renumbered(const Mechanics& whole, const std::vector<int>& places) {
   Substitution replacements;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -90,11 +111,20 @@ Expression restrict_to(const Expression& e, const Mechanics& whole, const std::v
   return substitute(e, renumbered(whole, new_places(whole.degrees_of_freedom, kept)));
 }
 
-Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept) {
+Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
+                      const Unobserved& left) {
   const int n = mechanics.degrees_of_freedom;
   if (static_cast<int>(kept.size()) == n) return mechanics;
   const std::vector<int> places = new_places(n, kept);
-  const Substitution replacements = renumbered(mechanics, places);
+  Substitution replacements = renumbered(mechanics, places);
+  for (const int i : left.cyclic)
+    replacements.insert_or_assign(mechanics.variables[place_at(n + i)].name,
+                                  constant_momentum(mechanics, i));
+  std::set<std::string> unknown;
+  for (const int i : left.dropped) {
+    unknown.insert(mechanics.variables[place_at(i)].name);
+    unknown.insert(mechanics.variables[place_at(n + i)].name);
+  }
   const auto here = [&replacements](const Expression& e) { return substitute(e, replacements); };
   Mechanics result = mechanics;
   result.degrees_of_freedom = static_cast<int>(kept.size());
@@ -110,7 +140,12 @@ Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept) 
       result.gradient.push_back(vanishes(slope) ? Expression(0) : slope);
     }
   }
-  result.energy = here(mechanics.energy);
+  result.energy = here(without(mechanics.energy, unknown));
+  for (const int i : left.cyclic) {
+    result.parameters.push_back(mechanics.variables[place_at(n + i)]);
+    if (result.parameters.back().comment.empty())
+      result.parameters.back().comment = "constant: its coordinate is cyclic";
+  }
   for (const auto& [place, value] : mechanics.hessian) {
     const int row = places[place_at(place.first)];
     const int column = places[place_at(place.second)];

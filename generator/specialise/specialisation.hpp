@@ -6,6 +6,7 @@
 // of the Scheme.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,7 +35,8 @@ struct FoldedParameter {
 // What has been left out of a model, and why.
 struct Folding {
   std::vector<FoldedParameter> values;
-  std::vector<std::string> left_out;  // one line each
+  std::vector<std::pair<std::string, std::string>> same;  // a name, and the one it is now
+  std::vector<std::string> left_out;                      // one line each
 };
 
 struct FoldedModel {
@@ -69,13 +71,48 @@ struct FoldedModel {
 [[nodiscard]] std::vector<int> resting(const Mechanics& mechanics, const Scheme& scheme,
                                        const SceneFacts& scene);
 
-// The system, or the scheme, of the remaining degrees of freedom, in their order; the variables of
-// the others are zero.
-[[nodiscard]] Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept);
+// The model that computes what the scene observes: its invariants are those that are named and the
+// formulas of the scene; all of them if it does not say.
+[[nodiscard]] Model observed(Model model, const SceneValues& scene);
+
+// Pairs of which nothing observed knows, by their number.
+struct Unobserved {
+  std::vector<int> dropped;  // nothing observed depends on either
+  std::vector<int> cyclic;   // q_i does not occur, p_i is a constant
+  bool operator==(const Unobserved&) const = default;
+};
+// A variable z_i is needed if it is observed, or stands in the component of J grad H that moves one
+// that is, or in a component that its stage value takes a multiple of by C.  A p_i whose q_i is not
+// needed is a constant if H_{q_i} = 0 and row p_i of C takes nothing that moves: pbar_i = p_i.
+// Nothing is left out where sums stay loops, and where `observed`, names of variables, is empty.
+[[nodiscard]] Unobserved unobserved(const Mechanics& mechanics, const Scheme& scheme,
+                                    const std::set<std::string>& observed);
+[[nodiscard]] std::vector<std::string> to_text(const Unobserved& left, const Mechanics& mechanics);
+
+// The system, or the scheme, of the kept degrees of freedom, in their order.  The variables of the
+// others are zero, but momenta of the `cyclic` ones are parameters.  Terms of H in what is not
+// observed are gone: its gradient is right, its value is another.
+[[nodiscard]] Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
+                                    const Unobserved& left = {});
 [[nodiscard]] Scheme restrict_to(const Scheme& scheme, const std::vector<int>& kept);
 // An expression in the variables of the whole system in those of the restricted one.
 [[nodiscard]] Expression restrict_to(const Expression& e, const Mechanics& whole,
                                      const std::vector<int>& kept);
+
+// A system and its scheme as a scene needs them.
+struct Specialised {
+  Mechanics whole;  // all degrees of freedom
+  Scheme whole_scheme;
+  Mechanics mechanics;
+  Scheme scheme;
+  // Degrees of freedom of the whole system.
+  std::vector<int> kept, resting;
+  Unobserved left;
+  std::vector<std::string> left_out;  // one line each
+};
+// All of them without a scene.  `model` is that of `whole`.
+[[nodiscard]] Specialised specialise(const Model& model, Mechanics whole, Scheme scheme,
+                                     const std::optional<SceneFacts>& scene);
 
 // "z, pz: they start at 0 and nothing moves them", one line for arrays that rest as a whole.
 [[nodiscard]] std::string to_text(const std::vector<int>& resting, const Mechanics& mechanics);
