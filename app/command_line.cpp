@@ -102,7 +102,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 void add_observe_option(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--observe", options.observe,
-                  "q, energy, r = sqrt(x^2 + y^2); default: the scene's, or all there is")
+                  "q, energy, r = sqrt(x^2 + y^2); default: the scene's")
       ->type_name("LIST");
 }
 

@@ -227,11 +227,11 @@ Command add_run(CLI::App& app) {
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
-  add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "their number; default: the scene's")
-      ->type_name("N");
+  parser->add_option("--h", options->scene.h, "")->type_name("H");
+  parser->add_option("--steps", options->scene.steps, "")->type_name("N");
   parser
-      ->add_option("--every", options->every, "record every K-th step; default: the scene's, or 1")
+      ->add_option("--every", options->every,
+                   "step size, their number, rows every K steps; default: the scene's")
       ->type_name("K");
   parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
       ->type_name("FILE");
@@ -239,8 +239,8 @@ Command add_run(CLI::App& app) {
       ->add_option("--watch-modified", options->watch_modified,
                    "K terms of the modified Hamiltonian too")
       ->type_name("K");
-  parser->add_flag("--json", options->json, "the result as JSON on standard output");
-  parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the result as JSON; no summary, warnings, progress");
   parser->add_option("--header", options->header, "write the emitted header there")
       ->type_name("DIRECTORY");
   add_method_options(*parser, options->method);

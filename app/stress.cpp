@@ -110,8 +110,8 @@ Command add_stress(CLI::App& app) {
       ->add_option("--plot", options->plot,
                    "the cells as CSV; a picture, .svg or .png, and its script .gp")
       ->type_name("FILE");
-  parser->add_flag("--json", options->json, "the cells as JSON on standard output");
-  parser->add_flag("--quiet", options->quiet, "no progress, no names of files");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the cells as JSON; no progress, no names of files");
   add_method_options(*parser, options->method);
   return {parser, [options] { return run_stress(*options); }};
 }

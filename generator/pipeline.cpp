@@ -266,6 +266,10 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(equations), std::move(plan),   std::move(program)};
 }
 
+bool is_something_left_out(const Stages& stages) {
+  return !stages.folded.folding.left_out.empty() || !stages.system.left_out.empty();
+}
+
 Proof prove(const Stages& stages, const Request& request,
             const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
@@ -277,7 +281,7 @@ Proof prove(const Stages& stages, const Request& request,
           : system.mechanics.energy;
   Proof proof =
       verify(system.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
-  if (request.scene)
+  if (request.scene && is_something_left_out(stages))
     proof.push_back(prove_specialised(stages.model, stages.folded, system, *request.scene, around));
   return proof;
 }
@@ -406,7 +410,10 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   Stages stages = run_stages(source, request);
   CppOptions options = cpp_options(source, stages.program, request);
   PluginSource plugin;
-  plugin.text = plugin_text(stages, options, request);
+  // What is compiled does not depend on values that are given at run time.
+  CppOptions anonymous = options;
+  anonymous.command.clear();
+  plugin.text = plugin_text(stages, anonymous, request);
   if (proof == HeaderProof::included) add_proof(stages, request, options);
   plugin.header = header_file(source, stages, options, request);
   plugin.scheme_name = stages.equations.scheme.name;

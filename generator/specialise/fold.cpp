@@ -73,7 +73,9 @@ class Folder {
   Folder(const Model& model, const SceneFacts& scene, const std::vector<std::string>& burnt)
       : scene_(scene), burnt_(burnt.begin(), burnt.end()), result_{.model = model, .folding = {}} {
     const std::vector<std::string> names = element_names(model.parameters);
-    for (std::size_t i = 0; i < names.size(); ++i) values_[names[i]] = scene.values.parameters[i];
+    // Parameters of the scheme, behind the model's, have no value in the scene.
+    for (std::size_t i = 0; i < std::min(names.size(), scene.values.parameters.size()); ++i)
+      values_[names[i]] = scene.values.parameters[i];
     where_ = scene.values.name.empty() ? "here" : "in scene " + scene.values.name;
   }
 
@@ -96,6 +98,7 @@ class Folder {
   }
   bool is_kept(const Parameter& parameter) const {
     if (scene_.kept.contains(parameter.name)) return true;
+    if (!values_.contains(elements(parameter).front())) return true;
     return std::ranges::any_of(elements(parameter), [this](const std::string& name) {
       return scene_.kept.contains(name);
     });
