@@ -9,12 +9,14 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
+#include "generator/emitted_spaces.hpp"
 #include "generator/equations/step_equations.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cmake_package.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
+#include "generator/formats/support.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -106,23 +108,21 @@ std::string stem(const std::string& path) {
   return name.empty() ? "model" : name;
 }
 
+bool shares_support(const Request& request) {
+  if (request.support.empty() || request.support == "own") return false;
+  if (request.support == "shared") return true;
+  throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
+}
+
 CppOptions cpp_options(const SourceText& source, const Program& program, const Request& request) {
-  CppOptions options{.command = request.command,
-                     .model_path = source.path,
-                     .model_digest = request.model_digest,
-                     .scalar = request.scalar,
-                     .name_space = request.name_space,
-                     .tangent = request.tangent && !without_tangent(program),
-                     .watched_step = request.step};
-  if (!options.name_space.empty()) {
-    require_namespace(options.name_space);
-  } else {
-    const StepEquations& equations = program.plan.equations;
-    std::string scheme = equations.scheme.name;
-    std::ranges::replace(scheme, '-', '_');
-    options.name_space = namespace_identifier(equations.mechanics.name) + "::" + identifier(scheme);
-  }
-  return options;
+  return {.command = request.command,
+          .model_path = source.path,
+          .model_digest = request.model_digest,
+          .scalar = request.scalar,
+          .spaces = emitted_spaces(program.plan.equations, request),
+          .tangent = request.tangent && !without_tangent(program),
+          .shared_support = shares_support(request),
+          .watched_step = request.step};
 }
 
 // The stages, in order: this is the only place that knows it.
@@ -291,12 +291,21 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   add_proof(stages, request, options);
   const std::string format = request.format.empty() ? "cpp-header" : request.format;
   const std::string name = stem(source.path);
-  if (format == "cpp-header") return {header_file(source, stages, options, request)};
-  if (format == "cpp-plugin")
+  OutputFiles support;
+  if (options.shared_support) support.push_back(shared_file(find_scalar(request.scalar)));
+  const auto and_support = [&support](OutputFiles files) {
+    files.insert(files.end(), support.begin(), support.end());
+    return files;
+  };
+  if (format == "cpp-header") return and_support({header_file(source, stages, options, request)});
+  if (format == "cpp-plugin") {
+    if (options.shared_support)
+      throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
     return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
+  }
   if (format == "cmake-package")
-    return cmake_package(name, header_text(stages, options, request), needs_eigen(stages.program),
-                         request.scalar == "quad");
+    return and_support(cmake_package(name, header_text(stages, options, request),
+                                     needs_eigen(stages.program), request.scalar == "quad"));
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
 }
 

@@ -17,6 +17,15 @@ std::vector<std::string> texts(const Layout& layout) {
   return result;
 }
 
+// Adds the fields of `par` that a routine reads.
+void collect_parameters(const Routine& routine, std::set<std::string>& fields) {
+  std::set<std::string> symbols;
+  collect_symbols(routine.body, symbols);
+  for (const auto& [symbol, place] : routine.places) {
+    if (place.object == "par" && symbols.contains(symbol)) fields.insert(place.field);
+  }
+}
+
 }  // namespace
 
 CppContext::CppContext(const Program& the_program, const CppOptions& the_options)
@@ -31,6 +40,28 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
       state_fields(texts(environment.state_layout)) {
   for (const char* name : {"prepare", "solve"}) needed_.merge(callees(code, name));
   if (options.tangent) needed_.merge(callees(code, "tangent"));
+  split_parameters();
+}
+
+void CppContext::split_parameters() {
+  std::set<std::string> of_system;
+  std::set<std::string> of_method;
+  for (const char* name : {"energy", "gradient", "invariants"}) {
+    for (const std::string& called : callees(code, name)) {
+      collect_parameters(*code.routine(called), of_system);
+    }
+  }
+  for (const std::string& called : needed_) collect_parameters(*code.routine(called), of_method);
+  system_parameters = *code.record("Parameters");
+  method_parameters = {.name = "Parameters",
+                       .fields = {},
+                       .remark = {"Those of the system, and what the method takes besides."}};
+  if (options.spaces.method.empty()) return;
+  std::erase_if(system_parameters.fields, [&](const Field& field) {
+    const bool ours = of_method.contains(field.name) && !of_system.contains(field.name);
+    if (ours) method_parameters.fields.push_back(field);
+    return ours;
+  });
 }
 
 void CppContext::write_routine(CodeWriter& out, std::string_view name) {

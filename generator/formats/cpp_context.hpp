@@ -32,6 +32,9 @@ class CppContext {
   std::vector<std::string> parameter_fields;
   std::vector<std::string> state_fields;  // "q" or "q[2]": of z_1..z_2n in State
   Used used;                              // so far
+  // Parameters by who reads them: H, its gradient and the invariants, or the method alone.
+  Record system_parameters;
+  Record method_parameters;
 
   [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }
   [[nodiscard]] bool arrays() const { return program.plan.arrays.has_value(); }
@@ -48,11 +51,10 @@ class CppContext {
   [[nodiscard]] bool needs(const std::string& routine) const { return needed_.contains(routine); }
 
  private:
+  void split_parameters();
+
   std::set<std::string> needed_;
   std::set<std::string, std::less<>> written_;
 };
-
-// The types Parameters, State, StepReport; what cpp_numerics() needs if `with_vocabulary`.
-void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary);
 
 }  // namespace hamgen

@@ -6,10 +6,16 @@ namespace hamgen {
 
 void write_functions(CodeWriter& out, CppContext& context) {
   context.write_routine(out, "energy");
+  context.write_with_callees(out, "gradient");
+  if (context.arrays()) {
+    out.lines(R"(// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n]) {
+  gradient(par, z.q, z.p, values, values + n);
+}
+
+)");
+  }
   context.write_routine(out, "invariants");
-  write_modified_energies(out, context);
-  const bool wanted = context.options.gradient || context.needs("gradient");
-  if (wanted) context.write_with_callees(out, "gradient");
 }
 
 void write_modified_energies(CodeWriter& out, CppContext& context) {

@@ -5,7 +5,7 @@
 
 namespace hamgen {
 
-// energy(par, z), the model's invariants, and gradient(par, z, values) if the options ask for it.
+// energy(par, z), gradient(par, z, values), and the model's invariants(par, z, values).
 void write_functions(CodeWriter& out, CppContext& context);
 // modified_energies(par, h, z, values) and modified_energy(par, h, z), if the program has them.
 void write_modified_energies(CodeWriter& out, CppContext& context);

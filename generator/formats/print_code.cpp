@@ -29,8 +29,33 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
         "i", "j", "rule", "more", "lack", "slope", "point", "distance"}) {
     names_.reserve(local);
   }
-  for (const Argument& argument : routine.arguments) names_.reserve(argument.name);
+  name_objects();
   reserve_arrays(routine.body);
+}
+
+// An argument makes way for a quantity of that name: the user's z stays z.
+void RoutinePrinter::name_objects() {
+  std::set<std::string> symbols;
+  collect_symbols(routine_.body, symbols);
+  for (const Argument& argument : routine_.arguments) {
+    const std::string& name = argument.name;
+    const bool number = argument.record.empty() && argument.sizes.empty();
+    const bool is_free = !symbols.contains(name) || routine_.places.contains(name);
+    if (number || name == "start" || is_free) {
+      names_.reserve(name);
+      continue;
+    }
+    std::string other = name + "_";
+    while (symbols.contains(other)) other += "_";
+    names_.reserve(other);
+    objects_[name] = other;
+    names_.set(name, name);
+  }
+}
+
+std::string RoutinePrinter::object(const std::string& name) const {
+  const auto other = objects_.find(name);
+  return other == objects_.end() ? name : other->second;
 }
 
 void RoutinePrinter::print() {
@@ -265,7 +290,7 @@ std::string RoutinePrinter::text(const AffineIndex& a) const {
 
 std::string RoutinePrinter::text(const Place& place) const {
   if (place.object.empty()) return "Real(" + text(place.indices.front()) + ")";
-  std::string result = place.object + (place.field.empty() ? "" : "." + place.field);
+  std::string result = object(place.object) + (place.field.empty() ? "" : "." + place.field);
   for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
   return result;
 }
@@ -278,7 +303,7 @@ std::string RoutinePrinter::given(const Place& place) const {
 }
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {
-  const std::string name = uses_object(routine_, argument.name) ? argument.name : "";
+  const std::string name = uses_object(routine_, argument.name) ? object(argument.name) : "";
   const std::string constant = argument.changes ? "" : "const ";
   const std::string type = argument.record.empty() ? "Real" : argument.record;
   if (argument.sizes.empty() && argument.record.empty()) {

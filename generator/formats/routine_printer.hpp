@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -80,6 +81,9 @@ class RoutinePrinter {
   [[nodiscard]] std::string declaration(const Argument& argument) const;
   [[nodiscard]] std::string signature() const;
   void reserve_arrays(const Body& body);
+  void name_objects();
+  // What an object of the routine is called.
+  [[nodiscard]] std::string object(const std::string& name) const;
 
   CodeWriter& out_;
   const Routine& routine_;
@@ -87,7 +91,8 @@ class RoutinePrinter {
   Used& used_;
   Names names_;
   CppExpression cpp_;
-  std::set<std::string> kept_;  // locals that an iteration changes
+  std::map<std::string, std::string> objects_;  // those called otherwise than in the routine
+  std::set<std::string> kept_;                  // locals that an iteration changes
   bool iterates_ = false;
   const std::vector<std::string>* remark_ = nullptr;
 };

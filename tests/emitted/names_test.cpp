@@ -29,7 +29,7 @@ const std::vector<std::string> hostile = {
 // A model that the language accepts, or nothing if it refuses the name.
 std::string header(const std::string& text, const Request& request, const std::string& space) {
   Request named = request;
-  named.name_space = "names::" + space;
+  named.name_space = "names_" + space;
   try {
     return without_pragma(generate(make_source("hostile.ham", text), named).at(0).text);
   } catch (const ModelError&) {
