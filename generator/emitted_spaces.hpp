@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/equations/step_equations.hpp"
-#include "generator/formats/cpp_header.hpp"
+#include "generator/formats/emit_options.hpp"
 #include "generator/pipeline.hpp"
 
 namespace hamgen {

@@ -4,7 +4,7 @@
 
 namespace hamgen {
 
-void write_functions(CodeWriter& out, CppContext& context) {
+void write_functions(CodeWriter& out, EmitContext& context) {
   context.write_routine(out, "energy");
   context.write_with_callees(out, "gradient");
   if (context.arrays()) {
@@ -18,7 +18,7 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
   context.write_routine(out, "invariants");
 }
 
-void write_modified_energies(CodeWriter& out, CppContext& context) {
+void write_modified_energies(CodeWriter& out, EmitContext& context) {
   const std::vector<int>& powers = context.program.modified_powers;
   if (powers.empty()) return;
   context.write_routine(out, "modified_energies");

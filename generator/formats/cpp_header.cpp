@@ -5,14 +5,16 @@
 #include <algorithm>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/base/diagnostic.hpp"
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
-#include "generator/formats/cpp_context.hpp"
+#include "generator/formats/cpp_dialect.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
-#include "generator/formats/cpp_preamble.hpp"
 #include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/emit_context.hpp"
+#include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
 
 namespace hamgen {
@@ -38,7 +40,7 @@ void declare_quad_functions(CodeWriter& out, const std::set<std::string>& functi
   if (!declared.empty()) out.line("}");
 }
 
-void write_includes(CodeWriter& out, const CppContext& context, const Support& support) {
+void write_includes(CodeWriter& out, const EmitContext& context, const Support& support) {
   const bool shared = context.options.shared_support;
   if (context.quad()) {
     declare_quad_functions(out, context.used.functions);
@@ -67,7 +69,7 @@ void write_pi(CodeWriter& out, const ScalarType& scalar) {
 }
 
 // What is said of the system alone: equal for all of its methods.
-std::string system_text(CppContext& context) {
+std::string system_text(EmitContext& context) {
   CodeWriter functions;
   write_functions(functions, context);
   CodeWriter out;
@@ -87,7 +89,7 @@ std::string system_text(CppContext& context) {
   return out.text();
 }
 
-std::string method_text(CppContext& context) {
+std::string method_text(EmitContext& context) {
   const bool had_pi = context.used.pi;
   CodeWriter steps;
   write_modified_energies(steps, context);
@@ -135,9 +137,15 @@ void write_section(CodeWriter& out, std::string_view kind, const std::string& na
   out.line();
 }
 
+CppDialect dialect_of(const Program& program, const EmitOptions& options) {
+  const bool arrays = program.plan.arrays.has_value();
+  return {find_scalar(options.scalar),
+          arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0, options.builtins};
+}
+
 // All but what a plugin has besides.
-std::string file_text(CppContext& context, const char* first_line) {
-  const CppOptions& options = context.options;
+std::string file_text(EmitContext& context, const char* first_line) {
+  const EmitOptions& options = context.options;
   const std::string system = system_text(context);
   const std::string method = method_text(context);
   Support support(context.scalar, options.builtins);
@@ -161,19 +169,34 @@ std::string file_text(CppContext& context, const char* first_line) {
 
 }  // namespace
 
-std::string cpp_header(const Program& program, const CppOptions& options) {
-  CppContext context(program, options);
+std::string cpp_header(const Program& program, const EmitOptions& options) {
+  const CppDialect dialect = dialect_of(program, options);
+  EmitContext context(program, options, dialect);
   return file_text(context, "#pragma once");
 }
 
-std::string cpp_plugin(const Program& program, const CppOptions& options) {
-  CppOptions with_builtins = options;
+std::string cpp_plugin(const Program& program, const EmitOptions& options) {
+  EmitOptions with_builtins = options;
   with_builtins.builtins = true;
-  CppContext context(program, with_builtins);
+  const CppDialect dialect = dialect_of(program, with_builtins);
+  EmitContext context(program, with_builtins, dialect);
   CodeWriter out;
   out.lines(file_text(context, "#include \"plugin.h\""));
   write_interface(out, context);
   return out.text();
+}
+
+OutputFiles cpp_header_files(const Program& program, const EmitOptions& options) {
+  OutputFiles files = {{options.file_name + ".hpp", cpp_header(program, options)}};
+  if (options.shared_support) files.push_back(shared_file(find_scalar(options.scalar)));
+  return files;
+}
+
+OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options) {
+  if (options.shared_support) {
+    throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
+  }
+  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)}};
 }
 
 bool needs_eigen(const Program& program) {

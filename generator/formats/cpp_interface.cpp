@@ -7,7 +7,7 @@ namespace hamgen {
 namespace {
 
 // Copies an array of doubles into a struct's fields.
-void write_fill(CodeWriter& out, const CppContext& context, const std::string& target,
+void write_fill(CodeWriter& out, const EmitContext& context, const std::string& target,
                 const std::vector<std::string>& names, const std::string& values) {
   if (context.arrays() && target == "result" && values == "state") {
     const std::string low =
@@ -30,7 +30,7 @@ void write_fill(CodeWriter& out, const CppContext& context, const std::string& t
   }
 }
 
-void write_tangent_interface(CodeWriter& out, const CppContext& context) {
+void write_tangent_interface(CodeWriter& out, const EmitContext& context) {
   const int size = 2 * context.n();
   std::string increments;
   std::string ends;
@@ -74,7 +74,7 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
 
 }  // namespace
 
-void write_interface(CodeWriter& out, const CppContext& context) {
+void write_interface(CodeWriter& out, const EmitContext& context) {
   const std::string description =
       cpp_string(fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name));
   out.line();

@@ -18,7 +18,7 @@ struct CallNames {
 
 class StepWriter {
  public:
-  StepWriter(CodeWriter& out, const CppContext& context)
+  StepWriter(CodeWriter& out, const EmitContext& context)
       : out_(out),
         context_(context),
         code_(context.code),
@@ -353,13 +353,13 @@ StepReport advance(long long steps) {
   }
 
   CodeWriter& out_;
-  const CppContext& context_;
+  const EmitContext& context_;
   const StepCode& code_;
   bool coefficients_, start_, rest_, composed_, large_, has_time_;
 };
 
 }  // namespace
 
-void write_steps(CodeWriter& out, const CppContext& context) { StepWriter(out, context).write(); }
+void write_steps(CodeWriter& out, const EmitContext& context) { StepWriter(out, context).write(); }
 
 }  // namespace hamgen

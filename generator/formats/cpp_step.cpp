@@ -46,7 +46,7 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
   out.close(";");
 }
 
-void write_solver(CodeWriter& out, CppContext& context) {
+void write_solver(CodeWriter& out, EmitContext& context) {
   if (context.code.matrix) write_matrix(out, *context.code.matrix);
   if (const Record* coefficients = context.code.record("Coefficients")) {
     write_record(out, *coefficients, context.scalar);

@@ -2,7 +2,7 @@
 // and the class Propagator.
 #pragma once
 
-#include "generator/formats/cpp_context.hpp"
+#include "generator/formats/emit_context.hpp"
 
 namespace hamgen {
 
@@ -10,8 +10,8 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
                   const std::string& base = "");
 
 // prepare, the records solve works with, and solve.
-void write_solver(CodeWriter& out, CppContext& context);
+void write_solver(CodeWriter& out, EmitContext& context);
 // step(par, h, z) and the class Propagator.
-void write_steps(CodeWriter& out, const CppContext& context);
+void write_steps(CodeWriter& out, const EmitContext& context);
 
 }  // namespace hamgen

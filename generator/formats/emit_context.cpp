@@ -1,4 +1,4 @@
-#include "generator/formats/cpp_context.hpp"
+#include "generator/formats/emit_context.hpp"
 
 #include <fmt/format.h>
 
@@ -28,10 +28,12 @@ void collect_parameters(const Routine& routine, std::set<std::string>& fields) {
 
 }  // namespace
 
-CppContext::CppContext(const Program& the_program, const CppOptions& the_options)
+EmitContext::EmitContext(const Program& the_program, const EmitOptions& the_options,
+                         const Dialect& the_dialect)
     : program(the_program),
       options(the_options),
-      scalar(find_scalar(the_options.scalar)),
+      dialect(the_dialect),
+      scalar(the_dialect.scalar),
       equations(program.plan.equations),
       mechanics(equations.mechanics),
       environment(environment_of(equations, arrays())),
@@ -43,7 +45,7 @@ CppContext::CppContext(const Program& the_program, const CppOptions& the_options
   split_parameters();
 }
 
-void CppContext::split_parameters() {
+void EmitContext::split_parameters() {
   std::set<std::string> of_system;
   std::set<std::string> of_method;
   for (const char* name : {"energy", "gradient", "invariants"}) {
@@ -64,13 +66,13 @@ void CppContext::split_parameters() {
   });
 }
 
-void CppContext::write_routine(CodeWriter& out, std::string_view name) {
+void EmitContext::write_routine(CodeWriter& out, std::string_view name) {
   const Routine* routine = code.routine(name);
   if (routine == nullptr || !written_.emplace(name).second) return;
-  print(out, *routine, {scalar, options.builtins, arrays() ? n() : 0}, used);
+  print(out, *routine, dialect, used);
 }
 
-void CppContext::write_with_callees(CodeWriter& out, std::string_view name) {
+void EmitContext::write_with_callees(CodeWriter& out, std::string_view name) {
   const std::set<std::string> wanted = callees(code, std::string(name));
   for (const Routine& routine : code.routines) {
     if (wanted.contains(routine.name)) write_routine(out, routine.name);

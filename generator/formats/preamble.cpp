@@ -1,4 +1,4 @@
-#include "generator/formats/cpp_preamble.hpp"
+#include "generator/formats/preamble.hpp"
 
 #include <fmt/format.h>
 
@@ -84,14 +84,14 @@ std::string equations_of(const Scheme& scheme) {
 
 }  // namespace
 
-void write_preamble(CodeWriter& out, const CppContext& context) {
+void write_preamble(CodeWriter& out, const EmitContext& context) {
   const Scheme& scheme = context.equations.scheme;
   const SolvePlan& plan = context.program.plan;
   out.remark("// ", fmt::format("{}, {}.  Generated: change the model, not this file.",
                                 context.mechanics.name, scheme.name));
   out.line("//");
   out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
-  const CppOptions& options = context.options;
+  const EmitOptions& options = context.options;
   if (!options.command.empty()) out.remark("//   command   ", options.command);
   if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);
   if (!options.model_digest.empty()) out.remark("//   sha256    ", options.model_digest);

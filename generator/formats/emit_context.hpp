@@ -7,23 +7,24 @@
 #include <vector>
 
 #include "generator/formats/code_writer.hpp"
-#include "generator/formats/cpp_expression.hpp"
-#include "generator/formats/cpp_header.hpp"
+#include "generator/formats/emit_options.hpp"
 #include "generator/formats/print_code.hpp"
+#include "generator/formats/print_expression.hpp"
 #include "generator/program/environment.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
-class CppContext {
+class EmitContext {
  public:
-  CppContext(const Program& program, const CppOptions& options);
-  CppContext(const CppContext&) = delete;
-  CppContext& operator=(const CppContext&) = delete;
+  EmitContext(const Program& program, const EmitOptions& options, const Dialect& dialect);
+  EmitContext(const EmitContext&) = delete;
+  EmitContext& operator=(const EmitContext&) = delete;
 
   const Program& program;
-  const CppOptions& options;
+  const EmitOptions& options;
+  const Dialect& dialect;
   const ScalarType& scalar;
   const StepEquations& equations;
   const Mechanics& mechanics;
