@@ -90,7 +90,7 @@ Command add_generate(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
-  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
+  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, c-header, cmake-package")
       ->type_name("NAME");
   parser
       ->add_option("--namespace", options->name_space,

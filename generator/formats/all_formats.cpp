@@ -6,6 +6,7 @@
 #include <array>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/c_header.hpp"
 #include "generator/formats/cmake_package.hpp"
 #include "generator/formats/cpp_header.hpp"
 
@@ -17,6 +18,9 @@ constexpr std::array kFormats = {
     NamedFormat{"cpp-header", "one self-contained C++ header (the default)", cpp_header_files},
     NamedFormat{"cpp-plugin", "one translation unit with the C interface of the runtime",
                 cpp_plugin_files},
+    NamedFormat{"c-header",
+                "a header in C11, of steps that are explicit or of small Newton systems",
+                c_header_files},
     NamedFormat{"cmake-package", "the header as a CMake project with an INTERFACE target",
                 cmake_package},
 };

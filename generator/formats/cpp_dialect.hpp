@@ -11,6 +11,7 @@ class CppDialect : public Dialect {
   CppDialect(const ScalarType& scalar_type, int count, bool builtins)
       : Dialect(scalar_type, count), builtins_(builtins) {}
 
+  [[nodiscard]] std::string language() const override { return "C++17"; }
   [[nodiscard]] std::string real() const override { return "Real"; }
   [[nodiscard]] std::string number(const std::string& integer) const override {
     return "Real(" + integer + ")";
@@ -19,6 +20,7 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string record(const std::string& name) const override { return name; }
   [[nodiscard]] std::string routine(const std::string& name) const override { return name; }
   [[nodiscard]] std::string block(const std::string& name) const override { return name; }
+  [[nodiscard]] std::string constant(const std::string& name) const override { return name; }
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }

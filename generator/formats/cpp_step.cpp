@@ -8,12 +8,6 @@ namespace hamgen {
 
 namespace {
 
-std::string sizes_text(const Field& field) {
-  std::string text;
-  for (const int size : field.sizes) text += fmt::format("[{}]", size);
-  return text;
-}
-
 std::string initial_value(const Field& field, const ScalarType& scalar) {
   std::string values;
   for (const Rational& value : field.values) {

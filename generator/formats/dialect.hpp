@@ -23,6 +23,7 @@ class Dialect {
   const ScalarType& scalar;
   const int n;
 
+  [[nodiscard]] virtual std::string language() const = 0;  // "C++17"
   // The type of a number, and an integer as one.
   [[nodiscard]] virtual std::string real() const = 0;
   [[nodiscard]] virtual std::string number(const std::string& integer) const = 0;
@@ -32,6 +33,8 @@ class Dialect {
   [[nodiscard]] virtual std::string record(const std::string& name) const = 0;
   [[nodiscard]] virtual std::string routine(const std::string& name) const = 0;
   [[nodiscard]] virtual std::string block(const std::string& name) const = 0;
+  // A number that the text defines: pi.
+  [[nodiscard]] virtual std::string constant(const std::string& name) const = 0;
   // A record of zeros, and those of an array.
   [[nodiscard]] virtual std::string empty_record(const std::string& name) const = 0;
   [[nodiscard]] virtual std::string empty_array() const = 0;

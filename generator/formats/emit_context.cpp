@@ -66,6 +66,12 @@ void EmitContext::split_parameters() {
   });
 }
 
+std::string sizes_text(const Field& field) {
+  std::string text;
+  for (const int size : field.sizes) text += fmt::format("[{}]", size);
+  return text;
+}
+
 void EmitContext::write_routine(CodeWriter& out, std::string_view name) {
   const Routine* routine = code.routine(name);
   if (routine == nullptr || !written_.emplace(name).second) return;

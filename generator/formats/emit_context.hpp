@@ -58,4 +58,7 @@ class EmitContext {
   std::set<std::string, std::less<>> written_;
 };
 
+// "[2][2]" of an array.
+[[nodiscard]] std::string sizes_text(const Field& field);
+
 }  // namespace hamgen

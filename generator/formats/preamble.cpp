@@ -90,7 +90,8 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
   out.remark("// ", fmt::format("{}, {}.  Generated: change the model, not this file.",
                                 context.mechanics.name, scheme.name));
   out.line("//");
-  out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
+  out.line(
+      fmt::format("//   made by   hamgen {}, in {}", HAMGEN_VERSION, context.dialect.language()));
   const EmitOptions& options = context.options;
   if (!options.command.empty()) out.remark("//   command   ", options.command);
   if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);

@@ -76,7 +76,7 @@ void RoutinePrinter::print() {
   out_.open(signature());
   for (const Argument& argument : routine_.arguments) {
     if (!dialect_.has_references() && !uses_object(routine_, argument.name)) {
-      out_.line("(void)" + argument.name + ";");
+      out_.line("(void)" + object(argument.name) + ";");
     }
   }
   if (!routine_.result.object.empty()) {
@@ -291,7 +291,7 @@ std::string RoutinePrinter::head(const KernelRange& range) const {
 std::string RoutinePrinter::name(const std::string& symbol) {
   if (symbol == "pi") {
     used_.pi = true;
-    return "pi";
+    return dialect_.constant("pi");
   }
   const auto place = routine_.places.find(symbol);
   if (place != routine_.places.end()) return text(place->second);
@@ -331,7 +331,9 @@ std::string RoutinePrinter::given(const Place& place) const {
 }
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {
-  const std::string name = uses_object(routine_, argument.name) ? object(argument.name) : "";
+  // C wants a name for every argument.
+  const bool named = !dialect_.has_references() || uses_object(routine_, argument.name);
+  const std::string name = named ? object(argument.name) : "";
   std::string sizes;
   for (const int size : argument.sizes) sizes += "[" + count_text(size) + "]";
   return dialect_.argument(argument, name, sizes);

@@ -46,6 +46,20 @@ TEST(Documentation, TheProgramOfTwoMethodsRuns) {
   EXPECT_EQ(run_program(program), "");
 }
 
+TEST(Documentation, TheProgramInCCompiles) {
+  const std::string text = read(root + "/docs/emitted-code.md");
+  const auto from = text.find("```c\n") + 5;
+  std::string program = text.substr(from, text.find("```\n", from) - from);
+  const std::string include = "#include \"pendulum.h\"\n";
+  const auto at = program.find(include);
+  ASSERT_NE(at, std::string::npos);
+  const SourceText model = read_source(root + "/hamiltonians/pendulum.ham");
+  program.replace(at, include.size(),
+                  without_pragma(generate(model, {.format = "c-header"}).at(0).text));
+  EXPECT_EQ(messages("gcc", program, {"-x", "c", "-std=c11", "-Wall", "-Wextra", "-Wpedantic"}),
+            "");
+}
+
 // Every name in the table of parts is one of the header's.
 TEST(Documentation, ThePartsOfAHeaderAreThere) {
   const std::string header =

@@ -98,6 +98,14 @@ TEST(HostileNames, GiveCodeThatCompilesForSweepsAndForAFixedPoint) {
   EXPECT_EQ(messages("g++", written_out({.solver = "fixed-point"})), "");
 }
 
+TEST(HostileNames, GiveCodeThatCompilesInC) {
+  for (const char* alpha : {"", "0"}) {
+    const std::string text = written_out({.alpha = alpha, .format = "c-header"});
+    EXPECT_GT(text.size(), 100000u);
+    EXPECT_EQ(messages("gcc", text, {"-x", "c", "-std=c11", "-Wall"}), "") << alpha;
+  }
+}
+
 TEST(HostileNames, GiveCodeThatCompilesForLoops) { EXPECT_EQ(messages("g++", in_loops({})), ""); }
 
 TEST(HostileNames, GiveCodeThatCompilesForExplicitLoops) {
