@@ -36,7 +36,8 @@ struct Request {
   std::string solver;                 // newton, fixed-point, sweeps:K
   std::string scalar;                 // float, double, long-double, quad
   std::string format;                 // cpp-header, cpp-plugin, cmake-package
-  std::string name_space;             // of the emitted code; default MODEL::SCHEME
+  std::string name_space;             // SYSTEM::METHOD of the emitted code, or one for both
+  std::string support;                // of fixed blocks: own (of every header) or shared
   std::vector<std::string> fold;      // parameters to burn in
   bool tangent = false;               // the linearised step too, where it can be written
   std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code

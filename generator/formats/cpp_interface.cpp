@@ -7,7 +7,7 @@ namespace hamgen {
 namespace {
 
 // Copies an array of doubles into a struct's fields.
-void write_fill(CodeWriter& out, const CppContext& context, const std::string& target,
+void write_fill(CodeWriter& out, const EmitContext& context, const std::string& target,
                 const std::vector<std::string>& names, const std::string& values) {
   if (context.arrays() && target == "result" && values == "state") {
     const std::string low =
@@ -30,7 +30,7 @@ void write_fill(CodeWriter& out, const CppContext& context, const std::string& t
   }
 }
 
-void write_tangent_interface(CodeWriter& out, const CppContext& context) {
+void write_tangent_interface(CodeWriter& out, const EmitContext& context) {
   const int size = 2 * context.n();
   std::string increments;
   std::string ends;
@@ -74,26 +74,24 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
 
 }  // namespace
 
-void write_interface(CodeWriter& out, const CppContext& context) {
+void write_interface(CodeWriter& out, const EmitContext& context) {
   const std::string description =
       cpp_string(fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name));
   out.line();
   out.line("// The interface of plugin.h.");
-  out.line(fmt::format("using namespace {};", context.options.name_space));
-  out.line();
+  const std::string method = context.options.spaces.of_method();
   out.open("struct hamgen_run");
-  out.line("Propagator propagator;");
-  out.line("Parameters par;");
+  out.line(method + "::Propagator propagator;");
   out.close(";");
   out.line();
+  out.line(fmt::format("namespace {} {{", method));
   out.line("namespace {");
   out.line();
   auto fill = [&](const std::string& name, const std::string& type,
                   const std::vector<std::string>& names, const std::string& values) {
-    out.open(
-        fmt::format("{0} {1}([[maybe_unused]] const double* {2}, [[maybe_unused]] const "
-                    "double* {2}_lo)",
-                    type, name, values));
+    const bool low = context.scalar.digits > 53 && !names.empty();
+    out.open(fmt::format("{} {}(const double*{}, const double*{})", type, name,
+                         names.empty() ? "" : " " + values, low ? " " + values + "_lo" : ""));
     out.line(type + " result;");
     write_fill(out, context, "result", names, values);
     out.line("return result;");
@@ -105,8 +103,9 @@ void write_interface(CodeWriter& out, const CppContext& context) {
   out.lines(
       R"(hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
                    const double* state, const double* state_lo) {
-  const Parameters par = read_parameters(parameters, parameters_lo);
-  return new hamgen_run{Propagator(par, static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)), par};
+  return new hamgen_run{Propagator(read_parameters(parameters, parameters_lo),
+                                   static_cast<Real>(h) + static_cast<Real>(h_lo),
+                                   read_state(state, state_lo))};
 }
 
 void destroy(hamgen_run* run) { delete run; }
@@ -125,7 +124,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     total.iterations += last.iterations;
     ++total.steps_done;
     if (watch_energy) {
-      const double now = static_cast<double>(energy(run->par, run->propagator.state()));
+      const double now = static_cast<double>(energy(run->propagator.parameters(), run->propagator.state()));
       if (i == 0 || now < total.energy_min) total.energy_min = now;
       if (i == 0 || now > total.energy_max) total.energy_max = now;
       total.energy_last = now;
@@ -173,28 +172,26 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     out.line(fmt::format("for (int i = 0; i < {}; ++i) values[{}i] = static_cast<double>({}[i]);",
                          count, first == 0 ? "" : fmt::format("{} + ", first), array));
   };
-  const auto open_vector_function = [&out](const std::string& name) {
-    out.open(
-        fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
-                    "double* state, [[maybe_unused]] double* values)",
-                    name));
+  const auto open_vector_function = [&out](const std::string& name, std::size_t count) {
+    out.open(count == 0 ? fmt::format("void {}(const double*, const double*, double*)", name)
+                        : fmt::format("void {}(const double* parameters, const double* state, "
+                                      "double* values)",
+                                      name));
   };
   const std::string arguments = "read_parameters(parameters, nullptr), ";
   const std::string state = "read_state(state, nullptr)";
   const std::size_t invariants = context.mechanics.invariants.size();
+  const auto size = static_cast<std::size_t>(2 * context.n());
   const std::size_t modified = context.program.modified_powers.size();
-  open_vector_function("invariants_of");
+  open_vector_function("invariants_of", invariants + modified);
   fill_values("result", invariants, 0, "invariants(" + arguments + state + ", result);");
   fill_values("modified", modified, invariants,
               fmt::format("modified_energies({}{}, {}, modified);", arguments,
                           literal(context.options.watched_step, context.scalar), state));
   out.close();
   out.line();
-  open_vector_function("gradient_of");
-  if (context.arrays()) out.line("const State z = " + state + ";");
-  fill_values("result", static_cast<std::size_t>(2 * context.n()), 0,
-              "gradient(" + arguments +
-                  (context.arrays() ? "z.q, z.p, result, result + n" : state + ", result") + ");");
+  open_vector_function("gradient_of", size);
+  fill_values("result", size, 0, "gradient(" + arguments + state + ", result);");
   out.close();
   out.line();
   if (context.options.tangent) write_tangent_interface(out, context);
@@ -207,9 +204,10 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");
+  out.line(fmt::format("}}  // namespace {}", method));
   out.line();
   out.open("extern \"C\" const hamgen_plugin* hamgen_plugin_entry()");
-  out.line("return hamgen_arithmetic_is_ieee() ? &plugin : nullptr;");
+  out.line(fmt::format("return hamgen_arithmetic_is_ieee() ? &{}::plugin : nullptr;", method));
   out.close();
 }
 
