@@ -58,8 +58,9 @@ long record_distance(const RunOptions& options, const SceneValues& scene) {
   return every;
 }
 
-Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
+Columns columns_of(const PluginSource& plugin, const SceneValues& scene, bool wide) {
   Columns columns;
+  columns.wide = wide;
   columns.state = element_names(plugin.model.coordinates);
   const std::vector<std::string> momenta = element_names(plugin.model.momenta);
   columns.state.insert(columns.state.end(), momenta.begin(), momenta.end());
@@ -184,8 +185,10 @@ int run(const RunOptions& options) {
 
   std::optional<TrajectoryTable> table;
   if (!options.output.empty())
-    table.emplace(options.output, metadata(plugin, scene, start, every), columns_of(plugin, scene));
+    table.emplace(options.output, metadata(plugin, scene, start, every),
+                  columns_of(plugin, scene, loaded.library->is_wide()));
   runtime::Integrator integrator(loaded.library, start);
+  report.scalar_digits = loaded.library->plugin().scalar_digits;
   report.initial_invariants = integrator.invariants();
   runtime::ProgressBar bar(plugin.model.name);
   runtime::IntegrateOptions integrate_options;

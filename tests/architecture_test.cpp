@@ -103,6 +103,7 @@ const std::vector<Rule>& rules() {
        {fmt, other}},
       // How values of studies look.
       {"app/output/", with_generator_values({"app/output/", "app/studies/"}), {fmt, other}},
+      {"app/output/wide_text.", {"app/output/", "runtime/"}, {quadmath}},
       {"app/", {"app/", "generator/", "runtime/"}, {fmt, system, other}},
       // They measure with the studies, without the command, and with what tests measure by.
       {"benchmarks/",

@@ -18,8 +18,9 @@ struct RunReport {
   const runtime::InitialValues* start = nullptr;
   runtime::RunSummary summary;
   std::vector<runtime::Wide> state;  // the last good one: q then p
-  std::vector<double> initial_invariants;
-  std::vector<double> final_invariants;
+  std::vector<runtime::Wide> initial_invariants;
+  std::vector<runtime::Wide> final_invariants;
+  int scalar_digits = 53;  // binary, of the scalar
   bool from_cache = false;
   bool interpreted = false;  // there was no compiler
   double generate_seconds = 0.0;
