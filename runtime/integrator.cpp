@@ -111,10 +111,14 @@ Report Integrator::advance(long long steps, bool watch_energy) {
   return report;
 }
 
-std::vector<Wide> Integrator::state() const {
+std::vector<Wide> Integrator::state() const { return read(library_->plugin().get_state); }
+
+std::vector<Wide> Integrator::carry() const { return read(library_->plugin().get_carry); }
+
+std::vector<Wide> Integrator::read(void (*get)(const hamgen_run*, double*, double*)) const {
   std::vector<double> hi(2 * library_->degrees_of_freedom());
   std::vector<double> lo(hi.size());
-  library_->plugin().get_state(run_.get(), hi.data(), lo.data());
+  get(run_.get(), hi.data(), lo.data());
   std::vector<Wide> values(hi.size());
   for (std::size_t i = 0; i < hi.size(); ++i) values[i] = {.hi = hi[i], .lo = lo[i]};
   return values;

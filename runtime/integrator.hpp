@@ -50,6 +50,8 @@ class Integrator {
   [[nodiscard]] long long steps_done() const { return steps_done_; }
 
   [[nodiscard]] std::vector<Wide> state() const;
+  // What rounding took from it: the sum of both, exactly, is what the next step starts from.
+  [[nodiscard]] std::vector<Wide> carry() const;
   // The state rounded to double; 2n values.
   [[nodiscard]] std::vector<double> rounded_state() const;
   // Of the state, with the digits of the scalar.
@@ -66,6 +68,7 @@ class Integrator {
     void operator()(hamgen_run* run) const { plugin->destroy(run); }
   };
 
+  [[nodiscard]] std::vector<Wide> read(void (*get)(const hamgen_run*, double*, double*)) const;
   hamgen_report call(long long steps, bool watch_energy);
 
   // The run is destroyed before the code that does it is unloaded.

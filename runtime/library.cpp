@@ -20,7 +20,7 @@ bool is_complete(const hamgen_plugin& plugin) {
   return plugin.degrees_of_freedom > 0 && plugin.parameter_count >= 0 &&
          plugin.invariant_count >= 0 && plugin.description != nullptr && plugin.solver != nullptr &&
          plugin.create != nullptr && plugin.destroy != nullptr && plugin.advance != nullptr &&
-         plugin.get_state != nullptr && plugin.energy != nullptr &&
+         plugin.get_state != nullptr && plugin.get_carry != nullptr && plugin.energy != nullptr &&
          (plugin.invariants != nullptr || plugin.invariant_count == 0) &&
          plugin.gradient != nullptr;
 }

@@ -59,6 +59,9 @@ struct hamgen_plugin {
   void (*advance)(struct hamgen_run* run, long long steps, int watch_energy,
                   struct hamgen_report* report);
   void (*get_state)(const struct hamgen_run* run, double* state, double* state_lo);
+  /* What rounding took from the state: state + state_lo + carry + carry_lo, exactly, is what the next
+   * step starts from. */
+  void (*get_carry)(const struct hamgen_run* run, double* carry, double* carry_lo);
   /* The hi of H. */
   double (*energy)(const double* parameters, const double* parameters_lo, const double* state,
                    const double* state_lo, double* energy_lo);

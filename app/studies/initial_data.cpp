@@ -8,7 +8,6 @@
 
 #include "app/studies/domain.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/mechanics/derive.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "runtime/csv_writer.hpp"
 

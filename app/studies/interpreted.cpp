@@ -114,6 +114,18 @@ void get_state(const hamgen_run* run, double* state, double* low) {
 }
 
 template <class Real>
+void get_carry(const hamgen_run* run, double* carry, double* low) {
+  std::vector<Real> rest = interpreter_of<Real>(run).state();
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    double lo = 0.0;
+    const double hi = high_part(rest[i], &lo);
+    rest[i] = (rest[i] - static_cast<Real>(hi) - static_cast<Real>(lo)) +
+              interpreter_of<Real>(run).carry()[i];
+  }
+  write(rest, carry, low);
+}
+
+template <class Real>
 Interpreter<Real>& functions_with(const double* parameters, const double* parameters_low,
                                   std::vector<Real>& state, const double* values,
                                   const double* values_low) {
@@ -176,6 +188,7 @@ runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits
                 destroy<Real>,
                 advance<Real>,
                 get_state<Real>,
+                get_carry<Real>,
                 energy<Real>,
                 invariants<Real>,
                 gradient<Real>,

@@ -110,6 +110,13 @@ double high_part(Real value, double* lo) {
   return hi;
 }
 
+// What hi + lo leave of a state's value, and what rounding took from it.
+Real carried(Real value, Real carry) {
+  double lo;
+  const double hi = high_part(value, &lo);
+  return (value - static_cast<Real>(hi) - static_cast<Real>(lo)) + carry;
+}
+
 hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
                    const double* state, const double* state_lo) {
   const Parameters par = read_parameters(parameters, parameters_lo);
@@ -164,6 +171,20 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   }
   out.close();
   out.line();
+  out.open("void get_carry(const hamgen_run* run, double* carry, double* carry_lo)");
+  out.line("const State& z = run->propagator.state();");
+  out.line("const State& c = run->propagator.carry();");
+  if (context.arrays()) {
+    out.open("for (int i = 0; i < n; ++i)");
+    out.line("carry[i] = high_part(carried(z.q[i], c.q[i]), carry_lo + i);");
+    out.line("carry[n + i] = high_part(carried(z.p[i], c.p[i]), carry_lo + n + i);");
+    out.close();
+  }
+  for (int i = 0; i < (context.arrays() ? 0 : 2 * context.n()); ++i)
+    out.line(fmt::format("carry[{0}] = high_part(carried(z.{1}, c.{1}), carry_lo + {0});", i,
+                         context.state_field(i)));
+  out.close();
+  out.line();
   out.lines(
       R"(double energy_of(const double* parameters, const double* parameters_lo, const double* state,
                  const double* state_lo, double* energy_lo) {
@@ -215,7 +236,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   if (context.options.tangent) write_tangent_interface(out, context);
   out.line(
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, "
-                  "{}, create, destroy, advance, get_state, energy_of, invariants_of, "
+                  "{}, create, destroy, advance, get_state, get_carry, energy_of, invariants_of, "
                   "gradient_of, {}}};",
                   context.n(), context.environment.parameters.size(), invariants + modified,
                   context.scalar.digits, description, cpp_string(context.program.plan.solver),

@@ -52,7 +52,7 @@ TEST(Library, RefusesWhatIsNotAPluginOfThisVersion) {
   EXPECT_NE(
       failure_of_changed("{HAMGEN_PLUGIN_VERSION,", "{HAMGEN_PLUGIN_VERSION + 1,").find(versions),
       std::string::npos);
-  EXPECT_NE(failure_of_changed("advance, get_state, energy_of,", "nullptr, get_state, energy_of,")
+  EXPECT_NE(failure_of_changed("advance, get_state, get_carry,", "nullptr, get_state, get_carry,")
                 .find("its table of functions is incomplete"),
             std::string::npos);
   EXPECT_NE(failure_of_changed("return &plugin;", "return nullptr;")

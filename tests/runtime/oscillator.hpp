@@ -86,6 +86,10 @@ void get_state(const hamgen_run* run, double* z, double* lo) {
   if (lo) lo[0] = lo[1] = 0.0;
 }
 
+void get_carry(const hamgen_run*, double* carry, double* lo) {
+  carry[0] = carry[1] = lo[0] = lo[1] = 0.0;
+}
+
 void invariants(const double* par, const double*, const double* z, const double*, double* values,
                 double* lo) {
   values[0] = energy(par, z) / par[0];
@@ -98,7 +102,7 @@ void gradient(const double* par, const double* z, double* g) {
 }
 
 const hamgen_plugin plugin = {HAMGEN_PLUGIN_VERSION, 1, 2, 1, 53, "oscillator, stormer-verlet",
-                              "explicit", create, destroy, advance, get_state, energy_of, invariants,
+                              "explicit", create, destroy, advance, get_state, get_carry, energy_of, invariants,
                               gradient};
 
 }  // namespace
