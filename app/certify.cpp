@@ -48,13 +48,13 @@ int run_certify(const CertifyOptions& options) {
   const SceneValues scene = complete_scene(setting.model, setting.scene);
   take_gauge_at(scene, setting.model, setting.request);
   const Scheme scheme = request_scheme(setting.source, setting.request);
+  require_certifiable(setting.request, setting.model, scheme);
   const PluginSource plugin = generate_plugin(setting.source, setting.request);
   const runtime::LoadedPlugin loaded =
       options.interpret ? interpreted_integrator(setting.source, setting.request, plugin)
                         : load_integrator(plugin, options.compiler, &interrupt_flag());
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   const Certificate certificate = certify(
-      setting.request,
       {.plugin = &plugin,
        .library = loaded.library,
        .scene = &scene,

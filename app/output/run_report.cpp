@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/output/certify_output.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/wide_text.hpp"
 #include "app/studies/initial_data.hpp"
@@ -231,6 +232,7 @@ std::string summary_text(const RunReport& report) {
   const std::size_t n = report.state.size() / 2;
   text += entry("last q", numbers(report, 0, n));
   text += entry("last p", numbers(report, n, 2 * n));
+  if (report.certificate) text += entry("certified", certificate_sentence(*report.certificate));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
   // It may be a command, to be pasted: not wrapped.
@@ -252,6 +254,7 @@ std::string json_text(const RunReport& report) {
   result["invariants"] = invariants_json(report);
   result["state"] = state_json(report.state, is_wide(report));
   result["parameters"] = parameters_json(report);
+  if (report.certificate) result["certified"] = certificate_json(*report.certificate);
   result["solver"] = {{"kind", report.plugin->solver},
                       {"iterations_per_step", summary.iterations_per_step()},
                       {"left_out", report.plugin->left_out}};

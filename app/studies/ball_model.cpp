@@ -38,11 +38,10 @@ BallModel::BallModel(const Model& model, std::map<std::string, Ball> parameters,
   for (const Size& size : model.sizes) sizes_[size.name] = size.value;
 }
 
-std::string BallModel::unknown_function() const {
+std::string function_without_derivatives(const Model& model) {
   std::set<std::string> names;
-  collect_functions(model_.hamiltonian, names);
-  for (const Definition& definition : model_.definitions)
-    collect_functions(definition.value, names);
+  collect_functions(model.hamiltonian, names);
+  for (const Definition& definition : model.definitions) collect_functions(definition.value, names);
   const auto unknown = std::ranges::find_if_not(names, has_ball_derivatives);
   return unknown == names.end() ? "" : *unknown;
 }

@@ -24,8 +24,6 @@ class BallModel {
   [[nodiscard]] BallJet value(const NodePtr& node, std::span<const Ball> z, bool second) const;
 
   [[nodiscard]] long bits() const { return bits_; }
-  // A function that H uses and that has no derivatives in balls; empty if there is none.
-  [[nodiscard]] std::string unknown_function() const;
 
  private:
   class Evaluation;
@@ -40,5 +38,8 @@ class BallModel {
   std::map<std::string, Rational> sizes_;
   long bits_;
 };
+
+// A function that H uses and that has no derivatives in balls; empty if there is none.
+[[nodiscard]] std::string function_without_derivatives(const Model& model);
 
 }  // namespace hamgen::app

@@ -99,12 +99,16 @@ ExactSum in_scalar(const runtime::Wide& value, int scalar_digits) {
   }
 }
 
-Certificate certify(const Request& method, const CertifyRequest& request) {
+void require_certifiable(const Request& method, const Model& model, const Scheme& scheme) {
   if (method.solver.starts_with("sweeps"))
     throw UsageError(
         fmt::format("--solver {} leaves the step unsolved: there is no exact map that it is "
                     "near to\nhelp: drop --solver",
                     method.solver));
+  StepCertifier::require_possible(model, scheme);
+}
+
+Certificate certify(const CertifyRequest& request) {
   const Model& model = request.plugin->model;
   StepCertifier certifier(model, *request.scheme, numbers_of(request));
   std::vector<std::string> names = element_names(model.coordinates);

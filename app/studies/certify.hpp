@@ -46,8 +46,12 @@ struct Certificate {
   [[nodiscard]] bool holds() const { return failed == 0 && ended.empty() && certified > 0; }
 };
 
-// Throws what StepCertifier throws, and UsageError for sweeps, which leave the step unsolved.
-[[nodiscard]] Certificate certify(const Request& method, const CertifyRequest& request);
+// Throws UsageError, with the reason, for a method whose steps cannot be certified, such as sweeps,
+// which leave the step unsolved; ToolError where hamgen was built without Arb.
+void require_certifiable(const Request& method, const Model& model, const Scheme& scheme);
+
+// Of a method for which that does not throw.
+[[nodiscard]] Certificate certify(const CertifyRequest& request);
 
 // The number that the scalar makes of hi + lo.
 [[nodiscard]] ExactSum in_scalar(const runtime::Wide& value, int scalar_digits);

@@ -43,14 +43,18 @@ struct StepCertifier::Balls {
   BallStep step;
 };
 
-StepCertifier::StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers) {
+void StepCertifier::require_possible(const Model& model, const Scheme& scheme) {
   const auto n = static_cast<std::size_t>(degrees_of_freedom(model));
   if (const std::string why = BallStep::refusal(scheme, n); !why.empty())
     throw UsageError(fmt::format("{} cannot be certified: {}", scheme.name, why));
-  balls_ = std::make_unique<Balls>(model, scheme, numbers);
-  if (const std::string name = balls_->model.unknown_function(); !name.empty())
+  if (const std::string name = function_without_derivatives(model); !name.empty())
     throw UsageError(fmt::format(
         "{} cannot be certified: the function {} has no derivatives in balls", model.name, name));
+}
+
+StepCertifier::StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers) {
+  require_possible(model, scheme);
+  balls_ = std::make_unique<Balls>(model, scheme, numbers);
 }
 
 StepCertifier::~StepCertifier() = default;

@@ -35,8 +35,11 @@ struct StepDistance {
 
 class StepCertifier {
  public:
-  // Throws UsageError where the method's map cannot be enclosed, with the reason, and ToolError
-  // where hamgen was built without Arb.  Model and scheme outlive this.
+  // // Throws UsageError where the method's map cannot be enclosed, with the reason, and ToolError
+  // where hamgen was built without Arb.
+  static void require_possible(const Model& model, const Scheme& scheme);
+
+  // Throws the same.  Model and scheme outlive this.
   StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers);
   ~StepCertifier();
   StepCertifier(const StepCertifier&) = delete;

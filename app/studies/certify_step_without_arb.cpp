@@ -6,13 +6,17 @@ namespace hamgen::app {
 
 struct StepCertifier::Balls {};
 
-StepCertifier::StepCertifier(const Model& /*model*/, const Scheme& /*scheme*/,
-                             const StepNumbers& /*numbers*/) {
+void StepCertifier::require_possible(const Model& /*model*/, const Scheme& /*scheme*/) {
   throw runtime::ToolError(
       {.message =
            "this hamgen was built without Arb, the library of ball arithmetic that steps are "
            "certified by\nhelp: apt-get install libflint-arb-dev libflint-dev, then configure "
            "with -DHAMGEN_WITH_ARB=ON and build again"});
+}
+
+StepCertifier::StepCertifier(const Model& model, const Scheme& scheme,
+                             const StepNumbers& /*numbers*/) {
+  require_possible(model, scheme);
 }
 
 StepCertifier::~StepCertifier() = default;
