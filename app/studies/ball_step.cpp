@@ -193,6 +193,11 @@ BallSolution BallStep::stages_step(const RungeKutta& method, const BallVector& z
         return result;
       }};
   BallSolution solution = solve(equations, from, false);
+  if (!solution.failure.empty()) {
+    // Where a step is long the line leads astray.
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] = z[i % size].midpoint();
+    solution = solve(equations, from, false);
+  }
   if (!solution.failure.empty()) return solution;
   BallVector end = z;
   for (std::size_t i = 0; i < s; ++i)
