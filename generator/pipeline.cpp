@@ -193,14 +193,18 @@ void drop_unused_parameters(StepEquations& equations) {
                 [&](const Quantity& parameter) { return !used.contains(parameter.name); });
 }
 
-Stages run_stages(const SourceText& source, const Request& request) {
-  Model model = read_request(source, request);
-  require_defaults_in_range(model, find_scalar(request.scalar));
-  // Loops know one set of parameters for all degrees of freedom.
+// Loops know one set of parameters for all degrees of freedom.
+Mechanics derive_for(const Model& model, const Request& request) {
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
       (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  Mechanics mechanics = derive(model, keep_sums);
+  return derive(model, keep_sums);
+}
+
+Stages run_stages(const SourceText& source, const Request& request) {
+  Model model = read_request(source, request);
+  require_defaults_in_range(model, find_scalar(request.scalar));
+  Mechanics mechanics = derive_for(model, request);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
@@ -335,6 +339,11 @@ Proof verify_step(const SourceText& source, const Request& request,
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
   return corners_of_hamiltonian(derive(read_request(source, request)));
+}
+
+Scheme request_scheme(const SourceText& source, const Request& request) {
+  const Model model = read_request(source, request);
+  return choose_scheme(model, derive_for(model, request), request);
 }
 
 StepCode make_step_code(const SourceText& source, const Request& request) {

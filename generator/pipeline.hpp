@@ -13,6 +13,7 @@
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/program/step_code.hpp"
+#include "generator/schemes/scheme.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
@@ -83,6 +84,9 @@ void check_step(const SourceText& source, const Request& request);
 [[nodiscard]] std::vector<LinearPoint> linear_points(const SourceText& source,
                                                      const Request& request,
                                                      const SceneValues& scene);
+
+// The method that the request means for the model's system.
+[[nodiscard]] Scheme request_scheme(const SourceText& source, const Request& request);
 
 // The step as records and routines: what the formats print and the interpreter runs.
 [[nodiscard]] StepCode make_step_code(const SourceText& source, const Request& request);
