@@ -9,9 +9,9 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
+#include "generator/emitted_spaces.hpp"
 #include "generator/equations/step_equations.hpp"
 #include "generator/formats/all_formats.hpp"
-#include "generator/formats/cmake_package.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
@@ -108,23 +108,22 @@ std::string stem(const std::string& path) {
   return name.empty() ? "model" : name;
 }
 
-CppOptions cpp_options(const SourceText& source, const Program& program, const Request& request) {
-  CppOptions options{.command = request.command,
-                     .model_path = source.path,
-                     .model_digest = request.model_digest,
-                     .scalar = request.scalar,
-                     .name_space = request.name_space,
-                     .tangent = request.tangent && !without_tangent(program),
-                     .watched_step = request.step};
-  if (!options.name_space.empty()) {
-    require_namespace(options.name_space);
-  } else {
-    const StepEquations& equations = program.plan.equations;
-    std::string scheme = equations.scheme.name;
-    std::ranges::replace(scheme, '-', '_');
-    options.name_space = namespace_identifier(equations.mechanics.name) + "::" + identifier(scheme);
-  }
-  return options;
+bool shares_support(const Request& request) {
+  if (request.support.empty() || request.support == "own") return false;
+  if (request.support == "shared") return true;
+  throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
+}
+
+EmitOptions emit_options(const SourceText& source, const Program& program, const Request& request) {
+  return {.file_name = stem(source.path),
+          .command = request.command,
+          .model_path = source.path,
+          .model_digest = request.model_digest,
+          .scalar = request.scalar,
+          .spaces = emitted_spaces(program.plan.equations, request),
+          .tangent = request.tangent && !without_tangent(program),
+          .shared_support = shares_support(request),
+          .watched_step = request.step};
 }
 
 // The stages, in order: this is the only place that knows it.
@@ -224,6 +223,12 @@ FoldedModel fold_for_scene(const Model& model, const Request& request) {
   return fold(observed(model, scene.values), scene, request.fold);
 }
 
+// Loops know one set of parameters for all degrees of freedom.
+bool may_keep_sums(const Request& request) {
+  return request.gauge.empty() && !request.observe_curvature &&
+         (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
+}
+
 Specialised make_system(const Model& model, const Request& request, bool keep_sums) {
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
@@ -235,11 +240,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   require_defaults_in_range(model, find_scalar(request.scalar));
   FoldedModel folded = fold_for_scene(model, request);
-  // Loops know one set of parameters for all degrees of freedom.
-  const bool keep_sums =
-      request.gauge.empty() && !request.observe_curvature &&
-      (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  Specialised system = make_system(folded.model, request, keep_sums);
+  Specialised system = make_system(folded.model, request, may_keep_sums(request));
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
@@ -287,7 +288,7 @@ Proof prove(const Stages& stages, const Request& request,
 }
 
 // What the first lines of a header say of the step.
-void add_proof(const Stages& stages, const Request& request, CppOptions& options) {
+void add_proof(const Stages& stages, const Request& request, EmitOptions& options) {
   const Proof proof = prove(stages, request);
   require(proof, request.require);
   require_emitted(proof);
@@ -299,7 +300,7 @@ void add_proof(const Stages& stages, const Request& request, CppOptions& options
 // What `write` emits.  A constant the scalar has no number for comes out of H, combined from its
 // numbers, unless the request has numbers of its own.
 template <typename Write>
-std::string written(const Model& model, const Request& request, Write write) {
+auto written(const Model& model, const Request& request, Write write) {
   try {
     return write();
   } catch (const OutOfRange& error) {
@@ -312,16 +313,11 @@ std::string written(const Model& model, const Request& request, Write write) {
   }
 }
 
-std::string header_text(const Stages& stages, const CppOptions& options, const Request& request) {
+std::string header_text(const Stages& stages, const EmitOptions& options, const Request& request) {
   return written(stages.model, request, [&] { return cpp_header(stages.program, options); });
 }
 
-OutputFile header_file(const SourceText& source, const Stages& stages, const CppOptions& options,
-                       const Request& request) {
-  return {stem(source.path) + ".hpp", header_text(stages, options, request)};
-}
-
-std::string plugin_text(const Stages& stages, const CppOptions& options, const Request& request) {
+std::string plugin_text(const Stages& stages, const EmitOptions& options, const Request& request) {
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
@@ -336,20 +332,13 @@ Model read_request(const SourceText& source, const Request& request) {
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  CppOptions options = cpp_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages.program, request);
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
   add_proof(stages, request, options);
-  const std::string format = request.format.empty() ? "cpp-header" : request.format;
-  const std::string name = stem(source.path);
-  if (format == "cpp-header") return {header_file(source, stages, options, request)};
-  if (format == "cpp-plugin")
-    return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
-  if (format == "cmake-package")
-    return cmake_package(name, header_text(stages, options, request), needs_eigen(stages.program),
-                         request.scalar == "quad");
-  throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
+  const NamedFormat& format = find_format(request.format);
+  return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
@@ -365,7 +354,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 
 void check_step(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  static_cast<void>(header_text(stages, cpp_options(source, stages.program, request), request));
+  static_cast<void>(header_text(stages, emit_options(source, stages.program, request), request));
 }
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
@@ -402,20 +391,25 @@ std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Reque
   return corners_of_hamiltonian(derive(read_request(source, request)));
 }
 
+Scheme request_scheme(const SourceText& source, const Request& request) {
+  const Model model = read_request(source, request);
+  return choose_scheme(model, derive(model, may_keep_sums(request)), request);
+}
+
 StepCode make_step_code(const SourceText& source, const Request& request) {
   return step_code(run_stages(source, request).program);
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
   Stages stages = run_stages(source, request);
-  CppOptions options = cpp_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages.program, request);
   PluginSource plugin;
   // What is compiled does not depend on values that are given at run time.
-  CppOptions anonymous = options;
+  EmitOptions anonymous = options;
   anonymous.command.clear();
   plugin.text = plugin_text(stages, anonymous, request);
   if (proof == HeaderProof::included) add_proof(stages, request, options);
-  plugin.header = header_file(source, stages, options, request);
+  plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
     plugin.scheme_name = stages.equations.scheme.description;

@@ -8,9 +8,7 @@
 #include <numbers>
 
 #include "app/studies/domain.hpp"
-#include "generator/algebra/evaluate.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/mechanics/derive.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -123,20 +121,6 @@ void require_defined(const PluginSource& plugin, const SceneValues& scene,
       model.source);
 }
 
-// E0 = H(q0, p0) with the digits of a wide scalar: a plugin tells energies as doubles.
-std::optional<Rational> exact_energy(const Model& model, const SceneValues& scene) {
-  if (degrees_of_freedom(model) > kMostWrittenOut) return std::nullopt;
-  Values values;
-  const auto add = [&values](const std::vector<std::string>& names,
-                             const std::vector<Rational>& numbers) {
-    for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = numbers[i];
-  };
-  add(element_names(model.parameters), scene.parameters);
-  add(element_names(model.coordinates), scene.q);
-  add(element_names(model.momenta), scene.p);
-  return evaluate(written_out_hamiltonian(model), values);
-}
-
 }  // namespace
 
 namespace {
@@ -173,15 +157,6 @@ std::vector<runtime::Wide> whole_state(const PluginSource& plugin, const SceneVa
       whole.push_back(wide(value));
       if (!is_wide) whole.back().lo = 0.0;
     }
-  }
-  return with_kept(std::move(whole), state, plugin);
-}
-
-std::vector<double> whole_state(const PluginSource& plugin, const SceneValues& scene,
-                                std::span<const double> state) {
-  std::vector<double> whole;
-  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const Rational& value : *half) whole.push_back(to_double(value));
   }
   return with_kept(std::move(whole), state, plugin);
 }
@@ -293,12 +268,7 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
   require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;
-  std::optional<Rational> energy;
-  if (scalar->digits > 53) energy = exact_energy(model, scene);
-  values.parameters.back() =
-      energy
-          ? wide(*energy)
-          : runtime::Wide{.hi = library.energy(rounded(values.parameters), rounded(values.state))};
+  values.parameters.back() = library.energy(values.parameters, values.state);
   return values;
 }
 

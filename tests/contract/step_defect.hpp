@@ -385,7 +385,7 @@ struct OneSubstep {
   using State = typename Code::State;
   using Parameters = typename Code::Parameters;
   OneSubstep(const Parameters& par, Quad h, const State& z) : all(par, h, z), z_(z) {
-    all.h_[0] = h;
+    all.lengths_[0] = h;
     if constexpr (requires { all.k_; }) all.k_[0] = prepare(par, h);
   }
   auto step() { return all.substep(0, z_, carry_); }
@@ -407,7 +407,7 @@ Defects run(const typename Code::Parameters& par, const Equations& equations, ty
                                                           propagator.carry_};
       for (substep.i = 0; substep.i < Code::Propagator::substeps; ++substep.i) {
         defects.failed = !watch.template solve<decltype(substep), OneSubstep<Exact>>(
-            substep, propagator.h_[substep.i], defects);
+            substep, propagator.lengths_[substep.i], defects);
         if (defects.failed) return defects;
       }
       propagator.z_ = substep.z_;
