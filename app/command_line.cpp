@@ -82,7 +82,8 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("NAME");
   command.add_option("--scalar", options.scalar, "float, double (default), long-double or quad")
       ->type_name("TYPE");
-  add_repeated(command, "--fold", options.fold, "burn a parameter's default value into the code")
+  add_repeated(command, "--fold", options.fold,
+               "put a parameter's value, the scene's or the default, into the code")
       ->type_name("NAME");
 }
 

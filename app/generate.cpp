@@ -91,7 +91,9 @@ Command add_generate(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
-  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, c-header, cmake-package")
+  parser
+      ->add_option("--format", options->format,
+                   "cpp-header (default), cpp-plugin, c-header, cmake-package")
       ->type_name("NAME");
   parser
       ->add_option("--namespace", options->name_space,
@@ -105,10 +107,10 @@ Command add_generate(CLI::App& app) {
       ->add_option("--require", options->require,
                    "only if proved, as symplectic,symmetric,order:2,emitted-code")
       ->type_name("LIST");
-  parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
+  parser->add_flag("--tangent", options->tangent, "");
   parser
       ->add_option("--watch-modified", options->watch_modified,
-                   "emit K terms of the modified Hamiltonian too")
+                   "emit dZ/dz too; K terms of the modified Hamiltonian")
       ->type_name("K");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");

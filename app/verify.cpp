@@ -139,7 +139,8 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    if (finding.property == "emitted code" && is_refuted(finding)) holds = false;
+    const bool of_code = finding.property == "emitted code" || finding.property == "specialised";
+    if (of_code && is_refuted(finding)) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }

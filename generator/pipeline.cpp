@@ -114,18 +114,6 @@ bool shares_support(const Request& request) {
   throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
 }
 
-EmitOptions emit_options(const SourceText& source, const Program& program, const Request& request) {
-  return {.file_name = stem(source.path),
-          .command = request.command,
-          .model_path = source.path,
-          .model_digest = request.model_digest,
-          .scalar = request.scalar,
-          .spaces = emitted_spaces(program.plan.equations, request),
-          .tangent = request.tangent && !without_tangent(program),
-          .shared_support = shares_support(request),
-          .watched_step = request.step};
-}
-
 // The stages, in order: this is the only place that knows it.
 struct Stages {
   Model model;  // as the request reads it
@@ -135,6 +123,25 @@ struct Stages {
   SolvePlan plan;
   Program program;
 };
+
+bool is_something_left_out(const Stages& stages) {
+  return !stages.folded.folding.left_out.empty() || !stages.system.left_out.empty();
+}
+
+EmitOptions emit_options(const SourceText& source, const Stages& stages, const Request& request) {
+  const Program& program = stages.program;
+  const bool is_special = request.scene && is_something_left_out(stages);
+  return {.file_name = stem(source.path),
+          .command = request.command,
+          .model_path = source.path,
+          .model_digest = request.model_digest,
+          .scalar = request.scalar,
+          .spaces = emitted_spaces(program.plan.equations, request,
+                                   is_special ? request.scene->values.name : ""),
+          .tangent = request.tangent && !without_tangent(program),
+          .shared_support = shares_support(request),
+          .watched_step = request.step};
+}
 
 std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme& scheme,
                                        int count) {
@@ -267,10 +274,6 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(equations), std::move(plan),   std::move(program)};
 }
 
-bool is_something_left_out(const Stages& stages) {
-  return !stages.folded.folding.left_out.empty() || !stages.system.left_out.empty();
-}
-
 Proof prove(const Stages& stages, const Request& request,
             const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
@@ -332,7 +335,7 @@ Model read_request(const SourceText& source, const Request& request) {
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  EmitOptions options = emit_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages, request);
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
@@ -354,7 +357,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 
 void check_step(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  static_cast<void>(header_text(stages, emit_options(source, stages.program, request), request));
+  static_cast<void>(header_text(stages, emit_options(source, stages, request), request));
 }
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
@@ -402,7 +405,7 @@ StepCode make_step_code(const SourceText& source, const Request& request) {
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
   Stages stages = run_stages(source, request);
-  EmitOptions options = emit_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages, request);
   PluginSource plugin;
   // What is compiled does not depend on values that are given at run time.
   EmitOptions anonymous = options;

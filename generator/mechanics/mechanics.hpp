@@ -35,6 +35,7 @@ struct Mechanics {
   bool has_time = false;             // the last one is t with its momentum p_t, and H contains p_t
   std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
   std::vector<Quantity> parameters;  // run-time parameters, in declaration order
+  std::vector<Quantity> constants;   // parameters whose values have been put in
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
   // written-out expressions below are empty.
   std::vector<Kernel> kernels;
