@@ -64,7 +64,7 @@ long unknowns_of(const Scheme& scheme, long degrees_of_freedom) {
 // So many steps take some seconds: the work of one grows with the square of its unknowns.
 long chosen_distance(const Scheme& scheme, long degrees_of_freedom, long steps) {
   const double unknowns = static_cast<double>(unknowns_of(scheme, degrees_of_freedom));
-  const double samples = std::clamp(2e5 / (unknowns * unknowns), 20.0, 2000.0);
+  const double samples = std::clamp(2e5 / (unknowns * unknowns), 20.0, 20000.0);
   return std::max(1L, static_cast<long>(std::ceil(static_cast<double>(steps) / samples)));
 }
 
