@@ -79,7 +79,7 @@ struct CompiledExact : Compiled<Emitted> {
     Propagator all(this->par, h, state_of<Quad, State>(z));
     ExactStep result;
     if constexpr (requires { Propagator::substeps; }) {
-      all.h_[0] = h;
+      all.lengths_[0] = h;
       if constexpr (requires { all.k_; }) all.k_[0] = prepare(this->par, h);
       CompiledSubstep<Emitted> first{all, 0, all.z_, all.carry_};
       result.converged = first.step().converged;
@@ -113,7 +113,7 @@ Defects run(const Vector& parameters, const Equations& equations, typename Emitt
     if constexpr (requires { Emitted::Propagator::substeps; }) {
       CompiledSubstep<Emitted> substep{all, 0, all.z_, all.carry_};
       for (; substep.i < Emitted::Propagator::substeps; ++substep.i) {
-        defects.failed = !watch.solve(substep, equations, all.h_[substep.i], defects);
+        defects.failed = !watch.solve(substep, equations, all.lengths_[substep.i], defects);
         if (defects.failed) return defects;
       }
       all.z_ = substep.z_;
