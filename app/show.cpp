@@ -12,8 +12,8 @@
 namespace hamgen::app {
 namespace {
 
-constexpr std::array<std::string_view, 5> stages = {"model", "mechanics", "equations", "plan",
-                                                    "program"};
+constexpr std::array<std::string_view, 6> stages = {"model", "mechanics", "equations",
+                                                    "plan",  "program",   "origins"};
 
 int show(const MethodOptions& options, const SceneOptions& scene, const std::string& stage) {
   if (std::ranges::find(stages, stage) == stages.end())
@@ -34,7 +34,10 @@ Command add_show(CLI::App& app) {
   const auto stage = std::make_shared<std::string>("plan");
   CLI::App* parser =
       app.add_subcommand("show", "prints what one stage of the pipeline makes of a model");
-  parser->add_option("--stage", *stage, "model, mechanics, equations, plan (default) or program")
+  parser
+      ->add_option("--stage", *stage,
+                   "model, mechanics, equations, plan (default), program, or "
+                   "origins, the program with where its lines come from")
       ->type_name("NAME");
   add_method_options(*parser, *options);
   add_scene_choice(*parser, *scene);

@@ -351,8 +351,11 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "equations") return to_text(stages.equations);
   if (stage == "plan") return to_text(stages.plan);
   if (stage == "program") return to_text(step_code(stages.program));
+  if (stage == "origins") {
+    return text_with_origins(step_code(stages.program), stages.mechanics.terms);
+  }
   throw UsageError(fmt::format(
-      "unknown stage '{}'; there are model, mechanics, equations, plan, program", stage));
+      "unknown stage '{}'; there are model, mechanics, equations, plan, program, origins", stage));
 }
 
 void check_step(const SourceText& source, const Request& request) {

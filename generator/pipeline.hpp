@@ -61,7 +61,8 @@ struct Request {
 // Throws ProofError if something required does not hold.
 [[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
 
-// The value of one stage as text: "model", "mechanics", "equations", "plan", "program".
+// The value of one stage as text: "model", "mechanics", "equations", "plan", "program",
+// "origins": the program with what each of its lines is there for.
 [[nodiscard]] std::string show_stage(const SourceText& source, const Request& request,
                                      const std::string& stage);
 

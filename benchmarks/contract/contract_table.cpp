@@ -1,48 +1,28 @@
-// How well emitted steps solve their equations: every shipped scene, by every solver, against quad
-// steps from the same exact state.  See Note [contract of a solve] in
-// tests/contract/step_defect.hpp.
+// How well steps solve their equations: every shipped scene, by every method and solver, against
+// quad steps from the same exact state.  See Note [contract of a solve] in
+// tests/contract/watch.hpp.
 //
-//   contract_table [--scalar S]... [--method M]... [--steps N] [MODEL...]
+//   contract_table [--scalar S]... [--method M]... [--steps N] [--compiled]
+//                  [--but MODEL]... [MODEL...]
+//
+// The steps are interpreted, or with --compiled emitted and compiled.  Exit status 1 if any is
+// beyond what is allowed.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+#include <exception>
 #include <string>
 #include <vector>
 
-#include "generator/base/diagnostic.hpp"
-#include "generator/language/scene.hpp"
+#include "tests/contract/interpreted.hpp"
 #include "tests/contract/measure.hpp"
-#include "tests/contract/models.hpp"
 
 namespace {
 
 using hamgen::contract::Case;
 using hamgen::contract::Defects;
-
-struct Method {
-  std::string name;
-  hamgen::Request request;
-  std::string alpha = "1/2", beta = "0", gamma = "0";
-};
-
-std::vector<Method> all_methods() {
-  return {{"newton", {}},
-          {"fixed-point", {.solver = "fixed-point"}},
-          {"member", {.alpha = "3/10", .beta = "1/5", .gamma = "-1/10"}, "3/10", "1/5", "-1/10"},
-          {"euler-a", {.scheme = "symplectic-euler-a"}, "0"},
-          {"euler-b", {.scheme = "symplectic-euler-b"}, "1"},
-          {"order-4", {.order = 4}},
-          {"order-6", {.order = 6}},
-          {"yoshida-4", {.scheme = "yoshida-4"}},
-          {"kahan-li-8", {.scheme = "kahan-li-8"}},
-          {"gauss-4", {.scheme = "gauss-4"}},
-          {"gauss-4-fixed", {.scheme = "gauss-4", .solver = "fixed-point"}},
-          {"gauss-4-newton", {.scheme = "gauss-4", .solver = "newton"}},
-          {"gauss-8", {.scheme = "gauss-8"}},
-          {"gauss-16", {.scheme = "gauss-16"}}};
-}
+using hamgen::contract::Method;
 
 // The residual of a reference is that of H's equations; those of a member of higher order are K's.
 bool has_reference(const std::string& name) { return name.find("order-") == std::string::npos; }
@@ -50,23 +30,8 @@ bool has_reference(const std::string& name) { return name.find("order-") == std:
 struct Choice {
   std::vector<std::string> scalars, methods, models;
   long steps = 0;
+  bool compiled = false;
 };
-
-std::vector<std::string> names(const std::vector<Method>& methods) {
-  std::vector<std::string> result;
-  for (const Method& m : methods) result.push_back(m.name);
-  return result;
-}
-
-std::vector<std::string> all_models() {
-  std::vector<std::string> models;
-  for (const auto& steep : hamgen::contract::kSteepModels) models.emplace_back(steep.name);
-  for (const auto& entry : std::filesystem::directory_iterator(HAMGEN_SOURCE_DIR "/hamiltonians")) {
-    models.push_back(entry.path().stem().string());
-  }
-  std::ranges::sort(models);
-  return models;
-}
 
 Choice read(int argc, char** argv) {
   Choice choice;
@@ -79,41 +44,22 @@ Choice read(int argc, char** argv) {
       choice.methods.push_back(value), ++i;
     } else if (word == "--steps") {
       choice.steps = std::stol(value), ++i;
+    } else if (word == "--but") {
+      if (choice.models.empty()) choice.models = hamgen::contract::all_models();
+      std::erase(choice.models, value), ++i;
+    } else if (word == "--compiled") {
+      choice.compiled = true;
     } else {
       choice.models.push_back(word);
     }
   }
-  if (choice.models.empty()) choice.models = all_models();
+  if (choice.models.empty()) choice.models = hamgen::contract::all_models();
   if (choice.scalars.empty()) choice.scalars = {"double"};
-  if (choice.methods.empty()) choice.methods = names(all_methods());
   return choice;
 }
 
-// The model's scenes by one method; a scene without h or steps is left out.
-std::vector<Case> cases(const std::string& model, const Method& method, const std::string& scalar,
-                        long most_steps) {
-  const hamgen::SourceText source = hamgen::contract::model(model);
-  const hamgen::Model parsed = hamgen::read_request(source, {});
-  std::vector<Case> result;
-  for (const hamgen::Scene& scene : parsed.scenes) {
-    const auto values = hamgen::scene_values(parsed, {.scene = scene.name});
-    if (!values.h || !values.steps) continue;
-    Case c{.name = fmt::format("{} {} {} {}", model, scene.name, method.name, scalar),
-           .model = source,
-           .scene = scene.name,
-           .request = method.request,
-           .alpha = method.alpha,
-           .beta = method.beta,
-           .gamma = method.gamma,
-           .steps = most_steps > 0 ? std::min(most_steps, *values.steps) : *values.steps};
-    c.request.scalar = scalar;
-    result.push_back(c);
-  }
-  return result;
-}
-
 struct Summary {
-  long long runs = 0, solves = 0, broken = 0, unknown = 0, stopped = 0;
+  long long runs = 0, solves = 0, broken = 0, elsewhere = 0, unknown = 0, stopped = 0;
   double worst = 0;
   std::string where;
 };
@@ -127,11 +73,24 @@ void print(const Defects& d, Summary& summary) {
   ++summary.runs;
   summary.solves += d.solves;
   summary.broken += d.broken;
+  summary.elsewhere += d.elsewhere;
   summary.unknown += d.unknown;
   summary.stopped += d.failed ? 1 : 0;
   if (d.worst <= summary.worst) return;
   summary.worst = d.worst;
   summary.where = d.name;
+}
+
+void measure(const hamgen::contract::Interpretable& model, const std::vector<Case>& cases,
+             bool compiled, Summary& summary) {
+  try {
+    for (const Defects& d : compiled ? hamgen::contract::measure(cases)
+                                     : model.measure(cases.front().request, cases)) {
+      print(d, summary);
+    }
+  } catch (const std::exception& e) {  // no such method for this model
+    fmt::print("{}: {:.300}\n", cases.front().name, e.what());
+  }
 }
 
 }  // namespace
@@ -141,22 +100,28 @@ int main(int argc, char** argv) {
   fmt::print("{:<52} {:>9} {:>6} {:>11} {:>9} {:>10} {:>7} {:>7}\n", "model, scene, method, scalar",
              "steps", "it/sol", "worst", "at step", "units", "broken", "unknown");
   Summary summary;
-  for (const std::string& model : choice.models) {
+  for (const std::string& name : choice.models) {
+    const hamgen::SourceText source = hamgen::contract::model(name);
+    const hamgen::contract::Interpretable model(source);
     for (const std::string& scalar : choice.scalars) {
-      for (const Method& method : all_methods()) {
-        if (std::ranges::find(choice.methods, method.name) == choice.methods.end()) continue;
-        try {
-          const std::vector<Case> wanted = cases(model, method, scalar, choice.steps);
-          for (const Defects& d : hamgen::contract::measure(wanted)) print(d, summary);
-        } catch (const std::exception& e) {  // no such method for this model
-          fmt::print("{} {} {}: {:.300}\n", model, method.name, scalar, e.what());
+      for (Method method : hamgen::contract::all_methods()) {
+        if (!choice.methods.empty() &&
+            std::ranges::find(choice.methods, method.name) == choice.methods.end()) {
+          continue;
         }
+        method.request.scalar = scalar;
+        method.name += " " + scalar;
+        const std::vector<Case> cases =
+            hamgen::contract::scenes_of(model.model(), source, method, choice.steps);
+        if (!cases.empty()) measure(model, cases, choice.compiled, summary);
       }
     }
   }
   fmt::print(
-      "{} runs, {} solves: {} beyond 16 times rounding, {} without a quad step, {} runs stopped; "
-      "worst {:.4g}, {}\n",
-      summary.runs, summary.solves, summary.broken, summary.unknown, summary.stopped, summary.worst,
-      summary.where);
+      "{} runs, {} solves: {} beyond 16 times rounding, {} with another solution, {} without a "
+      "quad "
+      "step, {} runs stopped; worst {:.4g}, {}\n",
+      summary.runs, summary.solves, summary.broken, summary.elsewhere, summary.unknown,
+      summary.stopped, summary.worst, summary.where);
+  return summary.broken > 0 ? 1 : 0;
 }

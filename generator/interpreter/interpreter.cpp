@@ -52,8 +52,7 @@ void Interpreter<Real>::reset(const std::vector<Real>& state, const std::vector<
 }
 
 template <class Real>
-typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Object<Real>& z,
-                                                            Object<Real>& carry, Object<Real>& dz,
+typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Object<Real>& dz,
                                                             Object<Real>& rest) {
   std::vector<Given<Real>> arguments;
   for (const Argument& argument : code_->routine("solve")->arguments) {
@@ -63,8 +62,8 @@ typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Ob
     } else {
       arguments.push_back(given(name == "par"     ? parameters_
                                 : name == "k"     ? substep.k
-                                : name == "z"     ? z
-                                : name == "carry" ? carry
+                                : name == "z"     ? z_
+                                : name == "carry" ? carry_
                                 : name == "start" ? substep.start
                                 : name == "rest"  ? rest
                                                   : dz));
@@ -76,8 +75,8 @@ typename Interpreter<Real>::Report Interpreter<Real>::solve(Substep& substep, Ob
 
 // As Propagator does it.
 template <class Real>
-typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Object<Real>& z,
-                                                           Object<Real>& carry) {
+typename Interpreter<Real>::Report Interpreter<Real>::substep(std::size_t i) {
+  Substep& substep = substeps_.at(i);
   Object<Real> dz = make_object<Real>(*code_->record("State"), *code_);
   Object<Real> rest = make_object<Real>(*code_->record("State"), *code_);
   const bool extrapolates = code_->unknowns > 0;
@@ -91,11 +90,11 @@ typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Obj
     substep.start.flags["known"] = known ? 1 : 0;
     if (known) substep.history->extrapolate(value());
   }
-  Report report = solve(substep, z, carry, dz, rest);
+  Report report = solve(substep, dz, rest);
   if (!report.converged && known) {
     const long long wasted = report.iterations;
     if (extrapolates) substep.start = make_object<Real>(*code_->record("Start"), *code_);
-    report = solve(substep, z, carry, dz, rest);
+    report = solve(substep, dz, rest);
     report.iterations += wasted;
   }
   if (!report.converged) return report;
@@ -105,34 +104,43 @@ typename Interpreter<Real>::Report Interpreter<Real>::take(Substep& substep, Obj
     }
     substep.history->record(value());
   }
-  for (std::size_t i = 0; i < z.numbers.size(); ++i) {
+  for (std::size_t k = 0; k < z_.numbers.size(); ++k) {
     if (code_->has_rest()) {
-      NumericsOf<Real>::add_rest(z.numbers[i], carry.numbers[i], dz.numbers[i], rest.numbers[i]);
+      NumericsOf<Real>::add_rest(z_.numbers[k], carry_.numbers[k], dz.numbers[k], rest.numbers[k]);
     } else {
-      NumericsOf<Real>::add_small(z.numbers[i], carry.numbers[i], dz.numbers[i]);
+      NumericsOf<Real>::add_small(z_.numbers[k], carry_.numbers[k], dz.numbers[k]);
     }
   }
   return report;
 }
 
 template <class Real>
+std::vector<Real> Interpreter<Real>::remembered(std::size_t substep,
+                                                const std::string& field) const {
+  const Record* start = code_->record("Start");
+  if (start == nullptr) return {};
+  const auto it = std::ranges::find(start->fields, field, &Field::name);
+  if (it == start->fields.end()) return {};
+  const auto first = substeps_.at(substep).start.numbers.begin() + offset_of(*start, field);
+  return {first, first + product(it->sizes)};
+}
+
+template <class Real>
 typename Interpreter<Real>::Report Interpreter<Real>::step() {
-  Object<Real> z;
-  Object<Real> carry;
-  z.numbers = z_.numbers;
-  carry.numbers = carry_.numbers;
+  const std::vector<Real> state = z_.numbers;
+  const std::vector<Real> carry = carry_.numbers;
   Report total;
-  for (Substep& substep : substeps_) {
-    const Report report = take(substep, z, carry);
+  for (std::size_t i = 0; i < substeps_.size(); ++i) {
+    const Report report = substep(i);
     total.iterations += report.iterations;
     total.increment = report.increment;
     if (report.converged) continue;
+    z_.numbers = state;
+    carry_.numbers = carry;
     // Those before have seen a step that will not be.
     if (substeps_.size() > 1) std::ranges::for_each(substeps_, [this](Substep& s) { forget(s); });
     return total;
   }
-  z_.numbers = std::move(z.numbers);
-  carry_.numbers = std::move(carry.numbers);
   total.converged = true;
   return total;
 }

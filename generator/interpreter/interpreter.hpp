@@ -25,6 +25,13 @@ class Interpreter {
   // One step; on failure the state stays as it was.
   Report step();
 
+  // A step is all of its substeps, one after the other; of a method that is no composition one.
+  [[nodiscard]] std::size_t substeps() const { return substeps_.size(); }
+  [[nodiscard]] Real length(std::size_t substep) const { return substeps_.at(substep).h; }
+  Report substep(std::size_t i);
+  // An array that a substep remembers, a field of Start; empty if there is none of this name.
+  [[nodiscard]] std::vector<Real> remembered(std::size_t substep, const std::string& field) const;
+
   [[nodiscard]] const std::vector<Real>& state() const { return z_.numbers; }
   [[nodiscard]] const std::vector<Real>& carry() const { return carry_.numbers; }
   // Goes on from this state, with nothing known from earlier steps.
@@ -45,9 +52,7 @@ class Interpreter {
     Object<Real> start;
     std::unique_ptr<AnyHistory<Real>> history;
   };
-  Report solve(Substep& substep, Object<Real>& z, Object<Real>& carry, Object<Real>& dz,
-               Object<Real>& rest);
-  Report take(Substep& substep, Object<Real>& z, Object<Real>& carry);
+  Report solve(Substep& substep, Object<Real>& dz, Object<Real>& rest);
   void forget(Substep& substep);
   [[nodiscard]] Given<Real> given(Object<Real>& object) const {
     return {object.numbers.data(), &object};

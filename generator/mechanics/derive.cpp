@@ -7,6 +7,7 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive_kernels.hpp"
+#include "generator/mechanics/energy_terms.hpp"
 #include "generator/mechanics/to_ginac.hpp"
 
 namespace hamgen {
@@ -16,6 +17,9 @@ namespace {
 // Derivatives that vanish identically, such as those of sin^2 + cos^2, are worth a moment's work
 // for small expressions; for large ones only GiNaC's own automatic simplification is used.
 constexpr std::size_t kSmall = 300;
+
+// Of a sum that was written out by hand nobody looks up its thousandth term.
+constexpr std::size_t kMostTraced = 200;
 
 std::size_t node_count(const GiNaC::ex& e, std::size_t limit) {
   std::size_t count = 1;
@@ -103,6 +107,8 @@ Mechanics derived(const Model& model, bool keep_sums) {
   for (const Quantity& variable : mechanics.variables)
     symbols.push_back(&table.find(variable.name));
 
+  const std::vector<WrittenTerm> terms = written_terms(model);
+  for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
   if (keep_sums && mechanics.degrees_of_freedom > kMostWrittenOut) {
     if (auto kernels = derive_kernels(model)) {
       mechanics.kernels = std::move(*kernels);
@@ -111,6 +117,13 @@ Mechanics derived(const Model& model, bool keep_sums) {
   }
   const GiNaC::ex energy = hamiltonian(model, converter, table);
   mechanics.energy = from_ginac(energy, table);
+  for (std::size_t t = 0; t < terms.size() && terms.size() <= kMostTraced; ++t) {
+    const GiNaC::ex value = converter.convert(terms[t].node);
+    for (int i = 0; i < size; ++i) {
+      if (!value.has(*symbols[static_cast<std::size_t>(i)])) continue;
+      mechanics.terms[t].variables.insert(mechanics.variables[static_cast<std::size_t>(i)].name);
+    }
+  }
   std::vector<GiNaC::ex> gradient;
   for (int i = 0; i < size; ++i) {
     GiNaC::ex derivative = energy.diff(*symbols[static_cast<std::size_t>(i)]);

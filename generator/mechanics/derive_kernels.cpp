@@ -7,6 +7,7 @@
 #include <set>
 
 #include "generator/language/scene.hpp"
+#include "generator/mechanics/energy_terms.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/mechanics/split_sums.hpp"
 #include "generator/mechanics/to_ginac.hpp"
@@ -29,12 +30,13 @@ struct Boundary {
   TreeConverter converter;
   Touch touch;
   std::set<std::string> elements;
+  std::set<int> terms;
   GiNaC::ex value;
 };
 
 class KernelBuilder {
  public:
-  explicit KernelBuilder(const Model& model) : model_(model) {
+  explicit KernelBuilder(const Model& model) : model_(model), terms_(written_terms(model)) {
     long position = 0;
     for (const auto* group : {&model.coordinates, &model.momenta}) {
       for (const Variable& variable : *group) {
@@ -204,10 +206,19 @@ class KernelBuilder {
     Boundary& boundary = boundaries_.back();
     boundary.value += body(term, boundary.converter, indices);
     boundary.elements.insert(used.begin(), used.end());
+    boundary.terms.merge(terms_of(term));
+  }
+
+  [[nodiscard]] std::set<int> terms_of(const SumTerm& term) const {
+    std::set<int> result;
+    for (const Summand& summand : term.summands) {
+      result.merge(terms_around(terms_, summand.body->span));
+    }
+    return result;
   }
 
   void finish(Boundary& boundary) {
-    Kernel kernel{.value = from_ginac(boundary.value, boundary.table)};
+    Kernel kernel{.value = from_ginac(boundary.value, boundary.table), .terms = boundary.terms};
     std::set<std::string> names = symbols(kernel.value);
     for (const auto& [name, entry] : variables_) {
       const auto& [variable, position] = entry;
@@ -227,7 +238,7 @@ class KernelBuilder {
                const std::vector<Reference>& references) {
     SymbolTable table;
     TreeConverter converter(model_, table);
-    Kernel kernel{.ranges = ranges};
+    Kernel kernel{.ranges = ranges, .terms = terms_of(term)};
     int rank = kRankOfVariable;
     std::map<std::pair<std::string, long>, std::string> seen;
     converter.set_element([&](const NameNode& name) -> std::optional<GiNaC::ex> {
@@ -297,6 +308,7 @@ class KernelBuilder {
 
   const Model& model_;
   std::map<std::string, std::pair<const Variable*, long>> variables_;
+  std::vector<WrittenTerm> terms_;
   std::vector<Kernel> kernels_;
   std::list<Boundary> boundaries_;
 };

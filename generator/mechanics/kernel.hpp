@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ struct Kernel {
   Expression value;
   std::vector<Expression> gradient;                                   // by slot
   std::map<std::pair<std::size_t, std::size_t>, Expression> hessian;  // slots i <= j, nonzero
+  std::set<int> terms = {};  // of H that it is made of, by number
 };
 
 // Which part of the state the kernel's slots lie in.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,12 +29,20 @@ struct NamedExpression {
   bool only_observed = false;  // an "invariant" that need not be conserved
 };
 
+// A summand of H as it was written.
+struct EnergyTerm {
+  std::string text;
+  int line = 0;                          // of the model's file
+  std::set<std::string> variables = {};  // of the state; not known of large systems
+};
+
 struct Mechanics {
   std::string name;
   std::string hamiltonian_text;      // as the user wrote it
   int degrees_of_freedom = 0;        // n
   bool has_time = false;             // the last one is t with its momentum p_t, and H contains p_t
   std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
+  std::vector<EnergyTerm> terms;     // of H, numbered from 0
   std::vector<Quantity> parameters;  // run-time parameters, in declaration order
   std::vector<Quantity> constants;   // parameters whose values have been put in
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the

@@ -125,6 +125,14 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   return {};
 }
 
+std::vector<Body*> inner_bodies(Instruction& instruction) {
+  std::vector<Body*> bodies;
+  for (const Body* body : inner_bodies(std::as_const(instruction))) {
+    bodies.push_back(const_cast<Body*>(body));  // of an instruction that is not const
+  }
+  return bodies;
+}
+
 std::set<std::string> called_routines(const Body& body) {
   std::set<std::string> found;
   for (const Instruction& instruction : body) {

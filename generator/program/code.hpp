@@ -217,12 +217,22 @@ struct Return {
   std::optional<Place> flag = {};
 };
 
+// Why an instruction is there.
+enum class When { called, run, step_size, step, iteration };
+struct Origin {
+  When when = When::called;  // how often it is done; of a function of the state: when called
+  std::set<int> terms = {};  // of H, from 0
+  std::string stage = {};    // the stage value that it defines: "bar(q)"
+  bool operator==(const Origin&) const = default;
+};
+
 struct Instruction {
   std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Clear, Put, SetFlag, For,
                Scope, If, Call, Alternate, Factorise, SolveFactorised, Invert, Iterate,
                IterateArray, Refine, RefineArray, Sweep, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
+  Origin origin = {};
 };
 
 // A record by reference, an array of numbers, or a number.
@@ -252,6 +262,7 @@ struct Routine {
 
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
+[[nodiscard]] std::vector<Body*> inner_bodies(Instruction& instruction);
 // The names of what is called.
 [[nodiscard]] std::set<std::string> called_routines(const Body& body);
 // Every symbol that the instructions read.
@@ -263,5 +274,7 @@ void collect_symbols(const Body& body, std::set<std::string>& names);
 [[nodiscard]] std::string to_text(const Place& place);
 [[nodiscard]] std::string to_text(const Record& record);
 [[nodiscard]] std::string to_text(const Routine& routine);
+// The same with the origin of each line before it.
+[[nodiscard]] std::string text_with_origins(const Routine& routine);
 
 }  // namespace hamgen

@@ -21,10 +21,13 @@ std::string list_of(const std::vector<Expression>& values) {
 
 class Printer {
  public:
-  explicit Printer(std::string& text) : text_(text) {}
+  explicit Printer(std::string& text, bool origins = false) : text_(text), origins_(origins) {}
 
   void print(const Body& body) {
-    for (const Instruction& node : body) std::visit(*this, node.value);
+    for (const Instruction& node : body) {
+      if (origins_) margin_ = fmt::format("{:<22}|", origin_text(node.origin));
+      std::visit(*this, node.value);
+    }
   }
 
   void operator()(const Let& let) {
@@ -142,7 +145,32 @@ class Printer {
     }
     return "iterate to the fixed point:";
   }
+  static std::string origin_text(const Origin& origin) {
+    std::string text;
+    switch (origin.when) {
+      case When::called:
+        break;
+      case When::run:
+        text = "run";
+        break;
+      case When::step_size:
+        text = "step size";
+        break;
+      case When::step:
+        text = "step";
+        break;
+      case When::iteration:
+        text = "iteration";
+        break;
+    }
+    if (origin.terms.empty()) return text;
+    text = fmt::format("{:<10}H", text);
+    for (const int term : origin.terms) text += fmt::format(" {}", term + 1);
+    return text;
+  }
   void line(const std::string& text) {
+    text_ += margin_;
+    if (origins_) margin_ = fmt::format("{:<22}|", "");
     text_.append(static_cast<std::size_t>(2 * depth_), ' ');
     text_ += text + '\n';
   }
@@ -161,8 +189,20 @@ class Printer {
   }
 
   std::string& text_;
+  bool origins_;
+  std::string margin_;
   int depth_ = 1;
 };
+
+std::string routine_text(const Routine& routine, bool origins) {
+  std::vector<std::string> arguments;
+  for (const Argument& argument : routine.arguments) {
+    arguments.push_back((argument.changes ? "&" : "") + argument.name);
+  }
+  std::string text = fmt::format("{}({}):\n", routine.name, list_of(arguments));
+  Printer(text, origins).print(routine.body);
+  return text;
+}
 
 }  // namespace
 
@@ -184,14 +224,7 @@ std::string to_text(const Record& record) {
   return text;
 }
 
-std::string to_text(const Routine& routine) {
-  std::vector<std::string> arguments;
-  for (const Argument& argument : routine.arguments) {
-    arguments.push_back((argument.changes ? "&" : "") + argument.name);
-  }
-  std::string text = fmt::format("{}({}):\n", routine.name, list_of(arguments));
-  Printer(text).print(routine.body);
-  return text;
-}
+std::string to_text(const Routine& routine) { return routine_text(routine, false); }
+std::string text_with_origins(const Routine& routine) { return routine_text(routine, true); }
 
 }  // namespace hamgen

@@ -223,6 +223,7 @@ class KernelRoutine {
       Body body;
       add(kernel, body);
       if (body.empty()) continue;
+      for (Instruction& instruction : body) instruction.origin.terms = kernel.terms;
       if (kernel.ranges.empty()) {
         single.push_back(std::move(body));
         continue;

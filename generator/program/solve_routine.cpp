@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "generator/program/routine_builder.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -177,10 +179,9 @@ class SolveRoutine {
         element({"vector", "", {j}}, "vector(j)");
     const Expression target = element({"product", "", {i}}, "product(i)");
     body.push_back({Array{"product", {size}}});
-    const AffineIndex last{size - 1, {}};
     Body sum{{Accumulate{target.name(), term}}};
-    Body row{{For{{"j", {0, {}}, last}, std::move(sum)}}};
-    body.push_back({For{{"i", {0, {}}, last}, std::move(row)}});
+    Body row{for_each(counting("j", size), std::move(sum))};
+    body.push_back(for_each(counting("i", size), std::move(row)));
   }
 
   static std::vector<Expression> right_side(const Solve& solve) {

@@ -9,6 +9,7 @@
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_member.hpp"
 #include "generator/program/method_tangents.hpp"
+#include "generator/program/origins.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
@@ -281,10 +282,14 @@ StepCode step_code(const Program& program) {
   }
   if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);
+  trace_origins(code, environment, equations);
   return code;
 }
 
-std::string to_text(const StepCode& code) {
+namespace {
+
+template <class Text>
+std::string routines_as_text(const StepCode& code, const Text& text_of) {
   std::string text;
   for (const Record& record : code.records) text += to_text(record);
   std::set<std::string> wanted;
@@ -292,12 +297,27 @@ std::string to_text(const StepCode& code) {
     wanted.merge(callees(code, name));
   }
   for (const Routine& routine : code.routines) {
-    if (wanted.contains(routine.name)) text += to_text(routine);
+    if (wanted.contains(routine.name)) text += text_of(routine);
   }
   if (code.substeps.size() < 2) return text;
   text += "substeps of h times:\n";
   for (const Rational& length : code.substeps) text += fmt::format("  {}\n", length.get_d());
   return text;
+}
+
+}  // namespace
+
+std::string to_text(const StepCode& code) {
+  return routines_as_text(code, [](const Routine& routine) { return to_text(routine); });
+}
+
+std::string text_with_origins(const StepCode& code, const std::vector<EnergyTerm>& terms) {
+  std::string text = "H is the sum of the terms\n";
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    text += fmt::format("  {}  line {}: {}\n", t + 1, terms[t].line, terms[t].text);
+  }
+  return text +
+         routines_as_text(code, [](const Routine& routine) { return text_with_origins(routine); });
 }
 
 }  // namespace hamgen

@@ -50,5 +50,8 @@ struct StepCode {
 
 // The records and routines that a step needs: what `hamgen show --stage program` prints.
 [[nodiscard]] std::string to_text(const StepCode& code);
+// The same, and before each line how often it is done and of which terms of H it comes.
+[[nodiscard]] std::string text_with_origins(const StepCode& code,
+                                            const std::vector<EnergyTerm>& terms);
 
 }  // namespace hamgen

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/program/coefficients.hpp"
+#include "generator/program/routine_builder.hpp"
 
 namespace hamgen {
 
@@ -68,7 +69,7 @@ Routine tangent_routine(const Environment& environment, std::string name,
     each.push_back({Assign{entry, linearisation.results[static_cast<std::size_t>(i)]}});
   }
   const AffineIndex last{size - 1, {}};
-  routine.body.push_back({For{{"column", {0, {}}, last}, std::move(each)}});
+  routine.body.push_back(for_each(counting("column", size), std::move(each)));
   const std::string entry = bind("m(i,j)", {"m", "", {{0, {{"i", 1}}}, {0, {{"j", 1}}}}});
   routine.body.push_back(
       {Return{.finite = {entry}, .ranges = {{"i", {0, {}}, last}, {"j", {0, {}}, last}}}});

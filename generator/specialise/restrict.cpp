@@ -60,6 +60,7 @@ Kernel restricted(const Kernel& kernel, const std::vector<int>& places) {
   Kernel result;
   result.ranges = kernel.ranges;
   result.parameters = kernel.parameters;
+  result.terms = kernel.terms;
   std::vector<long> first;
   for (const KernelRange& range : kernel.ranges)
     first.push_back(value_at(range.lower, kernel.ranges, first));

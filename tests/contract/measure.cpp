@@ -8,13 +8,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "generator/algebra/exact.hpp"
-#include "generator/base/source_text.hpp"
+#include "generator/choose_scheme.hpp"
 #include "generator/formats/scalar.hpp"
-#include "generator/language/scene.hpp"
+#include "generator/mechanics/derive.hpp"
 #include "runtime/process.hpp"
 #include "runtime/temporary_directory.hpp"
-#include "tests/contract/models.hpp"
 
 namespace hamgen::contract {
 namespace {
@@ -39,7 +37,7 @@ std::string inside(const Case& c, const std::string& name_space, const std::stri
   return text;
 }
 
-// The names that step_defect.hpp wants.
+// The names that compiled_run.hpp wants.
 std::string adapter(const std::string& name, const std::string& name_space,
                     const ScalarType& scalar) {
   return fmt::format(R"(struct {0} {{
@@ -59,52 +57,55 @@ std::string adapter(const std::string& name, const std::string& name_space,
                      name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon);
 }
 
-std::string list(const std::vector<Rational>& values) {
+std::string list(const std::vector<double>& values) {
   std::string text;
-  for (const Rational& value : values) text += fmt::format("{:a}, ", to_double(value));
+  for (const double value : values) text += fmt::format("{:a}, ", value);
   return text;
 }
 
-// "3/10" as what Quad(...) makes a quotient in quad of.
-std::string quotient(const std::string& value) {
-  const auto slash = value.find('/');
-  if (slash == std::string::npos) return value;
-  return value.substr(0, slash) + ") / contract::Quad(" + value.substr(slash + 1);
+// In two parts, 106 of the 113 digits.
+std::string number(Quad x) {
+  const auto high = static_cast<double>(x);
+  return fmt::format("Quad({:a}) + Quad({:a})", high, static_cast<double>(x - Quad(high)));
+}
+std::string list(const Vector& values) {
+  std::string text;
+  for (const Quad value : values) text += number(value) + ", ";
+  return "{" + text + "}";
+}
+std::string list(const Matrix& rows) {
+  std::string text;
+  for (const Vector& row : rows) text += list(row) + ", ";
+  return "{" + text + "}";
 }
 
-// The scene's values, rounded: both codes start from the same numbers, with the same parameters.
-std::string call(const Case& c, std::size_t i, bool runge_kutta) {
-  const Model model = read_request(c.model, c.request);
-  const SceneValues scene = scene_values(model, {.scene = c.scene});
-  const std::vector<std::string> names = element_names(model.parameters);
-  std::vector<Rational> parameters;
+// Both codes start from the same numbers, with the same parameters.
+std::string call(const Case& c, std::size_t i) {
+  const Start start = start_of(c);
+  std::vector<double> parameters;
   for (const std::string& name : generate_plugin(c.model, c.request).parameter_names) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) throw std::runtime_error("a parameter of no value: " + name);
-    parameters.push_back(scene.parameters[static_cast<std::size_t>(found - names.begin())]);
+    const auto found =
+        std::ranges::find(start.parameters, name, &std::pair<std::string, double>::first);
+    if (found == start.parameters.end()) {
+      throw std::runtime_error("a parameter of no value: " + name);
+    }
+    parameters.push_back(found->second);
   }
-  const std::string equations =
-      runge_kutta ? fmt::format(
-                        "contract::runge_kutta(case_{0}_exact::prepare("
-                        "case_{0}_exact::Parameters(), 1))",
-                        i)
-                  : fmt::format(
-                        "contract::member({}, contract::Quad({}), contract::Quad({}), "
-                        "contract::Quad({}))",
-                        scene.q.size(), quotient(c.alpha), quotient(c.beta), quotient(c.gamma));
-  std::vector<Rational> state = scene.q;
-  state.insert(state.end(), scene.p.begin(), scene.p.end());
+  const Model model = read_request(c.model, c.request);
+  const Mechanics mechanics = derive(model, false);
+  const Equations e = equations_of(choose_scheme(model, mechanics, c.request),
+                                   mechanics.degrees_of_freedom, start, start.h);
+  const std::string equations = e.is_member() ? "member(" + list(e.c) + ")"
+                                : e.stages() > 0
+                                    ? "runge_kutta(" + list(e.a) + ", " + list(e.b) + ")"
+                                    : "Equations()";
   return fmt::format(R"(  {{
-    using Code = Measured_{0};
-    const contract::Vector state{{{2}}};
-    const contract::Vector par{{{3}}};
-    contract::print("{1}", contract::run<Code, Exact_{0}>(
-        contract::state_of<Code::Real, Code::Parameters>(par), {4}, Code::Real({5:a}),
-        contract::state_of<Code::Real, Code::State>(state), {6}));
+    Defects found = run<Measured_{0}, Exact_{0}>(Vector{{{3}}}, {4}, {5:a}, Vector{{{2}}}, {6});
+    print("{1}", found);
   }}
 )",
-                     i, c.name, list(state), list(parameters), equations,
-                     to_double(scene.h.value()), c.steps > 0 ? c.steps : scene.steps.value());
+                     i, c.name, list(start.state), list(parameters), equations, start.h,
+                     start.steps);
 }
 
 runtime::ProcessResult run(std::vector<std::string> command) {
@@ -126,13 +127,12 @@ std::string program(const std::vector<Case>& cases,
     std::string code = inside(cases[i], measured, std::string(scalar.name));
     if (edit) code = edit(std::move(code));
     const std::string quad = inside(cases[i], exact, "quad");
-    const bool runge_kutta = code.find("k.coupling[") != std::string::npos;
     text += code + quad + adapter(fmt::format("Measured_{}", i), measured, scalar) +
             adapter(fmt::format("Exact_{}", i), exact, find_scalar("quad"));
-    calls += call(cases[i], i, runge_kutta);
+    calls += call(cases[i], i);
   }
-  return fmt::format("#include \"{}/tests/contract/step_defect.hpp\"\n", HAMGEN_SOURCE_DIR) + text +
-         "int main() {\n" + calls + "}\n";
+  return "#include \"tests/contract/compiled_run.hpp\"\n" + text +
+         "using namespace hamgen::contract;\nint main() {\n" + calls + "}\n";
 }
 
 std::vector<Defects> read_defects(const std::string& output) {
@@ -164,23 +164,15 @@ std::vector<Defects> measure(const std::vector<Case>& cases,
   std::ofstream(source) << program(cases, edit);
   // -O1 as the emitted code is compiled, but for speed: no value-changing flag.
   const runtime::ProcessResult compiled =
-      run({"g++", "-std=gnu++20", "-O1", "-ffp-contract=off", "-fno-math-errno", "-w", "-isystem",
-           "/usr/include/eigen3", source, "-o", executable, "-lquadmath"});
+      run({"g++", "-std=gnu++20", "-O1", "-ffp-contract=off", "-fno-math-errno", "-w", "-I",
+           HAMGEN_SOURCE_DIR, "-isystem", "/usr/include/eigen3", source, "-o", executable,
+           "-lquadmath"});
   if (!compiled.succeeded()) throw std::runtime_error("does not compile:\n" + compiled.output);
   const runtime::ProcessResult ran = run({executable});
   if (!ran.succeeded()) throw std::runtime_error("does not run:\n" + ran.output);
   std::vector<Defects> found = read_defects(ran.output);
   if (found.size() != cases.size()) throw std::runtime_error("not all ran:\n" + ran.output);
   return found;
-}
-
-SourceText model(const std::string& name) {
-  for (const SteepModel& steep : kSteepModels) {
-    if (name == steep.name) {
-      return make_source(name + ".ham", "system " + name + "\n" + steep.text);
-    }
-  }
-  return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham");
 }
 
 }  // namespace hamgen::contract

@@ -1,28 +1,21 @@
 // The interpreter against the compiled text: the same operations in the same order, so that every
-// bit of the state is the same; and what only the interpreter makes cheap enough, every scheme over
-// every scene.
+// bit of the state is the same.  What only the interpreter makes cheap enough, every method over
+// every scene, is tests/contract.
 #include "generator/interpreter/interpreter.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 
-#include "generator/base/diagnostic.hpp"
 #include "generator/base/source_text.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
-#include "generator/schemes/all_schemes.hpp"
 #include "runtime/integrator.hpp"
 #include "runtime/load_plugin.hpp"
 
 namespace hamgen {
 namespace {
-
-namespace fs = std::filesystem;
-using Quad = __float128;
 
 SourceText shipped(const std::string& name) {
   return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham");
@@ -47,11 +40,6 @@ Start start_of(const Model& model, const Scene& scene, const StepCode& code) {
         to_double(values.parameters.at(static_cast<std::size_t>(it - names.begin()))));
   }
   return start;
-}
-
-template <class Real>
-std::vector<Real> as(const std::vector<double>& values) {
-  return {values.begin(), values.end()};
 }
 
 struct Case {
@@ -124,54 +112,6 @@ TEST(Names, OfVariablesAreNotThoseOfObjects) {
   const std::vector<double> wanted = last({"a", "b", "c"});
   EXPECT_EQ(last({"k", "par", "z"}), wanted);
   EXPECT_EQ(last({"carry", "dz", "start"}), wanted);
-}
-
-// Both do the same operations, from the same state and carry: what differs is rounding.  A solved
-// step is off by its rounding errors times the norm of the inverse of its matrix, which no scene
-// here makes large.
-TEST(EveryScheme, OfEveryModelIsTheSameStepInDoubleAndInQuad) {
-  double worst = 0;
-  std::string where;
-  int steps = 0;
-  for (const auto& entry :
-       fs::directory_iterator(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians")) {
-    const SourceText source = read_source(entry.path().string());
-    for (const Scheme& scheme : all_schemes()) {
-      const Request request{.scheme = scheme.name};
-      StepCode code;
-      try {
-        code = make_step_code(source, request);
-      } catch (const UsageError&) {
-        continue;  // the scheme needs what this H does not have
-      }
-      const Model model = read_request(source, request);
-      const Start start = start_of(model, model.scenes.front(), code);
-      Interpreter<double> run(code, start.parameters, start.h, start.state);
-      Interpreter<Quad> exact(code, as<Quad>(start.parameters), Quad(start.h),
-                              as<Quad>(start.state));
-      for (int step = 0; step < 8; ++step) {
-        exact.reset(as<Quad>(run.state()), as<Quad>(run.carry()));
-        ASSERT_TRUE(run.step().converged) << entry.path().stem() << " " << scheme.name;
-        ASSERT_TRUE(exact.step().converged) << entry.path().stem() << " " << scheme.name;
-        double size = 0;
-        for (const double x : run.state()) size = std::max(size, std::abs(x));
-        for (std::size_t i = 0; i < run.state().size(); ++i) {
-          const Quad error =
-              (Quad(run.state()[i]) - exact.state()[i]) + (Quad(run.carry()[i]) - exact.carry()[i]);
-          const double units = std::abs(static_cast<double>(error)) / (size * 0x1p-52);
-          if (units > worst) {
-            worst = units;
-            where = fmt::format("{} {} step {}", entry.path().stem().string(), scheme.name, step);
-          }
-        }
-        ++steps;
-      }
-    }
-  }
-  EXPECT_LE(worst, 16) << where;
-  EXPECT_GT(steps, 1000);
-  RecordProperty("worst_in_units_of_rounding", fmt::format("{:.3g}", worst));
-  RecordProperty("where", where);
 }
 
 }  // namespace

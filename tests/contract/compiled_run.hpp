@@ -1,0 +1,136 @@
+// Included by a program beside emitted code, never by a test itself: emitted steps as watch.hpp
+// wants them.
+#pragma once
+
+#include <cstdio>
+#include <cstring>
+#include <type_traits>
+
+#include "tests/contract/watch.hpp"
+
+namespace hamgen::contract {
+
+// A state is nothing but its numbers.
+template <class Real, class State>
+Vector numbers(const State& state) {
+  std::vector<Real> values(sizeof(State) / sizeof(Real));
+  std::memcpy(values.data(), &state, sizeof(State));
+  return Vector(values.begin(), values.end());
+}
+template <class Real, class State>
+State state_of(const Vector& values) {
+  State state;
+  if constexpr (!std::is_empty_v<State>) {
+    std::vector<Real> rounded;
+    for (const Quad value : values) rounded.push_back(static_cast<Real>(value));
+    std::memcpy(static_cast<void*>(&state), rounded.data(), sizeof(State));
+  }
+  return state;
+}
+
+template <class Real, class Stepper>
+Vector state_and_carry(const Stepper& stepper) {
+  Vector z = numbers<Real>(stepper.z_);
+  const Vector carry = numbers<Real>(stepper.carry_);
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] += carry[k];
+  return z;
+}
+
+// Emitted is a namespace as a type: see the adapter in measure.cpp.
+template <class Emitted>
+struct Compiled {
+  using Real = typename Emitted::Real;
+  static constexpr Real epsilon = Emitted::epsilon;
+  typename Emitted::Parameters par;
+  Vector gradient(const Vector& z) const {
+    std::vector<Real> g(z.size());
+    Emitted::gradient(par, state_of<Real, typename Emitted::State>(z), g.data());
+    return Vector(g.begin(), g.end());
+  }
+};
+
+// A whole step, and substep i of a composition's.
+template <class Emitted>
+struct CompiledStepper {
+  typename Emitted::Propagator& all;
+  Vector exact_state() const { return state_and_carry<typename Emitted::Real>(all); }
+  Attempt step() {
+    const auto report = all.step();
+    return {report.converged, report.iterations};
+  }
+};
+template <class Emitted>
+struct CompiledSubstep {
+  typename Emitted::Propagator& all;
+  int i;
+  typename Emitted::State z_, carry_;
+  Vector exact_state() const { return state_and_carry<typename Emitted::Real>(*this); }
+  Attempt step() {
+    const auto report = all.substep(i, z_, carry_);
+    return {report.converged, report.iterations};
+  }
+};
+
+template <class Emitted>
+struct CompiledExact : Compiled<Emitted> {
+  using State = typename Emitted::State;
+  using Propagator = typename Emitted::Propagator;
+  ExactStep step(const Vector& z, Quad h) const {
+    Propagator all(this->par, h, state_of<Quad, State>(z));
+    ExactStep result;
+    if constexpr (requires { Propagator::substeps; }) {
+      all.lengths_[0] = h;
+      if constexpr (requires { all.k_; }) all.k_[0] = prepare(this->par, h);
+      CompiledSubstep<Emitted> first{all, 0, all.z_, all.carry_};
+      result.converged = first.step().converged;
+      result.end = first.exact_state();
+    } else {
+      result.converged = all.step().converged;
+      result.end = state_and_carry<Quad>(all);
+      if constexpr (requires { all.start_.value; }) {
+        for (const Quad value : all.start_.value) result.stages.push_back(value);
+      }
+    }
+    return result;
+  }
+};
+
+// Steps of a Propagator, of a composition substep by substep as its step() takes them.
+template <class Emitted, class ExactEmitted>
+Defects run(const Vector& parameters, const Equations& equations, typename Emitted::Real h,
+            const Vector& start, long long steps) {
+  using Real = typename Emitted::Real;
+  using State = typename Emitted::State;
+  Compiled<Emitted> code{state_of<Real, typename Emitted::Parameters>(parameters)};
+  CompiledExact<ExactEmitted> exact{};
+  if constexpr (!std::is_empty_v<typename Emitted::Parameters>) {  // the same, rounded, numbers
+    exact.par = state_of<Quad, typename ExactEmitted::Parameters>(numbers<Real>(code.par));
+  }
+  typename Emitted::Propagator all(code.par, h, state_of<Real, State>(start));
+  Watch watch(code, exact);
+  Defects defects;
+  for (defects.steps = 0; defects.steps < steps; ++defects.steps) {
+    if constexpr (requires { Emitted::Propagator::substeps; }) {
+      CompiledSubstep<Emitted> substep{all, 0, all.z_, all.carry_};
+      for (; substep.i < Emitted::Propagator::substeps; ++substep.i) {
+        defects.failed = !watch.solve(substep, equations, all.lengths_[substep.i], defects);
+        if (defects.failed) return defects;
+      }
+      all.z_ = substep.z_;
+      all.carry_ = substep.carry_;
+    } else {
+      CompiledStepper<Emitted> stepper{all};
+      defects.failed = !watch.solve(stepper, equations, h, defects);
+      if (defects.failed) return defects;
+    }
+  }
+  return defects;
+}
+
+inline void print(const char* name, const Defects& d) {
+  std::printf("%s\t%lld\t%lld\t%lld\t%.6g\t%lld\t%.6g\t%.6g\t%d\t%lld\t%lld\n", name, d.steps,
+              d.solves, d.iterations, d.worst, d.worst_step, d.units, d.reference, d.failed ? 1 : 0,
+              d.broken, d.unknown);
+}
+
+}  // namespace hamgen::contract

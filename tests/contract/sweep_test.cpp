@@ -1,0 +1,150 @@
+// Every method on every scene: interpreted steps keep Note [contract of a solve] in watch.hpp.  The
+// whole lengths of the scenes are left to `ctest -C full`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "tests/contract/interpreted.hpp"
+
+namespace hamgen::contract {
+namespace {
+
+// The residual of the quad step is that of H's equations; those of a member of higher order are
+// K's, whose gradient is rounded in more operations than H's.
+bool is_raised(const Case& c) { return c.request.order > 0; }
+
+void expect_kept(const Defects& d, const Case& c) {
+  EXPECT_LE(d.worst, kAllowed) << d.name << " at step " << d.worst_step;
+  EXPECT_EQ(d.broken, 0) << d.name << ", of " << d.solves;
+  EXPECT_EQ(d.unknown, 0) << d.name;
+  if (!is_raised(c)) {
+    EXPECT_LE(d.reference, 1e-6) << d.name;
+  }
+}
+
+// With swing's steps the equations have more solutions than one, and substeps longer than the step
+// end at any of them: it is for the fixed points below.
+std::vector<std::string> uniquely_solved_models() {
+  std::vector<std::string> models = all_models();
+  std::erase(models, "swing");
+  return models;
+}
+
+// A spring of the frequency 1000 by steps of ten of its radians, at rest before: the first solve
+// gives up where it no longer gets nearer.
+bool is_beyond(const Case& c) { return c.name == "spring_pendulum very_stiff gauss-16"; }
+
+// A fixed point need not contract, an explicit step may be far too long, and a step of a general
+// member or of higher order need not have a solution.
+bool may_fail(const Method& method) {
+  if (method.request.scheme.empty()) return method.name != "newton";
+  const auto& schemes = all_schemes();
+  const auto scheme = std::ranges::find(schemes, method.request.scheme, &Scheme::name);
+  const bool is_explicit =
+      scheme != schemes.end() && (!scheme->has_member() || scheme->name.starts_with("symplectic"));
+  return method.request.solver == "fixed-point" ||
+         (is_explicit && !method.name.starts_with("gauss"));
+}
+
+// Those that are worth their time where a solve takes milliseconds.
+bool is_worth_it(const Method& method) {
+  for (const char* name : {"newton", "fixed-point", "member", "symplectic-euler-a",
+                           "stormer-verlet", "yoshida-4", "gauss-4", "rk4"}) {
+    if (method.name == name) return true;
+  }
+  return false;
+}
+
+TEST(EveryMethod, KeepsItOnEveryScene) {
+  long long solves = 0;
+  int runs = 0;
+  for (const std::string& name : uniquely_solved_models()) {
+    const SourceText source = model(name);
+    const Interpretable interpretable(source);
+    const bool large = degrees_of_freedom(interpretable.model()) > 5;
+    for (const Method& method : all_methods()) {
+      if (large && !is_worth_it(method)) continue;
+      std::vector<Case> cases = scenes_of(interpretable.model(), source, method, 3);
+      std::erase_if(cases, is_beyond);
+      std::vector<Defects> found;
+      try {
+        found = interpretable.measure(method.request, cases);
+      } catch (const UsageError&) {
+        continue;  // the method needs what this H does not have
+      }
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        expect_kept(found[i], cases[i]);
+        EXPECT_TRUE(!found[i].failed || may_fail(method)) << found[i].name;
+        solves += found[i].solves;
+        ++runs;
+      }
+    }
+  }
+  EXPECT_GT(runs, 1500);
+  EXPECT_GT(solves, 15'000);
+}
+
+struct Row {
+  std::string method;
+  std::vector<std::pair<std::string, std::string>> scenes;
+  long steps;
+};
+
+std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.method; }
+
+class Walls : public testing::TestWithParam<Row> {};
+
+// What is smooth for hundreds of steps and then steep.
+TEST_P(Walls, AreMetByStepsThatAreSolved) {
+  const std::vector<Method> methods = all_methods();
+  const auto method = std::ranges::find(methods, GetParam().method, &Method::name);
+  ASSERT_NE(method, methods.end());
+  for (const auto& [name, scene] : GetParam().scenes) {
+    const Case c{.name = name + " " + scene + " " + method->name,
+                 .model = model(name),
+                 .scene = scene,
+                 .request = method->request,
+                 .steps = GetParam().steps};
+    const Defects d = Interpretable(c.model).measure(c);
+    expect_kept(d, c);
+    EXPECT_FALSE(d.failed) << d.name << " after step " << d.steps;
+    EXPECT_GE(d.solves, 150) << d.name;
+  }
+}
+
+const std::vector<std::pair<std::string, std::string>> kWalls = {
+    {"wall", "bounce"},        {"box", "soft"},          {"box", "fast"},
+    {"hard_box", "fine"},      {"wobble", "coarse"},     {"morse_approach", "far"},
+    {"lennard_jones", "slow"}, {"lennard_jones", "fast"}};
+const std::vector<std::pair<std::string, std::string>> kSlowContraction = {
+    {"wall", "bounce"},        {"box", "soft"},    {"morse_approach", "far"},
+    {"lennard_jones", "slow"}, {"swing", "below"}, {"swing", "above"}};
+
+INSTANTIATE_TEST_SUITE_P(
+    By, Walls,
+    testing::Values(Row{"newton", kWalls, 1500}, Row{"fixed-point", kSlowContraction, 700},
+                    Row{"member", kWalls, 700}, Row{"member", {{"harmonic", "stiff"}}, 2000},
+                    Row{"symplectic-euler-a", kWalls, 700}, Row{"yoshida-4", kWalls, 700},
+                    Row{"blanes-moan-6", kWalls, 700}, Row{"order-4", kWalls, 700},
+                    Row{"gauss-4", kWalls, 700}, Row{"gauss-4-newton", kWalls, 700},
+                    Row{"gauss-8", kWalls, 700}, Row{"newton", {{"beads", "shot"}}, 150},
+                    Row{"fixed-point", {{"beads", "shot"}}, 150}));
+
+TEST(OtherScalars, KeepItOnEveryScene) {
+  for (const char* scalar : {"float", "long-double"}) {
+    for (const std::string& name : uniquely_solved_models()) {
+      const SourceText source = model(name);
+      const Interpretable interpretable(source);
+      if (degrees_of_freedom(interpretable.model()) > 5) continue;
+      const Method method{.name = scalar, .request = {.scalar = scalar}};
+      for (const Case& c : scenes_of(interpretable.model(), source, method, 100)) {
+        expect_kept(interpretable.measure(c), c);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::contract
