@@ -352,7 +352,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "plan") return to_text(stages.plan);
   if (stage == "program") return to_text(step_code(stages.program));
   if (stage == "origins") {
-    return text_with_origins(step_code(stages.program), stages.mechanics.terms);
+    return text_with_origins(step_code(stages.program), stages.system.mechanics.terms);
   }
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program, origins", stage));
