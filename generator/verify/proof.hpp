@@ -7,6 +7,7 @@
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
+#include "generator/program/step_code.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/sample_points.hpp"
@@ -47,12 +48,12 @@ inline constexpr const char* kGauge = "gauge in sp(2n)";
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
                                      const Scheme& scheme, bool solved, Verdict symplectic,
                                      const Surroundings& around = {});
-// The instructions of the program, substituted back into expressions, are the step's equations,
-// their derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
+// The routines of the program, as they are printed and interpreted, are the step's equations, their
+// derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
 // stands in for H, which is asked here if it is left out.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
-                                    const Program& program, const Expression& hamiltonian,
-                                    const Surroundings& around = {},
+                                    const Program& program, const StepCode& code,
+                                    const Expression& hamiltonian, const Surroundings& around = {},
                                     std::optional<Decision> of_k = {});
 
 }  // namespace hamgen

@@ -106,7 +106,8 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
       prove_invariants(mechanics, hamiltonian, scheme, is_solved(mechanics, scheme, program),
                        verdict_of(proof, "symplectic"), around),
       std::back_inserter(proof));
-  proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian, around, of_k));
+  proof.push_back(
+      prove_emitted(mechanics, scheme, program, step_code(program), hamiltonian, around, of_k));
   return proof;
 }
 

@@ -22,49 +22,59 @@ Program program_of(const Mechanics& mechanics, const Scheme& scheme, const std::
   return build_program(plan_solve(discretise(mechanics, scheme), solver));
 }
 
-void for_each_expression(Program& program, const std::function<void(Expression&)>& visit) {
-  auto statements = [&](std::vector<Statement>& list) {
-    for (Statement& s : list) visit(s.value);
-  };
-  auto expressions = [&](std::vector<Expression>& list) {
-    for (Expression& e : list) visit(e);
-  };
-  statements(program.coefficients);
-  for (Stage& stage : program.stages) {
-    statements(stage.before);
-    if (stage.solve) {
-      statements(stage.solve->body);
-      expressions(stage.solve->residual);
-      for (auto& row : stage.solve->matrix) expressions(row);
-      for (LoopVariable& v : stage.solve->variables) {
-        for (Expression* e : {&v.cold, &v.next, &v.correction}) visit(*e);
-      }
-      expressions(stage.solve->gradient);
+namespace {
+
+using Visit = std::function<void(Expression&)>;
+
+struct Visitor {
+  const Visit& visit;
+
+  void body(Body& body) const {
+    for (Instruction& instruction : body) std::visit(*this, instruction.value);
+  }
+  void unknowns(std::vector<Unknown>& list) const {
+    for (Unknown& unknown : list) {
+      visit(unknown.start);
+      visit(unknown.correction);
     }
-    statements(stage.after);
   }
-  expressions(program.increments);
-  expressions(program.rests);
-  for (Evaluation* evaluation :
-       {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-        &program.kinetic_gradient, &program.vector_field, &program.hessian,
-        &program.modified_energies}) {
-    statements(evaluation->statements);
-    expressions(evaluation->results);
+  void operator()(Let& let) const { visit(let.value); }
+  void operator()(Array& array) const {
+    for (Expression& e : array.values) visit(e);
   }
-  if (program.linearisation) {
-    statements(program.linearisation->once);
-    for (Linearisation::Stage& stage : program.linearisation->stages) {
-      statements(stage.before);
-      if (!stage.solve) continue;
-      for (auto& row : stage.solve->matrix) expressions(row);
-      expressions(stage.solve->right_side);
-    }
-    expressions(program.linearisation->results);
+  void operator()(Assign& assign) const { visit(assign.value); }
+  void operator()(Collect& sum) const { visit(sum.value); }
+  void operator()(Accumulate& sum) const { visit(sum.value); }
+  void operator()(Put& put) const { visit(put.value); }
+  void operator()(For& loop) const { body(loop.body); }
+  void operator()(Scope& scope) const { body(scope.body); }
+  void operator()(If& branch) const { body(branch.then); }
+  void operator()(Alternate& alternate) const { body(alternate.between); }
+  void operator()(Iterate& iterate) const {
+    unknowns(iterate.unknowns);
+    body(iterate.body);
   }
-  for (Substep& substep : program.sequence.substeps) visit(substep.length);
-  for (auto& row : program.sequence.stages.coupling) expressions(row);
-  expressions(program.sequence.stages.weight);
+  void operator()(IterateArray& iterate) const { body(iterate.body); }
+  // What it evaluates is what the iteration before it evaluates.
+  void operator()(Refine& refine) const {
+    for (Expression& e : refine.gradient) visit(e);
+  }
+  void operator()(RefineArray&) const {}
+  void operator()(Sweep& sweep) const {
+    unknowns(sweep.unknowns);
+    body(sweep.body);
+  }
+  void operator()(Return& end) const {
+    if (end.value) visit(*end.value);
+  }
+  template <class Other>
+  void operator()(Other&) const {}
+};
+
+}  // namespace
+
+void for_each_expression(StepCode& code, const std::function<void(Expression&)>& visit) {
+  for (Routine& routine : code.routines) Visitor{visit}.body(routine.body);
 }
 
 namespace {
@@ -162,100 +172,326 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
   };
 }
 
-// The program's results in double at one point: an oracle that shares nothing with the proof. Empty
-// if a value is used before it is computed.
-class Interpreter {
+// The code's results in double at one point: an oracle that shares nothing with the proof. Unknowns
+// of iterations are numbers that depend on their names, and so is whatever nobody has assigned;
+// what is observed are the functions' values, the increments, and at every iteration what it
+// solves.
+class Evaluator {
  public:
-  std::optional<std::vector<double>> operator()(Program program) {
-    try {
-      run(program.coefficients);
-      for (const Stage& stage : program.stages) {
-        run(stage.before);
-        if (stage.solve) {
-          run(stage.solve->body);
-          for (const Expression& e : stage.solve->residual) results_.push_back(value(e));
-          for (const auto& row : stage.solve->matrix) {
-            for (const Expression& e : row) results_.push_back(value(e));
-          }
-          for (const LoopVariable& v : stage.solve->variables) {
-            for (const Expression& e : {v.cold, v.next, v.correction}) results_.push_back(value(e));
-          }
-          for (const Expression& e : stage.solve->gradient) results_.push_back(value(e));
-        }
-        run(stage.after);
+  explicit Evaluator(const StepCode& code) : code_(code) {}
+
+  std::vector<double> operator()() {
+    for (const Routine& routine : code_.routines) {
+      const bool inner = routine.name == "prepare" || routine.name == "evaluate" ||
+                         routine.name == "fixed_point" || routine.name == "newton" ||
+                         (routine.name == "hessian" && !is_called("hessian"));
+      // The tangent of a composition takes its steps with others: those are looked at.
+      const bool composed =
+          routine.name == "tangent" && code_.routine("substep_tangent") != nullptr;
+      if (inner || composed) continue;
+      for (const bool known : {false, true}) {
+        if (known && (routine.name != "solve" || code_.unknowns > 0)) continue;
+        run(routine, known);
       }
-      // What is large and what is small make one increment.
-      for (std::size_t i = 0; i < program.increments.size(); ++i) {
-        const double rest = program.rests.empty() ? 0.0 : value(program.rests[i]);
-        results_.push_back(value(program.increments[i]) + rest);
-      }
-      for (const Evaluation* e :
-           {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-            &program.kinetic_gradient, &program.vector_field, &program.hessian,
-            &program.modified_energies}) {
-        run(e->statements);
-        for (const Expression& result : e->results) results_.push_back(value(result));
-      }
-      if (program.linearisation) run(*program.linearisation);
-      for (const Substep& substep : program.sequence.substeps) {
-        results_.push_back(static_cast<double>(substep.kind));
-        results_.push_back(value(substep.length));
-      }
-      for (const auto& row : program.sequence.stages.coupling) {
-        for (const Expression& e : row) results_.push_back(value(e));
-      }
-      for (const Expression& e : program.sequence.stages.weight) results_.push_back(value(e));
-    } catch (const std::out_of_range&) {
-      return std::nullopt;
     }
-    return results_;
+    for (const Rational& length : code_.substeps) results_.push_back(length.get_d());
+    return std::move(results_);
   }
 
  private:
-  void run(const Linearisation& linearisation) {
-    run(linearisation.once);
-    for (const Linearisation::Stage& stage : linearisation.stages) {
-      run(stage.before);
-      if (!stage.solve) continue;
-      for (const auto& row : stage.solve->matrix) {
-        for (const Expression& e : row) results_.push_back(value(e));
-      }
-      for (const Expression& e : stage.solve->right_side) results_.push_back(value(e));
+  struct Object {
+    std::string root;
+    long offset = 0;
+    std::vector<int> sizes = {};
+  };
+  struct Frame {
+    const Routine* routine;
+    std::map<std::string, Object> objects = {};
+    std::map<std::string, double> locals = {};
+    std::map<std::string, long> indices = {};
+    std::set<std::string> rounded = {};
+    bool ended = false;
+  };
+
+  [[nodiscard]] bool is_called(const std::string& name) const {
+    for (const Routine& routine : code_.routines) {
+      if (called_routines(routine.body).contains(name)) return true;
     }
-    for (const Expression& e : linearisation.results) results_.push_back(value(e));
+    return false;
   }
-  void run(const std::vector<Statement>& statements) {
-    std::set<std::string> rounded;
-    for (std::size_t i = 0; i < statements.size(); ++i) {
-      pending_.insert(statements[i].name);
-      const Expression& error = statements[i].value;
-      if (error.kind() != Kind::function || error.name() != kProductError) continue;
-      const Expression product = error.operands()[0] * error.operands()[1];
+  void run(const Routine& routine, bool known) {
+    cells_.clear();
+    zeroed_.clear();
+    matrices_.clear();
+    flags_.clear();
+    flags_["start.known"] = known;
+    if (code_.routine("prepare") != nullptr && routine.name != "prepare") {
+      start(*code_.routine("prepare"));
+    }
+    for (const Argument& argument : routine.arguments) {
+      if (argument.name == "values") zeroed_.insert("values");
+    }
+    start(routine);
+    for (const auto& [name, value] : cells_) {
+      if (!name.starts_with("start.") && !name.starts_with("k.")) results_.push_back(value);
+    }
+    for (const auto& [place, value] : matrices_["matrix"]) observe_entry(place, value);
+  }
+  void start(const Routine& routine) {
+    Frame frame{.routine = &routine};
+    for (const Argument& argument : routine.arguments) {
+      frame.objects[argument.name] = {.root = argument.name, .sizes = argument.sizes};
+    }
+    frame.locals["h"] = 0.1;
+    if (routine.name == "solve") {
+      for (const Place& place : code_.changed) {
+        // Not every component has a rest.
+        cells_.try_emplace("dz." + place.field + subscript(place), 0);
+      }
+    }
+    run(frame, routine.body);
+    // What is large and what is small make one increment.
+    if (routine.name != "solve") return;
+    for (auto& [name, value] : cells_) {
+      if (!name.starts_with("dz.")) continue;
+      const auto rest = cells_.find("rest." + name.substr(3));
+      if (rest == cells_.end()) continue;
+      value += rest->second;
+      rest->second = 0;
+    }
+  }
+  static std::string subscript(const Place& place) {
+    return place.indices.empty() ? "" : "[" + std::to_string(place.indices[0].constant) + "]";
+  }
+
+  void run(Frame& frame, const Body& body) {
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const auto* let = std::get_if<Let>(&body[i].value);
+      if (let == nullptr || let->value.kind() != Kind::function) continue;
+      if (let->value.name() != kProductError) continue;
+      const Expression product = let->value.operands()[0] * let->value.operands()[1];
       for (std::size_t j = i; j-- > 0;) {
-        if (statements[j].value != product) continue;
-        rounded.insert(statements[j].name);
+        const auto* before = std::get_if<Let>(&body[j].value);
+        if (before == nullptr || before->value != product) continue;
+        frame.rounded.insert(before->symbol);
         break;
       }
     }
-    for (const Statement& s : statements) {
-      values_[s.name] = value(s.value) * (rounded.contains(s.name) ? 1 - kLost : 1);
-      pending_.erase(s.name);
+    for (const Instruction& instruction : body) {
+      if (frame.ended) return;
+      std::visit([&](const auto& node) { run(frame, node); }, instruction.value);
     }
   }
-  double symbol(const std::string& name) {
-    if (pending_.contains(name)) throw std::out_of_range(name);
-    // Free symbols: some number from 1/2 to 3/2 that depends on the name.
-    const double spread = static_cast<double>(std::hash<std::string>{}(name) % 1000) / 1000;
-    return values_.try_emplace(name, name == "h" ? 0.1 : 0.5 + spread).first->second;
+  void run(Frame& f, const Let& let) {
+    const double x = value(f, let.value);
+    f.locals[let.symbol] = f.rounded.contains(let.symbol) ? x * (1 - kLost) : x;
   }
-  double value(const Expression& e) {
+  void run(Frame& f, const Assign& a) { number(f, a.symbol) = value(f, a.value); }
+  void run(Frame& f, const Accumulate& a) {
+    const double x = value(f, a.value);
+    number(f, a.symbol) += x;
+  }
+  void run(Frame& f, const Collect& c) { run(f, Accumulate{c.symbol, c.value}); }
+  void run(Frame& f, const Array& array) {
+    const std::string root = std::to_string(++objects_) + array.name;
+    f.objects[array.name] = {.root = root, .sizes = array.sizes};
+    zeroed_.insert(root);
+    long i = 0;
+    for (const Expression& e : array.values) {
+      const double x = value(f, e);
+      cells_[root + "[" + std::to_string(i++) + "]"] = x;
+    }
+  }
+  void run(Frame& f, const Matrix& matrix) {
+    f.objects[matrix.name] = {.root = std::to_string(++objects_) + matrix.name};
+  }
+  void run(Frame& f, const Copy& copy) {
+    if (copy.declares) f.objects[copy.to] = {.root = std::to_string(++objects_) + copy.to};
+    const std::string to = f.objects[copy.to].root;
+    if (copy.from.empty()) {
+      zeroed_.insert(to);
+      return;
+    }
+    for (const Field& field : code_.record(copy.record)->fields) {
+      long count = 1;
+      for (const int size : field.sizes) count *= size;
+      for (long i = 0; i < count; ++i) {
+        const std::string end =
+            "." + field.name + (field.sizes.empty() ? "" : "[" + std::to_string(i) + "]");
+        cells_[to + end] = cell(f.objects[copy.from].root + end);
+      }
+    }
+  }
+  void run(Frame& f, const Clear& clear) { matrices_[name(f, clear.matrix)].clear(); }
+  void run(Frame& f, const Put& put) {
+    matrices_[name(f, put.matrix)][{at(f, put.row), at(f, put.column)}] += value(f, put.value);
+  }
+  void run(Frame& f, const SetFlag& set) { flags_[name(f, set.flag)] = set.value; }
+  void run(Frame& f, const For& loop) {
+    const long last = at(f, loop.range.upper);
+    for (long i = at(f, loop.range.lower); i <= last; ++i) {
+      f.indices[loop.range.index] = i;
+      run(f, loop.body);
+    }
+  }
+  void run(Frame& f, const Scope& scope) { run(f, scope.body); }
+  void run(Frame& f, const If& branch) {
+    if (flags_[name(f, branch.flag)] == branch.set) run(f, branch.then);
+  }
+  void run(Frame& f, const Call& call) {
+    const Routine& routine = *code_.routine(call.routine);
+    Frame inner{.routine = &routine};
+    for (std::size_t i = 0; i < routine.arguments.size(); ++i) {
+      const Argument& argument = routine.arguments[i];
+      const Place& place = call.arguments.at(i);
+      if (argument.record.empty() && argument.sizes.empty()) {
+        inner.locals[argument.name] = number(f, place.object);
+        continue;
+      }
+      const auto known = f.objects.find(place.object);
+      Object object = known != f.objects.end() ? known->second : Object{.root = place.object};
+      if (!place.field.empty()) object.root += "." + place.field;
+      if (!place.indices.empty()) object.offset += at(f, place.indices[0]);
+      object.sizes = argument.sizes;
+      inner.objects[argument.name] = object;
+    }
+    run(inner, routine.body);
+  }
+  void run(Frame& f, const Alternate& two) {
+    run(f, two.first);
+    run(f, two.between);
+    run(f, two.second);
+  }
+  void run(Frame&, const Factorise&) {}
+  void run(Frame& f, const SolveFactorised& solve) {
+    for (const auto& [place, x] : matrices_[name(f, solve.matrix)]) observe_entry(place, x);
+    const Object& object = f.objects[solve.vector.object];
+    const std::string stem =
+        object.root + (solve.vector.field.empty() ? "" : "." + solve.vector.field);
+    long size = 1;
+    for (const int s : object.sizes) size *= s;
+    if (!solve.vector.field.empty()) {
+      for (const Field& field : code_.record("Start")->fields) {
+        if (field.name == solve.vector.field) size = field.sizes.at(0);
+      }
+    }
+    for (long i = 0; i < size; ++i) {
+      double& x = cell(stem + "[" + std::to_string(i) + "]");
+      results_.push_back(x);
+      x = spread("solution " + std::to_string(i));
+    }
+  }
+  void run(Frame& f, const Invert& invert) {
+    for (const auto& [place, x] : matrices_[f.objects[invert.matrix].root]) observe_entry(place, x);
+    flags_[name(f, invert.regular)] = true;
+  }
+  void observe_entry(const std::pair<long, long>& place, double x) {
+    if (x == 0) return;
+    results_.push_back(static_cast<double>(1000 * place.first + place.second));
+    results_.push_back(x);
+  }
+  void pass(Frame& f, const std::vector<Unknown>& unknowns, const Body& body) {
+    for (const Unknown& u : unknowns) {
+      results_.push_back(value(f, u.start));
+      f.locals[u.symbol] = spread(u.symbol);
+    }
+    run(f, body);
+    for (const Unknown& u : unknowns) results_.push_back(value(f, u.correction));
+  }
+  void run(Frame& f, const Iterate& iterate) { pass(f, iterate.unknowns, iterate.body); }
+  void run(Frame& f, const Sweep& sweep) {
+    if (sweep.unknowns.empty()) {
+      for (int i = 0; i < sweep.count; ++i) run(f, sweep.body);
+    }
+    pass(f, sweep.unknowns, sweep.unknowns.empty() ? Body{} : sweep.body);
+    for (const std::string& result : sweep.results) f.locals[result] = spread(result);
+  }
+  void run(Frame& f, const Refine& refine) {
+    for (const Expression& e : refine.gradient) results_.push_back(value(f, e));
+  }
+  void for_unknowns(Frame& f, const IterateArray& iterate,
+                    const std::function<void(const UnknownArray&)>& use) {
+    for_each_instance(iterate.ranges, [&](const std::vector<long>& indices) {
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        f.indices[iterate.ranges[i].index] = indices[i];
+      for (const UnknownArray& u : iterate.unknowns) use(u);
+    });
+  }
+  void run(Frame& f, const IterateArray& iterate) {
+    for_unknowns(f, iterate, [&](const UnknownArray& u) {
+      results_.push_back(number(f, u.value));
+      number(f, u.value) = spread(name(f, f.routine->places.at(u.value)));
+    });
+    run(f, iterate.body);
+    for_unknowns(f, iterate,
+                 [&](const UnknownArray& u) { results_.push_back(number(f, u.increment)); });
+  }
+  void run(Frame& f, const RefineArray& refine) {
+    run(f, refine.body);
+    for (long i = 0; i < refine.components; ++i) {
+      const std::string end = "[" + std::to_string(i) + "]";
+      const double slope =
+          cell(f.objects[refine.gradient.object].root + "." + refine.gradient.field + end);
+      results_.push_back(slope);
+      cell(name(f, refine.refinement) + ".slope" + end) = slope;
+    }
+  }
+  void run(Frame& f, const Return& end) {
+    if (end.value) results_.push_back(value(f, *end.value));
+    f.ended = true;
+  }
+
+  static long at(const Frame& f, const AffineIndex& index) {
+    long x = index.constant;
+    for (const auto& [symbol, factor] : index.factors) x += factor * f.indices.at(symbol);
+    return x;
+  }
+  // A free number that depends on the name: from 1/2 to 3/2, but a carry is small.
+  static double spread(const std::string& name) {
+    return (name.starts_with("carry") ? 0.01 : 1) *
+           (0.5 + static_cast<double>(std::hash<std::string>{}(name) % 1000) / 1000);
+  }
+  std::string name(Frame& f, const Place& place) {
+    const auto known = f.objects.find(place.object);
+    Object object = known != f.objects.end() ? known->second : Object{.root = place.object};
+    std::vector<int> sizes = object.sizes;
+    if (!place.field.empty()) {
+      object.root += "." + place.field;
+      for (const Record& record : code_.records) {
+        for (const Field& field : record.fields) {
+          if (field.name == place.field && field.sizes.size() == place.indices.size())
+            sizes = field.sizes;
+        }
+      }
+    }
+    if (place.indices.empty()) return object.root;
+    long linear = 0;
+    for (std::size_t i = 0; i < place.indices.size(); ++i) {
+      linear = (i == 0 ? 0 : linear * sizes.at(i)) + at(f, place.indices[i]);
+    }
+    return object.root + "[" + std::to_string(object.offset + linear) + "]";
+  }
+  double& cell(const std::string& name) {
+    const std::string root = name.substr(0, name.find_first_of(".["));
+    return cells_.try_emplace(name, zeroed_.contains(root) ? 0 : spread(name)).first->second;
+  }
+  double& number(Frame& f, const std::string& symbol) {
+    const auto local = f.locals.find(symbol);
+    if (local != f.locals.end()) return local->second;
+    const auto place = f.routine->places.find(symbol);
+    if (place == f.routine->places.end())
+      return f.locals.try_emplace(symbol, spread(symbol)).first->second;
+    if (!place->second.object.empty()) return cell(name(f, place->second));
+    return index_ = static_cast<double>(at(f, place->second.indices.at(0)));
+  }
+  double value(Frame& f, const Expression& e) {
     std::vector<double> x;
-    for (const Expression& operand : e.operands()) x.push_back(value(operand));
+    for (const Expression& operand : e.operands()) x.push_back(value(f, operand));
     switch (e.kind()) {
       case Kind::number:
         return e.number().get_d();
       case Kind::symbol:
-        return symbol(e.name());
+        return number(f, e.name());
       case Kind::sum:
         return std::accumulate(x.begin(), x.end(), 0.0);
       case Kind::product:
@@ -268,33 +504,44 @@ class Interpreter {
     }
     return 0;
   }
+
   // Of a product that comes with its error, a part: the two of them are the product.
   static constexpr double kLost = 0.1;
-  std::map<std::string, double> values_;
-  std::set<std::string> pending_;
+  const StepCode& code_;
+  std::map<std::string, double> cells_;
+  std::set<std::string> zeroed_;
+  std::map<std::string, std::map<std::pair<long, long>, double>> matrices_;
+  std::map<std::string, bool> flags_;
   std::vector<double> results_;
+  double index_ = 0;
+  int objects_ = 0;
 };
 
 }  // namespace
 
-bool computes_the_same(const Program& a, const Program& b) {
-  const auto of_a = Interpreter()(a);
-  const auto of_b = Interpreter()(b);
-  if (!of_a || !of_b || of_a->size() != of_b->size()) return false;
-  for (std::size_t i = 0; i < of_a->size(); ++i) {
+bool computes_the_same(const StepCode& a, const StepCode& b) {
+  const std::vector<double> of_a = Evaluator(a)();
+  const std::vector<double> of_b = Evaluator(b)();
+  if (of_a.size() != of_b.size()) return false;
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
     // Rounding errors stay below 1e-12; a mutation moves a value by at least 1e-3 of one of its
     // terms.
-    if (!(std::abs((*of_a)[i] - (*of_b)[i]) <= 1e-12 * (1 + std::abs((*of_a)[i])))) return false;
+    if (!(std::abs(of_a[i] - of_b[i]) <= 1e-12 * (1 + std::abs(of_a[i])))) return false;
   }
   return true;
 }
 
-std::vector<Mutant> mutants_of(const Program& original) {
+std::vector<Mutant> mutants_of(const StepCode& original, const std::set<std::string>& routines) {
   std::vector<Mutant> mutants;
   std::set<std::string> known;
   std::vector<Expression> all;
-  Program copy = original;
-  for_each_expression(copy, [&](Expression& e) {
+  const auto for_each = [&](StepCode& code, const std::function<void(Expression&)>& visit) {
+    for (Routine& routine : code.routines) {
+      if (routines.empty() || routines.contains(routine.name)) Visitor{visit}.body(routine.body);
+    }
+  };
+  StepCode copy = original;
+  for_each(copy, [&](Expression& e) {
     collect_symbols(e, known);
     all.push_back(e);
   });
@@ -307,9 +554,9 @@ std::vector<Mutant> mutants_of(const Program& original) {
       const std::vector<Expression> variants = changed_somewhere(all[place], mutation.change);
       for (std::size_t v = 0; v < variants.size(); v += 1 + variants.size() / 2) {
         if (variants[v] == all[place]) continue;
-        Program mutant = original;
+        StepCode mutant = original;
         std::size_t now = 0;
-        for_each_expression(mutant, [&](Expression& e) {
+        for_each(mutant, [&](Expression& e) {
           if (now++ == place) e = variants[v];
         });
         mutants.push_back({mutation.name, to_text(all[place]) + " -> " + to_text(variants[v]),
@@ -320,39 +567,91 @@ std::vector<Mutant> mutants_of(const Program& original) {
   return mutants;
 }
 
-std::vector<Mutant> mutants_of_sequence(const Program& original) {
-  std::vector<Mutant> mutants;
-  auto change = [&](const std::string& kind, auto alter) {
-    Program mutant = original;
-    alter(mutant.sequence);
-    mutants.push_back({kind, "", std::move(mutant)});
+namespace {
+
+// Every body, with the routine it belongs to.
+void for_each_body(StepCode& code, const std::function<void(const Routine&, Body&)>& use) {
+  const std::function<void(const Routine&, Body&)> visit = [&](const Routine& routine, Body& body) {
+    use(routine, body);
+    for (Instruction& instruction : body) {
+      for (const Body* inner : inner_bodies(instruction)) {
+        // A refinement evaluates what the iteration before it does.
+        const bool again = std::holds_alternative<Refine>(instruction.value) ||
+                           std::holds_alternative<RefineArray>(instruction.value);
+        if (!again) visit(routine, const_cast<Body&>(*inner));
+      }
+    }
   };
-  const std::vector<Substep>& substeps = original.sequence.substeps;
-  for (std::size_t i = 0; i < substeps.size(); ++i) {
-    change("substep left out", [i](Sequence& s) {
-      s.substeps.erase(s.substeps.begin() + static_cast<std::ptrdiff_t>(i));
+  for (Routine& routine : code.routines) visit(routine, routine.body);
+}
+
+bool computes(const Instruction& instruction) {
+  const auto& node = instruction.value;
+  return std::holds_alternative<Assign>(node) || std::holds_alternative<Accumulate>(node) ||
+         std::holds_alternative<Collect>(node) || std::holds_alternative<Put>(node) ||
+         std::holds_alternative<For>(node) || std::holds_alternative<Call>(node) ||
+         std::holds_alternative<Clear>(node);
+}
+
+}  // namespace
+
+std::vector<Mutant> mutants_of_structure(const StepCode& original) {
+  std::vector<Mutant> mutants;
+  const auto change = [&](const std::string& kind, const auto& alter) {
+    StepCode mutant = original;
+    const std::string what = alter(mutant);
+    if (!what.empty()) mutants.push_back({kind, what, std::move(mutant)});
+  };
+  const std::size_t substeps = original.substeps.size();
+  for (std::size_t i = 0; substeps > 1 && i < substeps; ++i) {
+    change("substep left out", [i](StepCode& code) {
+      code.substeps.erase(code.substeps.begin() + static_cast<std::ptrdiff_t>(i));
+      return std::to_string(i);
     });
-    change("substep repeated", [i](Sequence& s) {
-      const Substep again = s.substeps[i];
-      s.substeps.insert(s.substeps.begin() + static_cast<std::ptrdiff_t>(i), again);
-    });
-    change("substeps exchanged",
-           [i](Sequence& s) { std::swap(s.substeps[i], s.substeps[(i + 1) % s.substeps.size()]); });
-    change("kick for drift", [i](Sequence& s) {
-      SubstepKind& kind = s.substeps[i].kind;
-      kind = kind == SubstepKind::kick ? SubstepKind::drift : SubstepKind::kick;
+    change("substeps exchanged", [i, substeps](StepCode& code) {
+      std::swap(code.substeps[i], code.substeps[(i + 1) % substeps]);
+      return std::to_string(i);
     });
   }
-  const std::size_t stages = original.sequence.stages.weight.size();
-  for (std::size_t i = 0; i < stages; ++i) {
-    change("stage left out", [i](Sequence& s) {
-      s.stages.weight.erase(s.stages.weight.begin() + static_cast<std::ptrdiff_t>(i));
+  std::size_t bodies = 0;
+  StepCode copy = original;
+  for_each_body(copy, [&](const Routine&, Body& body) { bodies += body.size(); });
+  for (std::size_t place = 0; place < bodies; place += 1 + bodies / 24) {
+    const auto at_place = [&](const std::string& kind, const auto& alter) {
+      change(kind, [&](StepCode& code) {
+        std::size_t now = 0;
+        std::string what;
+        for_each_body(code, [&](const Routine& routine, Body& body) {
+          const std::size_t first = now;
+          now += body.size();
+          if (place < first || place >= now || !what.empty()) return;
+          if (alter(body, place - first)) what = routine.name + " " + std::to_string(place - first);
+        });
+        return what;
+      });
+    };
+    at_place("instruction left out", [](Body& body, std::size_t i) {
+      if (!computes(body[i])) return false;
+      body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
+      return true;
     });
-    change("rows exchanged", [i, stages](Sequence& s) {
-      std::swap(s.stages.coupling[i], s.stages.coupling[(i + 1) % stages]);
+    at_place("range too short", [](Body& body, std::size_t i) {
+      auto* loop = std::get_if<For>(&body[i].value);
+      if (loop == nullptr) return false;
+      loop->range.upper.constant -= 1;
+      return true;
     });
-    change("tableau transposed", [i, stages](Sequence& s) {
-      std::swap(s.stages.coupling[i][(i + 1) % stages], s.stages.coupling[(i + 1) % stages][i]);
+    at_place("range begins late", [](Body& body, std::size_t i) {
+      auto* loop = std::get_if<For>(&body[i].value);
+      if (loop == nullptr) return false;
+      loop->range.lower.constant += 1;
+      return true;
+    });
+    at_place("neighbour in the matrix", [](Body& body, std::size_t i) {
+      auto* put = std::get_if<Put>(&body[i].value);
+      if (put == nullptr) return false;
+      put->column.constant += 1;
+      return true;
     });
   }
   return mutants;
