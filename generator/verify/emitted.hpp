@@ -46,6 +46,8 @@ class FunctionValues {
 // which nothing is known; the substeps of a composition.
 [[nodiscard]] std::vector<Identities> method_identities(const StepUnderProof& step,
                                                         const Derivatives& derivatives);
+[[nodiscard]] std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
+                                                             const RungeKutta& tableau);
 
 // The linearised step of a member that is written out.
 [[nodiscard]] Identities tangent_identities(const StepUnderProof& step,
