@@ -23,7 +23,7 @@ inline Expression recognised(const Expression& emitted, const Expression& exact)
 class Claims {
  public:
   explicit Claims(const StepUnderProof& step, std::set<std::string> opaque = {})
-      : step_(step), machine_(step.machine(std::move(opaque))) {}
+      : machine_(step.machine(std::move(opaque))) {}
 
   void add(std::string what, const Expression& emitted, const Expression& expected) {
     identities_.claims.push_back({std::move(what), emitted, expected});
@@ -42,7 +42,6 @@ class Claims {
   }
 
  private:
-  const StepUnderProof& step_;
   SymbolicMachine machine_;
   Identities identities_;
 };

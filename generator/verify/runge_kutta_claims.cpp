@@ -78,16 +78,21 @@ void add_extrapolation(Claims& claims, const RungeKutta& tableau,
     for (long r = 0; r < stages; ++r) {
       Rational sum(0);
       const auto power = [](const Expression& e, long exponent) {
-        return integer_power(numeric_value(e), exponent).value();
+        return hamgen::integer_power(numeric_value(e), exponent).value();
       };
       for (long j = 0; j < stages; ++j) {
         const auto place = static_cast<std::size_t>(j);
         const Expression entry = ahead(i, j);
         if (!entry.is_number()) return claims.add("a number of k.ahead", entry, Expression(0));
-        sum += entry.number() * numeric_value(tableau.b[place]) * power(tableau.c[place], r);
+        Rational term = entry.number();
+        term *= numeric_value(tableau.b[place]);
+        term *= power(tableau.c[place], r);
+        sum += term;
       }
       const Expression end = Expression(1) + tableau.c[static_cast<std::size_t>(i)];
-      const Rational exact = (power(end, r + 1) - 1) / Rational(r + 1);
+      Rational exact = power(end, r + 1);
+      exact -= 1;
+      exact /= Rational(r + 1);
       claims.add_number(fmt::format("the extrapolation of degree {} to stage {}", r, i + 1),
                         Expression(sum), Expression(exact));
     }
