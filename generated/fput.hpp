@@ -7,8 +7,7 @@
 //   H(q, p) = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^2/2 + alpha*(q[i+1] -
 //             q[i])^3/3)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
-//   proved    symplectic, symmetric, order 2
-//   tested    emitted code
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     banded Newton of size 32; momenta torn out, in loops
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
