@@ -38,6 +38,7 @@ struct Command {
 [[nodiscard]] Command add_report(CLI::App& app);
 [[nodiscard]] Command add_stress(CLI::App& app);
 [[nodiscard]] Command add_verify(CLI::App& app);
+[[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);

@@ -18,6 +18,7 @@ struct GenerateOptions {
   std::string output = "-";  // a directory, or standard output
   std::string format;
   std::string name_space;
+  std::string support;
   std::string require;
   std::string watch_modified;
   bool tangent = false;
@@ -69,6 +70,7 @@ int generate_files(const GenerateOptions& options) {
   Request request = request_with_sizes(options.method, source);
   request.format = options.format;
   request.name_space = options.name_space;
+  request.support = options.support;
   request.require = options.require;
   request.tangent = options.tangent;
   if (!options.watch_modified.empty())
@@ -88,9 +90,16 @@ Command add_generate(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
-  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, cmake-package")
+  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, c-header, cmake-package")
       ->type_name("NAME");
-  parser->add_option("--namespace", options->name_space, "of the emitted code")->type_name("NAME");
+  parser
+      ->add_option("--namespace", options->name_space,
+                   "SYSTEM::METHOD of the emitted code, or one NAME for both")
+      ->type_name("NAME");
+  parser
+      ->add_option("--support", options->support,
+                   "own (default), or shared: fixed parts in a header beside")
+      ->type_name("NAME");
   parser
       ->add_option("--require", options->require,
                    "only if proved, as symplectic,symmetric,order:2,emitted-code")

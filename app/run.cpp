@@ -9,9 +9,11 @@
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
+#include "app/output/progress_bars.hpp"
 #include "app/output/run_report.hpp"
 #include "app/output/terminal.hpp"
 #include "app/output/trajectory_table.hpp"
+#include "app/studies/certify.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/interpreted.hpp"
 #include "app/studies/load_integrator.hpp"
@@ -35,6 +37,7 @@ struct RunOptions {
   std::string watch_modified;
   std::string output;
   std::string keep;
+  bool certify = false;
   bool json = false;
   bool quiet = false;
 };
@@ -58,8 +61,9 @@ long record_distance(const RunOptions& options, const SceneValues& scene) {
   return every;
 }
 
-Columns columns_of(const PluginSource& plugin, const SceneValues& scene) {
+Columns columns_of(const PluginSource& plugin, const SceneValues& scene, bool wide) {
   Columns columns;
+  columns.wide = wide;
   columns.state = element_names(plugin.model.coordinates);
   const std::vector<std::string> momenta = element_names(plugin.model.momenta);
   columns.state.insert(columns.state.end(), momenta.begin(), momenta.end());
@@ -103,10 +107,12 @@ std::string trajectory_text(const std::string& output, const TrajectoryTable& ta
   return fmt::format("{}, {} rows", output == "-" ? "on standard output" : output, table.rows());
 }
 
-int status_of(const runtime::RunSummary& summary) {
+int status_of(const RunReport& report) {
+  const runtime::RunSummary& summary = report.summary;
   switch (summary.status) {
     case runtime::Status::done:
-      return done;
+      if (interrupt_flag() && report.certificate) return interrupted;
+      return report.certificate && !report.certificate->holds() ? numerical_failure : done;
     case runtime::Status::stopped:
       return interrupted;
     case runtime::Status::jumped:
@@ -159,6 +165,12 @@ int run(const RunOptions& options) {
   }
   record_origin(options.method, source, request);
 
+  std::optional<Scheme> scheme;
+  if (options.certify) {
+    scheme = request_scheme(source, request);
+    require_certifiable(request, model, *scheme);
+  }
+
   RunReport report;
   report.path = options.method.model;
   report.scene = &scene;
@@ -184,8 +196,10 @@ int run(const RunOptions& options) {
 
   std::optional<TrajectoryTable> table;
   if (!options.output.empty())
-    table.emplace(options.output, metadata(plugin, scene, start, every), columns_of(plugin, scene));
+    table.emplace(options.output, metadata(plugin, scene, start, every),
+                  columns_of(plugin, scene, loaded.library->is_wide()));
   runtime::Integrator integrator(loaded.library, start);
+  report.scalar_digits = loaded.library->plugin().scalar_digits;
   report.initial_invariants = integrator.invariants();
   runtime::ProgressBar bar(plugin.model.name);
   runtime::IntegrateOptions integrate_options;
@@ -199,6 +213,17 @@ int run(const RunOptions& options) {
   report.summary = runtime::integrate(integrator, integrate_options);
   bar.remove();
 
+  if (scheme && report.summary.steps_done > 0 && !interrupt_flag()) {
+    SceneValues taken = scene;
+    taken.steps = report.summary.steps_done;
+    report.certificate = certify({.plugin = &plugin,
+                                  .library = loaded.library,
+                                  .scene = &taken,
+                                  .scheme = &*scheme,
+                                  .start = &start,
+                                  .on_progress = progress_bars(options.quiet),
+                                  .stop = &interrupt_flag()});
+  }
   report.state = integrator.state();
   report.final_invariants = integrator.invariants();
   if (table) {
@@ -206,7 +231,7 @@ int run(const RunOptions& options) {
     report.trajectory = trajectory_text(options.output, *table);
   }
   say(report, options);
-  return status_of(report.summary);
+  return status_of(report);
 }
 
 }  // namespace
@@ -224,10 +249,9 @@ Command add_run(CLI::App& app) {
       ->type_name("K");
   parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
       ->type_name("FILE");
-  parser
-      ->add_option("--watch-modified", options->watch_modified,
-                   "K terms of the modified Hamiltonian too")
-      ->type_name("K");
+  parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
+  parser->add_flag("--certify", options->certify,
+                   "K terms of the modified Hamiltonian; how near to the exact map");
   parser->add_flag("--json", options->json, "the result as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
   parser->add_option("--keep", options->keep, "write the emitted header there")

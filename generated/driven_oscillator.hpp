@@ -6,6 +6,7 @@
 //   sha256    0d13f020166373df1a9857cc611989e238d8089994687880f0185c1f259efcda
 //   H(q, p, t) = p^2/2 + (1 + eps*cos(omega*t))*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
 //   proved    symplectic, symmetric, order 2, emitted code
 //   solve     linear solve of size 2 for q, p
 //   left out  beta terms: beta = 0
@@ -27,7 +28,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace driven_oscillator::implicit_midpoint {
+#ifndef HAMGEN_SYSTEM_driven_oscillator
+#define HAMGEN_SYSTEM_driven_oscillator 0xa7b96f3c
+namespace driven_oscillator {
+inline namespace emitted_a7b96f3c {
 
 using Real = double;
 
@@ -43,14 +47,6 @@ struct State {
   Real p_t = 0.0;  // momentum of time: minus the energy, up to a constant
 };
 
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
-};
-
 // H(q, p, t) + p_t, which is constant where H(q, p, t) is not.
 inline Real energy(const Parameters& par, const State& z) {
   const Real q = z.q;
@@ -59,6 +55,72 @@ inline Real energy(const Parameters& par, const State& z) {
   const Real p_t = z.p_t;
   return p_t + 0.5 * (p * p) + 0.5 * (q * q) * (1.0 + par.eps * std::cos(par.omega * t));
 }
+
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[4]) {
+  const Real q = z.q;
+  const Real t = z.t;
+  const Real p = z.p;
+  const Real t1 = par.omega * t;
+  values[0] = q * (1.0 + par.eps * std::cos(t1));
+  values[1] = -0.5 * par.eps * par.omega * (q * q) * std::sin(t1);
+  values[2] = p;
+  values[3] = 1.0;
+}
+
+}  // namespace emitted_a7b96f3c
+}  // namespace driven_oscillator
+#elif HAMGEN_SYSTEM_driven_oscillator != 0xa7b96f3c
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (increment - part);
+  value = sum;
+}
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_SUM_WITH_REST
+#define HAMGEN_FA46462B_FLOAT64_SUM_WITH_REST
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.
+inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_driven_oscillator_implicit_midpoint
+#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0xa142ae95
+namespace driven_oscillator::implicit_midpoint {
+inline namespace emitted_a142ae95 {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::two_sum_with_rest;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
@@ -73,23 +135,6 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   k.c2 = -0.5 * h;
   k.c3 = -0.5 * par.eps * par.omega;
   return k;
-}
-
-// value += increment; what rounding loses is left in carry (two-sum of Knuth).
-inline void two_sum(Real& value, Real& carry, Real increment) {
-  const Real sum = value + increment;
-  const Real part = sum - value;
-  carry = (value - (sum - part)) + (increment - part);
-  value = sum;
-}
-
-// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
-// with the old carry in it: the new carry is what the rounded sums of all three lose.
-inline void add(Real& value, Real& carry, Real increment, Real rest) {
-  Real lost = 0;
-  two_sum(increment, lost, rest);
-  two_sum(value, carry, increment);
-  carry += lost;
 }
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
@@ -159,10 +204,10 @@ class Propagator {
     State dz, rest;
     const StepReport report = solve(par_, k_, h_, z_, carry_, dz, rest);
     if (!report.converged) return report;
-    add(z_.q, carry_.q, dz.q, rest.q);
-    add(z_.t, carry_.t, dz.t, rest.t);
-    add(z_.p, carry_.p, dz.p, rest.p);
-    add(z_.p_t, carry_.p_t, dz.p_t, rest.p_t);
+    two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);
+    two_sum_with_rest(z_.t, carry_.t, dz.t, rest.t);
+    two_sum_with_rest(z_.p, carry_.p, dz.p, rest.p);
+    two_sum_with_rest(z_.p_t, carry_.p_t, dz.p_t, rest.p_t);
     return report;
   }
 
@@ -182,9 +227,18 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  [[nodiscard]] Real time() const { return z_.t; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
@@ -194,7 +248,11 @@ class Propagator {
   Coefficients k_;
 };
 
+}  // namespace emitted_a142ae95
 }  // namespace driven_oscillator::implicit_midpoint
+#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0xa142ae95
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

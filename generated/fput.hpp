@@ -7,7 +7,9 @@
 //   H(q, p) = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^2/2 + alpha*(q[i+1] -
 //             q[i])^3/3)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
-//   proved    symplectic, symmetric, order 2, emitted code
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
+//   proved    symplectic, symmetric, order 2
+//   tested    emitted code
 //   solve     banded Newton of size 32; momenta torn out, in loops
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
@@ -30,7 +32,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace fput::implicit_midpoint {
+#ifndef HAMGEN_SYSTEM_fput
+#define HAMGEN_SYSTEM_fput 0xb84d0483
+namespace fput {
+inline namespace emitted_b84d0483 {
 
 using Real = double;
 inline constexpr int n = 32;  // degrees of freedom
@@ -43,18 +48,6 @@ struct State {
   Real q[32] = {};
   Real p[32] = {};
 };
-
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
-};
-
-inline Real magnitude(Real x) { return std::fabs(x); }
-inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
-inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 
 // H(q, p).
 inline Real energy(const Parameters& par, const State& z) {
@@ -79,6 +72,84 @@ inline Real energy(const Parameters& par, const State& z) {
   return sum;
 }
 
+// dq[i] = dH/dq_i.
+inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
+  for (int i = 0; i < n; ++i) dq[i] = 0.0;
+  for (int i = 1; i <= 31; ++i) {
+    const Real q_i_plus_1 = q[i];
+    const Real q_i = q[i - 1];
+    const Real t1 = q_i_plus_1 - q_i;
+    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
+    dq[i] += t2;
+    dq[i - 1] -= t2;
+  }
+  const Real q_1 = q[0];
+  const Real q_32 = q[31];
+  dq[0] += q_1 + par.alpha * (q_1 * q_1);
+  dq[31] += q_32 - par.alpha * (q_32 * q_32);
+}
+
+// dp[i] = dH/dp_i.
+inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
+  for (int i = 0; i < n; ++i) dp[i] = 0.0;
+  for (int i = 1; i <= 32; ++i) {
+    const Real p_i = p[i - 1];
+    dp[i - 1] += p_i;
+  }
+}
+
+// dq[i] = dH/dq_i, dp[i] = dH/dp_i.
+inline void gradient(const Parameters& par, const Real* q, const Real* p, Real* dq, Real* dp) {
+  potential_gradient(par, q, dq);
+  kinetic_gradient(par, p, dp);
+}
+
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n]) {
+  gradient(par, z.q, z.p, values, values + n);
+}
+
+}  // namespace emitted_b84d0483
+}  // namespace fput
+#elif HAMGEN_SYSTEM_fput != 0xb84d0483
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_VOCABULARY
+#define HAMGEN_FA46462B_FLOAT64_VOCABULARY
+inline Real magnitude(Real x) { return std::fabs(x); }
+inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
+inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (increment - part);
+  value = sum;
+}
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_BAND_MATRIX
+#define HAMGEN_FA46462B_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -141,33 +212,16 @@ class BandMatrix {
   Real factor_[size][Width] = {};
   int pivot_[size] = {};
 };
+#endif
 
-using Matrix = BandMatrix<32, 1>;
-
-// What depends on h and the parameters alone.
-struct Coefficients {
-  Real half_h = 0.0;  // h/2
-  Real scale = 0.0;   // the matrix is I + scale V''
-};
-
-inline Coefficients prepare(const Parameters&, Real h) {
-  Coefficients k;
-  k.half_h = 0.5 * h;
-  k.scale = 0.25 * (h * h);
-  return k;
-}
-
-// value += increment; what rounding loses is left in carry (two-sum of Knuth).
-inline void two_sum(Real& value, Real& carry, Real increment) {
-  const Real sum = value + increment;
-  const Real part = sum - value;
-  carry = (value - (sum - part)) + (increment - part);
-  value = sum;
-}
-
+#ifndef HAMGEN_FA46462B_FLOAT64_VERDICT
+#define HAMGEN_FA46462B_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
+#endif
 
+#ifndef HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
+#define HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -244,6 +298,106 @@ struct NewtonRule {
     return bend * power(size) * 1024 <= round_off * power(motion.move);
   }
 };
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_HISTORY
+#define HAMGEN_FA46462B_FLOAT64_HISTORY
+// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
+// and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
+template <int Unknowns>
+struct History {
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
+  Real predicted[degrees][Unknowns] = {};
+  Real sum[Unknowns] = {};
+  int known = 0;  // degrees that are kept up to date
+  int best = 0;
+  int age = 15;
+
+  void record(const Real (&solution)[Unknowns]) {
+    if (++age == 16) choose(solution);
+    for (Real& s : sum) s = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      for (int i = 0; i < Unknowns; ++i) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+        sum[i] += kept;
+      }
+    }
+  }
+  void choose(const Real (&solution)[Unknowns]) {
+    age = 0;
+    Real least = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      const Real now = error(degree, solution, 0, Unknowns);
+      if (degree == 0 || now < least) {
+        least = now;
+        best = degree;
+      }
+    }
+    if (best + 2 < known) {
+      --known;
+    } else if (known < degrees) {
+      ++known;
+      age = 15;
+    }
+  }
+  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
+  // known, and 0 if none is: summed over `count` unknowns.
+  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
+    if (known == 0) return 0;
+    if (degree >= known) degree = known - 1;
+    Real sum_of_errors = 0;
+    for (int i = first; i < first + count; ++i) {
+      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
+    }
+    return sum_of_errors;
+  }
+  void extrapolate(Real (&solution)[Unknowns]) const {
+    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
+  }
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_FORGET
+#define HAMGEN_FA46462B_FLOAT64_FORGET
+// As if no step had been recorded, in place: a large History makes no temporary on the stack.
+template <int Unknowns>
+void forget(History<Unknowns>& history) {
+  history.known = 0;
+  history.best = 0;
+  history.age = 15;
+}
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_fput_implicit_midpoint
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xe023ecab
+namespace fput::implicit_midpoint {
+inline namespace emitted_e023ecab {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::BandMatrix,
+    numerics::Verdict, numerics::NewtonRule, numerics::History, numerics::forget;
+
+using Matrix = BandMatrix<32, 1>;
+
+// What depends on h and the parameters alone.
+struct Coefficients {
+  Real half_h = 0.0;  // h/2
+  Real scale = 0.0;   // the matrix is I + scale V''
+};
+
+inline Coefficients prepare(const Parameters&, Real h) {
+  Coefficients k;
+  k.half_h = 0.5 * h;
+  k.scale = 0.25 * (h * h);
+  return k;
+}
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
@@ -255,32 +409,6 @@ struct Start {
   NewtonRule<2> rule;
   Matrix matrix;
 };
-
-// dq[i] = dH/dq_i.
-inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
-  for (int i = 0; i < n; ++i) dq[i] = 0.0;
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = q[i];
-    const Real q_i = q[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
-    dq[i] += t2;
-    dq[i - 1] -= t2;
-  }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  dq[0] += q_1 + par.alpha * (q_1 * q_1);
-  dq[31] += q_32 - par.alpha * (q_32 * q_32);
-}
-
-// dp[i] = dH/dp_i.
-inline void kinetic_gradient(const Parameters&, const Real* p, Real* dp) {
-  for (int i = 0; i < n; ++i) dp[i] = 0.0;
-  for (int i = 1; i <= 32; ++i) {
-    const Real p_i = p[i - 1];
-    dp[i - 1] += p_i;
-  }
-}
 
 // grad H at the stage, whose momenta follow from its coordinates.
 inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
@@ -371,65 +499,6 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
   return report;
 }
 
-// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
-// and x the solution that came, the next predictions are
-//   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
-// that is one of the highest known, the next one is tried.
-template <int Unknowns>
-struct History {
-  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
-  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
-  Real predicted[degrees][Unknowns] = {};
-  Real sum[Unknowns] = {};
-  int known = 0;  // degrees that are kept up to date
-  int best = 0;
-  int age = 15;
-
-  void record(const Real (&solution)[Unknowns]) {
-    if (++age == 16) choose(solution);
-    for (Real& s : sum) s = 0;
-    for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < Unknowns; ++i) {
-        const Real kept = predicted[degree][i];
-        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
-        sum[i] += kept;
-      }
-    }
-  }
-  void choose(const Real (&solution)[Unknowns]) {
-    age = 0;
-    Real least = 0;
-    for (int degree = 0; degree < known; ++degree) {
-      const Real now = error(degree, solution, 0, Unknowns);
-      if (degree == 0 || now < least) {
-        least = now;
-        best = degree;
-      }
-    }
-    if (best + 2 < known) {
-      --known;
-    } else if (known < degrees) {
-      ++known;
-      age = 15;
-    }
-  }
-  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
-  // known, and 0 if none is: summed over `count` unknowns.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    if (known == 0) return 0;
-    if (degree >= known) degree = known - 1;
-    Real sum_of_errors = 0;
-    for (int i = first; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
-    }
-    return sum_of_errors;
-  }
-  void extrapolate(Real (&solution)[Unknowns]) const {
-    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
-  }
-};
-
 // Many steps: start values are extrapolated, rounding errors of the updates carried along.
 class Propagator {
  public:
@@ -456,6 +525,7 @@ class Propagator {
       two_sum(z_.q[i], carry_.q[i], dz_.q[i]);
       two_sum(z_.p[i], carry_.p[i], dz_.p[i]);
     }
+    ++steps_;
     return report;
   }
 
@@ -475,15 +545,30 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+    steps_ = 0;
+    start_.known = false;
+    start_.rule = {};
+    forget(history_);
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  // Since the first state.
+  [[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
   Real h_;
   State z_;
   State carry_;
+  long long steps_ = 0;
   Coefficients k_;
   Start start_;
   History<32> history_;
@@ -498,7 +583,11 @@ class Propagator {
   return report;
 }
 
+}  // namespace emitted_e023ecab
 }  // namespace fput::implicit_midpoint
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xe023ecab
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

@@ -6,6 +6,7 @@
 //   sha256    fcf2f89f040617f03f5a8147fa7f74832e9c455dee8e25aad6dcde9e54458dc6
 //   H(q, p) = p^2/2 + w^2*q^2/2
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
 //   proved    symplectic, symmetric, order 2, emitted code
 //   solve     linear solve of size 2 for q, p, constant matrix hoisted
 //   left out  beta terms: beta = 0
@@ -25,7 +26,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace harmonic::implicit_midpoint {
+#ifndef HAMGEN_SYSTEM_harmonic
+#define HAMGEN_SYSTEM_harmonic 0xe14d7609
+namespace harmonic {
+inline namespace emitted_e14d7609 {
 
 using Real = double;
 
@@ -38,20 +42,74 @@ struct State {
   Real p = 0.0;
 };
 
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
-};
-
 // H(q, p).
 inline Real energy(const Parameters& par, const State& z) {
   const Real q = z.q;
   const Real p = z.p;
   return 0.5 * (p * p + par.w * par.w * (q * q));
 }
+
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
+  const Real q = z.q;
+  const Real p = z.p;
+  values[0] = q * (par.w * par.w);
+  values[1] = p;
+}
+
+}  // namespace emitted_e14d7609
+}  // namespace harmonic
+#elif HAMGEN_SYSTEM_harmonic != 0xe14d7609
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (increment - part);
+  value = sum;
+}
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_SUM_WITH_REST
+#define HAMGEN_FA46462B_FLOAT64_SUM_WITH_REST
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.
+inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x63983fc6
+namespace harmonic::implicit_midpoint {
+inline namespace emitted_63983fc6 {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::two_sum_with_rest;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
@@ -82,23 +140,6 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   k.c10 = h * k.c3 * k.c1;
   k.c11 = h * k.c4 * k.c1;
   return k;
-}
-
-// value += increment; what rounding loses is left in carry (two-sum of Knuth).
-inline void two_sum(Real& value, Real& carry, Real increment) {
-  const Real sum = value + increment;
-  const Real part = sum - value;
-  carry = (value - (sum - part)) + (increment - part);
-  value = sum;
-}
-
-// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
-// with the old carry in it: the new carry is what the rounded sums of all three lose.
-inline void add(Real& value, Real& carry, Real increment, Real rest) {
-  Real lost = 0;
-  two_sum(increment, lost, rest);
-  two_sum(value, carry, increment);
-  carry += lost;
 }
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
@@ -147,8 +188,9 @@ class Propagator {
     State dz, rest;
     const StepReport report = solve(par_, k_, h_, z_, carry_, dz, rest);
     if (!report.converged) return report;
-    add(z_.q, carry_.q, dz.q, rest.q);
-    add(z_.p, carry_.p, dz.p, rest.p);
+    two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);
+    two_sum_with_rest(z_.p, carry_.p, dz.p, rest.p);
+    ++steps_;
     return report;
   }
 
@@ -168,19 +210,35 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+    steps_ = 0;
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  // Since the first state.
+  [[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
   Real h_;
   State z_;
   State carry_;
+  long long steps_ = 0;
   Coefficients k_;
 };
 
+}  // namespace emitted_63983fc6
 }  // namespace harmonic::implicit_midpoint
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x63983fc6
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

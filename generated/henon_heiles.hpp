@@ -6,6 +6,7 @@
 //   sha256    8e46b3740a4830724122a7fa467096da159788e64cb64b79a88f5b14c7363aaf
 //   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = q, pbar = P
 //   proved    symplectic, order 1, emitted code
 //   refuted   symmetric
 //   solve     explicit
@@ -27,7 +28,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace henon_heiles::symplectic_euler_a {
+#ifndef HAMGEN_SYSTEM_henon_heiles
+#define HAMGEN_SYSTEM_henon_heiles 0xe006a499
+namespace henon_heiles {
+inline namespace emitted_e006a499 {
 
 using Real = double;
 
@@ -38,14 +42,6 @@ struct State {
   Real q2 = 0.0;
   Real p1 = 0.0;
   Real p2 = 0.0;
-};
-
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
 };
 
 // H(q, p).
@@ -59,6 +55,41 @@ inline Real energy(const Parameters&, const State& z) {
   return 0.5 * t1 + 0.5 * t2 + 0.5 * (p1 * p1) + 0.5 * (p2 * p2) + q2 * t1 - (1.0 / 3.0) * q2 * t2;
 }
 
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
+  const Real q1 = z.q1;
+  const Real q2 = z.q2;
+  const Real p1 = z.p1;
+  const Real p2 = z.p2;
+  values[0] = q1 + 2.0 * q1 * q2;
+  values[1] = q2 + q1 * q1 - q2 * q2;
+  values[2] = p1;
+  values[3] = p2;
+}
+
+}  // namespace emitted_e006a499
+}  // namespace henon_heiles
+#elif HAMGEN_SYSTEM_henon_heiles != 0xe006a499
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -66,6 +97,17 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_henon_heiles_symplectic_euler_a
+#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x05b1685d
+namespace henon_heiles::symplectic_euler_a {
+inline namespace emitted_05b1685d {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::two_sum;
 
 // dz = Z - z for one step from z + carry.
 [[nodiscard]] inline StepReport solve(const Parameters&, Real h, const State& z, const State& carry,
@@ -120,6 +162,7 @@ class Propagator {
     two_sum(z_.q2, carry_.q2, dz.q2);
     two_sum(z_.p1, carry_.p1, dz.p1);
     two_sum(z_.p2, carry_.p2, dz.p2);
+    ++steps_;
     return report;
   }
 
@@ -139,18 +182,34 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+    steps_ = 0;
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  // Since the first state.
+  [[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
   Real h_;
   State z_;
   State carry_;
+  long long steps_ = 0;
 };
 
+}  // namespace emitted_05b1685d
 }  // namespace henon_heiles::symplectic_euler_a
+#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x05b1685d
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

@@ -6,6 +6,7 @@
 //   sha256    492f143ced2b8c56ef576565398ce1c424f5eab431b84482fbae777e4bc970ad
 //   H(q, p) = p^2/2 - eps*cos(q)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
 //   proved    symplectic, symmetric, order 2, emitted code
 //   solve     Newton of size 1 on q; p torn out
 //   left out  beta terms: beta = 0
@@ -27,7 +28,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace pendulum::implicit_midpoint {
+#ifndef HAMGEN_SYSTEM_pendulum
+#define HAMGEN_SYSTEM_pendulum 0xd84fca51
+namespace pendulum {
+inline namespace emitted_d84fca51 {
 
 using Real = double;
 
@@ -40,18 +44,6 @@ struct State {
   Real p = 0.0;  // mass times length squared is 1 [rad/s]
 };
 
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
-};
-
-inline Real magnitude(Real x) { return std::fabs(x); }
-inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
-inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
-
 // H(q, p).
 inline Real energy(const Parameters& par, const State& z) {
   const Real q = z.q;
@@ -59,19 +51,44 @@ inline Real energy(const Parameters& par, const State& z) {
   return 0.5 * (p * p) - par.eps * std::cos(q);
 }
 
-// What depends on h and the parameters alone.
-struct Coefficients {
-  Real c1 = 0.0;  // -h/2
-  Real c2 = 0.0;  // h/2
-};
-
-inline Coefficients prepare(const Parameters&, Real h) {
-  Coefficients k;
-  k.c1 = -0.5 * h;
-  k.c2 = 0.5 * h;
-  return k;
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
+  const Real q = z.q;
+  const Real p = z.p;
+  values[0] = par.eps * std::sin(q);
+  values[1] = p;
 }
 
+}  // namespace emitted_d84fca51
+}  // namespace pendulum
+#elif HAMGEN_SYSTEM_pendulum != 0xd84fca51
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_VOCABULARY
+#define HAMGEN_FA46462B_FLOAT64_VOCABULARY
+inline Real magnitude(Real x) { return std::fabs(x); }
+inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
+inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -79,10 +96,16 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
   carry = (value - (sum - part)) + (increment - part);
   value = sum;
 }
+#endif
 
+#ifndef HAMGEN_FA46462B_FLOAT64_VERDICT
+#define HAMGEN_FA46462B_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
+#endif
 
+#ifndef HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
+#define HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -159,6 +182,104 @@ struct NewtonRule {
     return bend * power(size) * 1024 <= round_off * power(motion.move);
   }
 };
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_HISTORY
+#define HAMGEN_FA46462B_FLOAT64_HISTORY
+// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
+// and x the solution that came, the next predictions are
+//   (d + 1) x - s_0 - ... - s_(d-1).
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
+template <int Unknowns>
+struct History {
+  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
+  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
+  Real predicted[degrees][Unknowns] = {};
+  Real sum[Unknowns] = {};
+  int known = 0;  // degrees that are kept up to date
+  int best = 0;
+  int age = 15;
+
+  void record(const Real (&solution)[Unknowns]) {
+    if (++age == 16) choose(solution);
+    for (Real& s : sum) s = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      for (int i = 0; i < Unknowns; ++i) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+        sum[i] += kept;
+      }
+    }
+  }
+  void choose(const Real (&solution)[Unknowns]) {
+    age = 0;
+    Real least = 0;
+    for (int degree = 0; degree < known; ++degree) {
+      const Real now = error(degree, solution, 0, Unknowns);
+      if (degree == 0 || now < least) {
+        least = now;
+        best = degree;
+      }
+    }
+    if (best + 2 < known) {
+      --known;
+    } else if (known < degrees) {
+      ++known;
+      age = 15;
+    }
+  }
+  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
+  // known, and 0 if none is: summed over `count` unknowns.
+  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
+    if (known == 0) return 0;
+    if (degree >= known) degree = known - 1;
+    Real sum_of_errors = 0;
+    for (int i = first; i < first + count; ++i) {
+      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
+    }
+    return sum_of_errors;
+  }
+  void extrapolate(Real (&solution)[Unknowns]) const {
+    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
+  }
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_FORGET
+#define HAMGEN_FA46462B_FLOAT64_FORGET
+// As if no step had been recorded, in place: a large History makes no temporary on the stack.
+template <int Unknowns>
+void forget(History<Unknowns>& history) {
+  history.known = 0;
+  history.best = 0;
+  history.age = 15;
+}
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xc238bdf9
+namespace pendulum::implicit_midpoint {
+inline namespace emitted_c238bdf9 {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
+    numerics::NewtonRule, numerics::History, numerics::forget;
+
+// What depends on h and the parameters alone.
+struct Coefficients {
+  Real c1 = 0.0;  // -h/2
+  Real c2 = 0.0;  // h/2
+};
+
+inline Coefficients prepare(const Parameters&, Real h) {
+  Coefficients k;
+  k.c1 = -0.5 * h;
+  k.c2 = 0.5 * h;
+  return k;
+}
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
@@ -231,65 +352,6 @@ struct Start {
   return report;
 }
 
-// Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
-// and x the solution that came, the next predictions are
-//   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
-// that is one of the highest known, the next one is tried.
-template <int Unknowns>
-struct History {
-  // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
-  static constexpr int degrees = Unknowns > 32 ? 8 : 16;
-  Real predicted[degrees][Unknowns] = {};
-  Real sum[Unknowns] = {};
-  int known = 0;  // degrees that are kept up to date
-  int best = 0;
-  int age = 15;
-
-  void record(const Real (&solution)[Unknowns]) {
-    if (++age == 16) choose(solution);
-    for (Real& s : sum) s = 0;
-    for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < Unknowns; ++i) {
-        const Real kept = predicted[degree][i];
-        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
-        sum[i] += kept;
-      }
-    }
-  }
-  void choose(const Real (&solution)[Unknowns]) {
-    age = 0;
-    Real least = 0;
-    for (int degree = 0; degree < known; ++degree) {
-      const Real now = error(degree, solution, 0, Unknowns);
-      if (degree == 0 || now < least) {
-        least = now;
-        best = degree;
-      }
-    }
-    if (best + 2 < known) {
-      --known;
-    } else if (known < degrees) {
-      ++known;
-      age = 15;
-    }
-  }
-  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
-  // known, and 0 if none is: summed over `count` unknowns.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    if (known == 0) return 0;
-    if (degree >= known) degree = known - 1;
-    Real sum_of_errors = 0;
-    for (int i = first; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
-    }
-    return sum_of_errors;
-  }
-  void extrapolate(Real (&solution)[Unknowns]) const {
-    for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
-  }
-};
-
 // Many steps: start values are extrapolated, rounding errors of the updates carried along.
 class Propagator {
  public:
@@ -314,6 +376,7 @@ class Propagator {
     history_.record(start_.value);
     two_sum(z_.q, carry_.q, dz.q);
     two_sum(z_.p, carry_.p, dz.p);
+    ++steps_;
     return report;
   }
 
@@ -333,21 +396,39 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+    steps_ = 0;
+    start_ = Start();
+    forget(history_);
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  // Since the first state.
+  [[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
   Real h_;
   State z_;
   State carry_;
+  long long steps_ = 0;
   Coefficients k_;
   Start start_;
   History<1> history_;
 };
 
+}  // namespace emitted_c238bdf9
 }  // namespace pendulum::implicit_midpoint
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xc238bdf9
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

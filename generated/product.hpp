@@ -6,6 +6,7 @@
 //   sha256    827ad3095c58c92aea25a81d74b660a8b7ea95a923c7be1f99858ea7e4361d88
 //   H(q, p) = (q^2 + 1)*(p^2 + 1)/2
 //   scheme    alpha = 1, beta = 0, gamma = 0: order 1, symplectic
+//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = Q, pbar = p
 //   proved    symplectic, order 1, emitted code
 //   refuted   symmetric
 //   solve     quadratic equation for q, root in closed form
@@ -27,7 +28,10 @@
 #pragma clang fp reassociate(off)
 #endif
 
-namespace product::symplectic_euler_b {
+#ifndef HAMGEN_SYSTEM_product
+#define HAMGEN_SYSTEM_product 0xf687030d
+namespace product {
+inline namespace emitted_f687030d {
 
 using Real = double;
 
@@ -38,20 +42,62 @@ struct State {
   Real p = 0.0;
 };
 
-// On failure the increment says how far the iteration was from its end; it is not finite
-// where the step left the domain of H.
-struct StepReport {
-  bool converged = false;
-  long long iterations = 0;
-  Real increment = 0.0;
-};
-
 // H(q, p).
 inline Real energy(const Parameters&, const State& z) {
   const Real q = z.q;
   const Real p = z.p;
   return 0.5 * (1.0 + q * q) * (1.0 + p * p);
 }
+
+// grad H, the derivatives by q first.
+inline void gradient(const Parameters&, const State& z, Real (&values)[2]) {
+  const Real q = z.q;
+  const Real p = z.p;
+  values[0] = q * (1.0 + p * p);
+  values[1] = p * (1.0 + q * q);
+}
+
+}  // namespace emitted_f687030d
+}  // namespace product
+#elif HAMGEN_SYSTEM_product != 0xf687030d
+#error "another system of this name is included before: generate one with --namespace"
+#endif
+
+// What follows is the same in every header.
+namespace hamgen_fa46462b::float64 {
+using Real = double;
+
+#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+// On failure the increment says how far the iteration was from its end; it is not finite where the
+// step left the domain of H.
+struct StepReport {
+  bool converged = false;
+  long long iterations = 0;
+  Real increment = 0;
+};
+#endif
+
+#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+// value += increment; what rounding loses is left in carry (two-sum of Knuth).
+inline void two_sum(Real& value, Real& carry, Real increment) {
+  const Real sum = value + increment;
+  const Real part = sum - value;
+  carry = (value - (sum - part)) + (increment - part);
+  value = sum;
+}
+#endif
+
+}  // namespace hamgen_fa46462b::float64
+
+#ifndef HAMGEN_METHOD_product_symplectic_euler_b
+#define HAMGEN_METHOD_product_symplectic_euler_b 0x704d72fb
+namespace product::symplectic_euler_b {
+inline namespace emitted_704d72fb {
+
+namespace numerics = ::hamgen_fa46462b::float64;
+using numerics::StepReport, numerics::two_sum;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
@@ -62,14 +108,6 @@ inline Coefficients prepare(const Parameters&, Real h) {
   Coefficients k;
   k.c1 = -2.0 * h;
   return k;
-}
-
-// value += increment; what rounding loses is left in carry (two-sum of Knuth).
-inline void two_sum(Real& value, Real& carry, Real increment) {
-  const Real sum = value + increment;
-  const Real part = sum - value;
-  carry = (value - (sum - part)) + (increment - part);
-  value = sum;
 }
 
 // dz = Z - z for one step from z + carry.
@@ -118,6 +156,7 @@ class Propagator {
     if (!report.converged) return report;
     two_sum(z_.q, carry_.q, dz.q);
     two_sum(z_.p, carry_.p, dz.p);
+    ++steps_;
     return report;
   }
 
@@ -137,19 +176,35 @@ class Propagator {
     return total;
   }
 
+  // Begins anew at z, as a new Propagator would.
+  void reset(const State& z) {
+    z_ = z;
+    carry_ = State();
+    steps_ = 0;
+  }
+
   [[nodiscard]] const State& state() const { return z_; }
   // What rounding took from the state: the sum of both is what the steps go on from.
   [[nodiscard]] const State& carry() const { return carry_; }
+  // Since the first state.
+  [[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }
+  [[nodiscard]] Real h() const { return h_; }
+  [[nodiscard]] const Parameters& parameters() const { return par_; }
 
  private:
   Parameters par_;
   Real h_;
   State z_;
   State carry_;
+  long long steps_ = 0;
   Coefficients k_;
 };
 
+}  // namespace emitted_704d72fb
 }  // namespace product::symplectic_euler_b
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x704d72fb
+#error "another method of this name is included before: generate one with --namespace"
+#endif
 
 #ifdef __clang__
 #pragma float_control(pop)

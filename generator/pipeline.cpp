@@ -9,9 +9,9 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
+#include "generator/emitted_spaces.hpp"
 #include "generator/equations/step_equations.hpp"
 #include "generator/formats/all_formats.hpp"
-#include "generator/formats/cmake_package.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
@@ -106,23 +106,22 @@ std::string stem(const std::string& path) {
   return name.empty() ? "model" : name;
 }
 
-CppOptions cpp_options(const SourceText& source, const Program& program, const Request& request) {
-  CppOptions options{.command = request.command,
-                     .model_path = source.path,
-                     .model_digest = request.model_digest,
-                     .scalar = request.scalar,
-                     .name_space = request.name_space,
-                     .tangent = request.tangent && !without_tangent(program),
-                     .watched_step = request.step};
-  if (!options.name_space.empty()) {
-    require_namespace(options.name_space);
-  } else {
-    const StepEquations& equations = program.plan.equations;
-    std::string scheme = equations.scheme.name;
-    std::ranges::replace(scheme, '-', '_');
-    options.name_space = namespace_identifier(equations.mechanics.name) + "::" + identifier(scheme);
-  }
-  return options;
+bool shares_support(const Request& request) {
+  if (request.support.empty() || request.support == "own") return false;
+  if (request.support == "shared") return true;
+  throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
+}
+
+EmitOptions emit_options(const SourceText& source, const Program& program, const Request& request) {
+  return {.file_name = stem(source.path),
+          .command = request.command,
+          .model_path = source.path,
+          .model_digest = request.model_digest,
+          .scalar = request.scalar,
+          .spaces = emitted_spaces(program.plan.equations, request),
+          .tangent = request.tangent && !without_tangent(program),
+          .shared_support = shares_support(request),
+          .watched_step = request.step};
 }
 
 // The stages, in order: this is the only place that knows it.
@@ -194,14 +193,18 @@ void drop_unused_parameters(StepEquations& equations) {
                 [&](const Quantity& parameter) { return !used.contains(parameter.name); });
 }
 
-Stages run_stages(const SourceText& source, const Request& request) {
-  Model model = read_request(source, request);
-  require_defaults_in_range(model, find_scalar(request.scalar));
-  // Loops know one set of parameters for all degrees of freedom.
+// Loops know one set of parameters for all degrees of freedom.
+Mechanics derive_for(const Model& model, const Request& request) {
   const bool keep_sums =
       request.gauge.empty() && !request.observe_curvature &&
       (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  Mechanics mechanics = derive(model, keep_sums);
+  return derive(model, keep_sums);
+}
+
+Stages run_stages(const SourceText& source, const Request& request) {
+  Model model = read_request(source, request);
+  require_defaults_in_range(model, find_scalar(request.scalar));
+  Mechanics mechanics = derive_for(model, request);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   const Scheme scheme = choose_scheme(model, mechanics, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
@@ -235,7 +238,7 @@ Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) 
 }
 
 // What the first lines of a header say of the step.
-void add_proof(const Stages& stages, const Request& request, CppOptions& options) {
+void add_proof(const Stages& stages, const Request& request, EmitOptions& options) {
   const Proof proof = prove(stages);
   require(proof, request.require);
   require_emitted(proof);
@@ -247,7 +250,7 @@ void add_proof(const Stages& stages, const Request& request, CppOptions& options
 // What `write` emits.  A constant the scalar has no number for comes out of H, combined from its
 // numbers, unless the request has numbers of its own.
 template <typename Write>
-std::string written(const Model& model, const Request& request, Write write) {
+auto written(const Model& model, const Request& request, Write write) {
   try {
     return write();
   } catch (const OutOfRange& error) {
@@ -260,16 +263,11 @@ std::string written(const Model& model, const Request& request, Write write) {
   }
 }
 
-std::string header_text(const Stages& stages, const CppOptions& options, const Request& request) {
+std::string header_text(const Stages& stages, const EmitOptions& options, const Request& request) {
   return written(stages.model, request, [&] { return cpp_header(stages.program, options); });
 }
 
-OutputFile header_file(const SourceText& source, const Stages& stages, const CppOptions& options,
-                       const Request& request) {
-  return {stem(source.path) + ".hpp", header_text(stages, options, request)};
-}
-
-std::string plugin_text(const Stages& stages, const CppOptions& options, const Request& request) {
+std::string plugin_text(const Stages& stages, const EmitOptions& options, const Request& request) {
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
@@ -284,20 +282,13 @@ Model read_request(const SourceText& source, const Request& request) {
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  CppOptions options = cpp_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages.program, request);
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
   add_proof(stages, request, options);
-  const std::string format = request.format.empty() ? "cpp-header" : request.format;
-  const std::string name = stem(source.path);
-  if (format == "cpp-header") return {header_file(source, stages, options, request)};
-  if (format == "cpp-plugin")
-    return {{name + ".plugin.cpp", plugin_text(stages, options, request)}};
-  if (format == "cmake-package")
-    return cmake_package(name, header_text(stages, options, request), needs_eigen(stages.program),
-                         request.scalar == "quad");
-  throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", format));
+  const NamedFormat& format = find_format(request.format);
+  return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
@@ -313,7 +304,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 
 void check_step(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  static_cast<void>(header_text(stages, cpp_options(source, stages.program, request), request));
+  static_cast<void>(header_text(stages, emit_options(source, stages.program, request), request));
 }
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
@@ -350,17 +341,22 @@ std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Reque
   return corners_of_hamiltonian(derive(read_request(source, request)));
 }
 
+Scheme request_scheme(const SourceText& source, const Request& request) {
+  const Model model = read_request(source, request);
+  return choose_scheme(model, derive_for(model, request), request);
+}
+
 StepCode make_step_code(const SourceText& source, const Request& request) {
   return step_code(run_stages(source, request).program);
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
   Stages stages = run_stages(source, request);
-  CppOptions options = cpp_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages.program, request);
   PluginSource plugin;
   plugin.text = plugin_text(stages, options, request);
   if (proof == HeaderProof::included) add_proof(stages, request, options);
-  plugin.header = header_file(source, stages, options, request);
+  plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
     plugin.scheme_name = stages.equations.scheme.description;

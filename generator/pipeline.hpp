@@ -13,6 +13,7 @@
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/program/step_code.hpp"
+#include "generator/schemes/scheme.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
@@ -36,7 +37,8 @@ struct Request {
   std::string solver;                 // newton, fixed-point, sweeps:K
   std::string scalar;                 // float, double, long-double, quad
   std::string format;                 // cpp-header, cpp-plugin, cmake-package
-  std::string name_space;             // of the emitted code; default MODEL::SCHEME
+  std::string name_space;             // SYSTEM::METHOD of the emitted code, or one for both
+  std::string support;                // of fixed blocks: own (of every header) or shared
   std::vector<std::string> fold;      // parameters to burn in
   bool tangent = false;               // the linearised step too, where it can be written
   std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
@@ -82,6 +84,9 @@ void check_step(const SourceText& source, const Request& request);
 [[nodiscard]] std::vector<LinearPoint> linear_points(const SourceText& source,
                                                      const Request& request,
                                                      const SceneValues& scene);
+
+// The method that the request means for the model's system.
+[[nodiscard]] Scheme request_scheme(const SourceText& source, const Request& request);
 
 // The step as records and routines: what the formats print and the interpreter runs.
 [[nodiscard]] StepCode make_step_code(const SourceText& source, const Request& request);

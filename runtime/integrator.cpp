@@ -55,19 +55,18 @@ InitialValues checked(const Library& library, const InitialValues& start) {
 Integrator::Integrator(std::shared_ptr<const Library> library, const InitialValues& start)
     : library_(std::move(library)),
       start_(checked(*library_, start)),
-      parameters_(part(start.parameters, &Wide::hi)),
-      judge_(library_, parameters_, part(start.state, &Wide::hi), start.defined_everywhere),
-      h_(start.h),
+      judge_(library_, start.parameters, start.state, start.defined_everywhere),
       run_(nullptr, Destroy{&library_->plugin()}) {
   go_back_to(0);
 }
 
 void Integrator::go_back_to(long long step) {
+  const std::vector<double> parameters = part(start_.parameters, &Wide::hi);
   const std::vector<double> parameters_lo = part(start_.parameters, &Wide::lo);
   const std::vector<double> state = part(start_.state, &Wide::hi);
   const std::vector<double> state_lo = part(start_.state, &Wide::lo);
-  run_.reset(library_->plugin().create(parameters_.data(), parameters_lo.data(), h_.hi, h_.lo,
-                                       state.data(), state_lo.data()));
+  run_.reset(library_->plugin().create(parameters.data(), parameters_lo.data(), start_.h.hi,
+                                       start_.h.lo, state.data(), state_lo.data()));
   if (!run_) throw std::bad_alloc();
   steps_done_ = 0;
   if (step > 0) call(step, false);
@@ -101,20 +100,25 @@ Report Integrator::advance(long long steps, bool watch_energy) {
                 .energy = {}};
   if (std::isfinite(raw.last_increment)) report.last_increment = raw.last_increment;
   if (watch_energy && raw.steps_done > 0) {
-    report.energy =
-        EnergyRange{.min = raw.energy_min, .max = raw.energy_max, .last = raw.energy_last};
-    energy_error_ = std::max(
-        {energy_error_, raw.energy_max - judge_.energy(), judge_.energy() - raw.energy_min});
+    report.energy = EnergyRange{.min = {.hi = raw.energy_min, .lo = raw.energy_min_lo},
+                                .max = {.hi = raw.energy_max, .lo = raw.energy_max_lo},
+                                .last = {.hi = raw.energy_last, .lo = raw.energy_last_lo}};
+    energy_error_ = std::max({energy_error_, difference(report.energy->max, judge_.energy()),
+                              difference(judge_.energy(), report.energy->min)});
   }
   if (report.status != Status::done && report.status != Status::stopped)
     report.status = judge_.failure(report.status, rounded_state(), energy_error_);
   return report;
 }
 
-std::vector<Wide> Integrator::state() const {
+std::vector<Wide> Integrator::state() const { return read(library_->plugin().get_state); }
+
+std::vector<Wide> Integrator::carry() const { return read(library_->plugin().get_carry); }
+
+std::vector<Wide> Integrator::read(void (*get)(const hamgen_run*, double*, double*)) const {
   std::vector<double> hi(2 * library_->degrees_of_freedom());
   std::vector<double> lo(hi.size());
-  library_->plugin().get_state(run_.get(), hi.data(), lo.data());
+  get(run_.get(), hi.data(), lo.data());
   std::vector<Wide> values(hi.size());
   for (std::size_t i = 0; i < hi.size(); ++i) values[i] = {.hi = hi[i], .lo = lo[i]};
   return values;
@@ -126,10 +130,10 @@ std::vector<double> Integrator::rounded_state() const {
   return values;
 }
 
-double Integrator::energy() const { return library_->energy(parameters_, rounded_state()); }
+Wide Integrator::energy() const { return library_->energy(start_.parameters, state()); }
 
-std::vector<double> Integrator::invariants() const {
-  return library_->invariants(parameters_, rounded_state());
+std::vector<Wide> Integrator::invariants() const {
+  return library_->invariants(start_.parameters, state());
 }
 
 }  // namespace hamgen::runtime

@@ -11,14 +11,6 @@
 
 namespace hamgen::runtime {
 
-// A number wider than a double, as the sum hi + lo.
-struct Wide {
-  double hi = 0.0;
-  double lo = 0.0;
-
-  friend bool operator==(const Wide&, const Wide&) = default;
-};
-
 struct InitialValues {
   std::vector<Wide> parameters;  // parameter_count values
   Wide h;                        // the step; negative goes back in time
@@ -29,9 +21,9 @@ struct InitialValues {
 
 // Over the states after each step of one call.  All are finite.
 struct EnergyRange {
-  double min = 0.0;
-  double max = 0.0;
-  double last = 0.0;
+  Wide min;
+  Wide max;
+  Wide last;
 };
 
 struct Report {
@@ -58,13 +50,15 @@ class Integrator {
   [[nodiscard]] long long steps_done() const { return steps_done_; }
 
   [[nodiscard]] std::vector<Wide> state() const;
+  // What rounding took from it: the sum of both, exactly, is what the next step starts from.
+  [[nodiscard]] std::vector<Wide> carry() const;
   // The state rounded to double; 2n values.
   [[nodiscard]] std::vector<double> rounded_state() const;
-  [[nodiscard]] double energy() const;
-  [[nodiscard]] std::vector<double> invariants() const;
+  // Of the state, with the digits of the scalar.
+  [[nodiscard]] Wide energy() const;
+  [[nodiscard]] std::vector<Wide> invariants() const;
 
-  [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
-  [[nodiscard]] Wide h() const { return h_; }
+  [[nodiscard]] Wide h() const { return start_.h; }
   [[nodiscard]] const Library& library() const { return *library_; }
   [[nodiscard]] const Judge& judge() const { return judge_; }
 
@@ -74,14 +68,13 @@ class Integrator {
     void operator()(hamgen_run* run) const { plugin->destroy(run); }
   };
 
+  [[nodiscard]] std::vector<Wide> read(void (*get)(const hamgen_run*, double*, double*)) const;
   hamgen_report call(long long steps, bool watch_energy);
 
   // The run is destroyed before the code that does it is unloaded.
   std::shared_ptr<const Library> library_;
   InitialValues start_;
-  std::vector<double> parameters_;
   Judge judge_;
-  Wide h_;
   long long steps_done_ = 0;
   double energy_error_ = 0.0;  // the largest that was watched
   std::unique_ptr<hamgen_run, Destroy> run_;

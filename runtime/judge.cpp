@@ -21,6 +21,12 @@ double largest_component(std::span<const double> state) {
   return largest;
 }
 
+std::vector<double> rounded(std::span<const Wide> values) {
+  std::vector<double> result(values.size());
+  std::ranges::transform(values, result.begin(), &Wide::hi);
+  return result;
+}
+
 double norm_of(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;
@@ -47,15 +53,16 @@ HalfProducts half_products(std::span<const double> state, std::span<const double
 
 }  // namespace
 
-Judge::Judge(std::shared_ptr<const Library> library, std::vector<double> parameters,
-             std::span<const double> state, bool defined_everywhere)
+Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> parameters,
+             std::span<const Wide> start, bool defined_everywhere)
     : library_(std::move(library)),
-      parameters_(std::move(parameters)),
+      parameters_(rounded(parameters)),
       defined_everywhere_(defined_everywhere),
-      energy_(library_->energy(parameters_, state)) {
+      energy_(library_->energy(parameters, start)) {
+  const std::vector<double> state = rounded(start);
   const std::vector<double> gradient = library_->gradient(parameters_, state);
   const HalfProducts half = half_products(state, gradient);
-  energy_scale_ = std::max({std::fabs(energy_), norm_of(state) * norm_of(gradient),
+  energy_scale_ = std::max({std::fabs(energy_.hi), norm_of(state) * norm_of(gradient),
                             std::fabs(half.p), std::fabs(half.q)});
   q_size_ = std::max(1.0, largest_component(state));
   p_size_ = std::max(q_size_, std::sqrt(2.0 * energy_scale_));

@@ -14,11 +14,11 @@ class Judge {
  public:
   // Of the orbit that begins at `state` (2n values: q then p).  `defined_everywhere`: H and its
   // gradient are, so that what is not finite is an overflow.
-  Judge(std::shared_ptr<const Library> library, std::vector<double> parameters,
-        std::span<const double> state, bool defined_everywhere);
+  Judge(std::shared_ptr<const Library> library, std::span<const Wide> parameters,
+        std::span<const Wide> state, bool defined_everywhere);
 
   // H at the start.
-  [[nodiscard]] double energy() const { return energy_; }
+  [[nodiscard]] Wide energy() const { return energy_; }
   // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the start: what an
   // energy error is compared with, even if H happens to vanish there.
   [[nodiscard]] double energy_scale() const { return energy_scale_; }
@@ -44,9 +44,9 @@ class Judge {
 
  private:
   std::shared_ptr<const Library> library_;
-  std::vector<double> parameters_;
+  std::vector<double> parameters_;  // rounded: what follows are sizes, not results
   bool defined_everywhere_;
-  double energy_;
+  Wide energy_;
   double energy_scale_;
   double q_size_;
   double p_size_;

@@ -20,10 +20,22 @@ bool is_complete(const hamgen_plugin& plugin) {
   return plugin.degrees_of_freedom > 0 && plugin.parameter_count >= 0 &&
          plugin.invariant_count >= 0 && plugin.description != nullptr && plugin.solver != nullptr &&
          plugin.create != nullptr && plugin.destroy != nullptr && plugin.advance != nullptr &&
-         plugin.get_state != nullptr && plugin.energy != nullptr &&
+         plugin.get_state != nullptr && plugin.get_carry != nullptr && plugin.energy != nullptr &&
          (plugin.invariants != nullptr || plugin.invariant_count == 0) &&
          plugin.gradient != nullptr;
 }
+
+// Their hi and their lo, as a plugin takes them.
+struct Parts {
+  explicit Parts(std::span<const Wide> values) {
+    for (const Wide& value : values) {
+      hi.push_back(value.hi);
+      lo.push_back(value.lo);
+    }
+  }
+  std::vector<double> hi;
+  std::vector<double> lo;
+};
 
 }  // namespace
 
@@ -110,16 +122,42 @@ void Library::check_sizes(std::size_t parameters, std::size_t state) const {
   }
 }
 
+bool Library::is_wide() const { return plugin_->scalar_digits > 53; }
+
+Wide Library::energy(std::span<const Wide> parameters, std::span<const Wide> state) const {
+  check_sizes(parameters.size(), state.size());
+  const Parts par(parameters);
+  const Parts z(state);
+  Wide energy;
+  energy.hi = plugin_->energy(par.hi.data(), par.lo.data(), z.hi.data(), z.lo.data(), &energy.lo);
+  return energy;
+}
+
+std::vector<Wide> Library::invariants(std::span<const Wide> parameters,
+                                      std::span<const Wide> state) const {
+  check_sizes(parameters.size(), state.size());
+  if (invariant_count() == 0) return {};
+  const Parts par(parameters);
+  const Parts z(state);
+  std::vector<double> hi(invariant_count());
+  std::vector<double> lo(invariant_count());
+  plugin_->invariants(par.hi.data(), par.lo.data(), z.hi.data(), z.lo.data(), hi.data(), lo.data());
+  std::vector<Wide> values(hi.size());
+  for (std::size_t i = 0; i < hi.size(); ++i) values[i] = {.hi = hi[i], .lo = lo[i]};
+  return values;
+}
+
 double Library::energy(std::span<const double> parameters, std::span<const double> state) const {
   check_sizes(parameters.size(), state.size());
-  return plugin_->energy(parameters.data(), state.data());
+  return plugin_->energy(parameters.data(), nullptr, state.data(), nullptr, nullptr);
 }
 
 std::vector<double> Library::invariants(std::span<const double> parameters,
                                         std::span<const double> state) const {
   check_sizes(parameters.size(), state.size());
   std::vector<double> values(invariant_count());
-  if (!values.empty()) plugin_->invariants(parameters.data(), state.data(), values.data());
+  if (!values.empty())
+    plugin_->invariants(parameters.data(), nullptr, state.data(), nullptr, values.data(), nullptr);
   return values;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/plugin.h"
+#include "runtime/wide.hpp"
 
 namespace hamgen::runtime {
 
@@ -30,11 +31,18 @@ class Library {
   [[nodiscard]] std::size_t parameter_count() const;
   [[nodiscard]] std::size_t invariant_count() const;
 
-  // H at a state (2n values: q then p), not finite outside the domain of H.  These three throw
-  // std::invalid_argument if a size is wrong.
+  // Has the scalar more digits than a double?
+  [[nodiscard]] bool is_wide() const;
+
+  // H at a state (2n values: q then p), not finite outside the domain of H, with the digits of the
+  // scalar.  These throw std::invalid_argument if a size is wrong.
+  [[nodiscard]] Wide energy(std::span<const Wide> parameters, std::span<const Wide> state) const;
+  // invariant_count values.
+  [[nodiscard]] std::vector<Wide> invariants(std::span<const Wide> parameters,
+                                             std::span<const Wide> state) const;
+  // Of doubles, rounded to double.
   [[nodiscard]] double energy(std::span<const double> parameters,
                               std::span<const double> state) const;
-  // invariant_count values.
   [[nodiscard]] std::vector<double> invariants(std::span<const double> parameters,
                                                std::span<const double> state) const;
   // 2n values: H_q then H_p.

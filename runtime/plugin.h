@@ -1,15 +1,15 @@
 /* The interface between a compiled integrator and the runtime: plain C, versioned.
  *
- * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  States
- * and parameters cross the interface as doubles; for wider scalars every value is hi + lo, with
- * `lo` pointers that may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
+ * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  A value
+ * crosses the interface as hi + lo, where hi is the double nearest to it; lo is 0 unless the scalar is
+ * wider.  `lo` pointers may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
  *
  * hamgen_plugin_entry returns null where hamgen_arithmetic_is_ieee() is 0: the plugin then was
  * compiled with flags, such as -ffast-math, under which its methods are not what they claim. */
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
-#define HAMGEN_PLUGIN_VERSION 2
+#define HAMGEN_PLUGIN_VERSION 3
 
 #ifdef __cplusplus
 extern "C" {
@@ -30,8 +30,11 @@ struct hamgen_report {
   int last_iterations;   /* of the step that failed, or the last one */
   double last_increment; /* size of the last increment of that step's iteration */
   double energy_min;     /* over the states after each step, if energy was watched */
+  double energy_min_lo;
   double energy_max;
+  double energy_max_lo;
   double energy_last;
+  double energy_last_lo;
 };
 
 /* A running integration: state, compensation, start values. Opaque. */
@@ -56,10 +59,16 @@ struct hamgen_plugin {
   void (*advance)(struct hamgen_run* run, long long steps, int watch_energy,
                   struct hamgen_report* report);
   void (*get_state)(const struct hamgen_run* run, double* state, double* state_lo);
-  double (*energy)(const double* parameters, const double* state);
+  /* What rounding took from the state: state + state_lo + carry + carry_lo, exactly, is what the next
+   * step starts from. */
+  void (*get_carry)(const struct hamgen_run* run, double* carry, double* carry_lo);
+  /* The hi of H. */
+  double (*energy)(const double* parameters, const double* parameters_lo, const double* state,
+                   const double* state_lo, double* energy_lo);
   /* invariant_count values */
-  void (*invariants)(const double* parameters, const double* state, double* values);
-  /* grad H: 2n values, H_q first. */
+  void (*invariants)(const double* parameters, const double* parameters_lo, const double* state,
+                     const double* state_lo, double* values, double* values_lo);
+  /* grad H at doubles, rounded to double: 2n values, H_q first. */
   void (*gradient)(const double* parameters, const double* state, double* gradient);
   /* One step from `state` to `new_state` and its linearisation there: matrix[i * 2n + j] is
    * d(new_state_i)/d(state_j).  0 if there is no step.  Null in a plugin made without it. */

@@ -14,8 +14,8 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+bool all_finite(std::span<const Wide> values) {
+  return std::ranges::all_of(values, [](const Wide& value) { return std::isfinite(value.hi); });
 }
 
 void include(EnergyStatistics& energy, const EnergyRange& range) {
@@ -49,9 +49,9 @@ class Pace {
 // double.  Hands out a record if one is due.
 bool observe(const Integrator& integrator, const IntegrateOptions& options, bool due,
              RunSummary& summary) {
-  const std::vector<double> state = integrator.rounded_state();
-  const double energy = integrator.library().energy(integrator.parameters(), state);
-  if (!all_finite(state) || !std::isfinite(energy)) return false;
+  const std::vector<Wide> state = integrator.state();
+  const Wide energy = integrator.energy();
+  if (!all_finite(state) || !std::isfinite(energy.hi)) return false;
   if (!summary.energy) {
     summary.energy =
         EnergyStatistics{.initial = energy, .min = energy, .max = energy, .last = energy};
@@ -60,8 +60,7 @@ bool observe(const Integrator& integrator, const IntegrateOptions& options, bool
   if (!due) return true;
   ++summary.records;
   if (!options.on_record) return true;
-  const std::vector<double> invariants =
-      integrator.library().invariants(integrator.parameters(), state);
+  const std::vector<Wide> invariants = integrator.invariants();
   const auto step = static_cast<double>(summary.steps_done);
   options.on_record({.step = summary.steps_done,
                      .time = std::fma(step, integrator.h().hi, step * integrator.h().lo),
@@ -84,8 +83,8 @@ void append(Report& total, const Report& report) {
                              .last = report.energy->last};
 }
 
-double error_of(const EnergyRange& energy, double initial) {
-  return std::max(energy.max - initial, initial - energy.min);
+double error_of(const EnergyRange& energy, const Wide& initial) {
+  return std::max(difference(energy.max, initial), difference(initial, energy.min));
 }
 
 // Note [jumps]
@@ -173,7 +172,9 @@ bool is_due(long long step, long long every) { return every > 0 && step % every 
 
 }  // namespace
 
-double EnergyStatistics::max_error() const { return std::max(max - initial, initial - min); }
+double EnergyStatistics::max_error() const {
+  return std::max(difference(max, initial), difference(initial, min));
+}
 
 double RunSummary::iterations_per_step() const {
   return steps_done > 0 ? static_cast<double>(iterations) / static_cast<double>(steps_done) : 0.0;

@@ -13,10 +13,10 @@ namespace hamgen::runtime {
 
 struct Record {
   long long step = 0;
-  double time = 0.0;                   // step * h, from 0
-  std::span<const double> state;       // 2n values: q then p; all finite
-  double energy = 0.0;                 // H of that state; finite
-  std::span<const double> invariants;  // as many as the model has; these may be not finite
+  double time = 0.0;                 // step * h, from 0
+  std::span<const Wide> state;       // 2n values: q then p; all finite
+  Wide energy;                       // H of that state; finite
+  std::span<const Wide> invariants;  // as many as the model has; these may be not finite
 };
 
 struct Progress {
@@ -38,15 +38,15 @@ struct IntegrateOptions {
 
 // Over the initial state and those after every step.  All values are finite.
 struct EnergyStatistics {
-  double initial = 0.0;
-  double min = 0.0;
-  double max = 0.0;
-  double last = 0.0;
+  Wide initial;
+  Wide min;
+  Wide max;
+  Wide last;
 
   // The largest |E - initial|, max - min, and last - initial.
   [[nodiscard]] double max_error() const;
-  [[nodiscard]] double spread() const { return max - min; }
-  [[nodiscard]] double final_error() const { return last - initial; }
+  [[nodiscard]] double spread() const { return difference(max, min); }
+  [[nodiscard]] double final_error() const { return difference(last, initial); }
 };
 
 struct RunSummary {

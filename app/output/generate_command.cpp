@@ -34,6 +34,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
   if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
+  if (request.support != "own") add("--support", request.support);  // the default
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));

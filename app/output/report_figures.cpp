@@ -31,7 +31,7 @@ std::vector<std::vector<double>> orbit(const BenchMethod& method,
   options.steps = steps;
   options.every = 1;
   options.on_record = [&states](const runtime::Record& record) {
-    states.emplace_back(record.state.begin(), record.state.end());
+    states.push_back(rounded({record.state.begin(), record.state.end()}));
   };
   static_cast<void>(runtime::integrate(integrator, options));
   return states;
@@ -104,7 +104,7 @@ std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scen
 Figure energy_over_time(const BenchMethod& method, const SceneValues& scene,
                         OrbitSummary& summary) {
   runtime::Integrator integrator(method.loaded.library, starting_values(method, scene));
-  const double initial = integrator.energy();
+  const runtime::Wide initial = integrator.energy();
   const double h = to_double(*scene.h);
   const long bin = std::max(1L, *scene.steps / kBins);
   PlotSeries series{.style = PlotStyle::lines};
@@ -123,10 +123,11 @@ Figure energy_over_time(const BenchMethod& method, const SceneValues& scene,
     energy.max = std::max(energy.max, report.energy->max);
     energy.last = report.energy->last;
     const double time = h * static_cast<double>(run.steps_done);
-    series.points.push_back({time, report.energy->min - initial});
-    series.points.push_back({time, report.energy->max - initial});
+    series.points.push_back({time, difference(report.energy->min, initial)});
+    series.points.push_back({time, difference(report.energy->max, initial)});
   }
   run.energy = energy;
+  summary.scalar_digits = method.loaded.library->plugin().scalar_digits;
   summary.outcome =
       run.status == runtime::Status::done
           ? "done"
@@ -143,9 +144,9 @@ Figure energy_at_first(const BenchMethod& method, const SceneValues& scene) {
   options.steps = std::min(*scene.steps, kZoomSteps);
   options.every = 1;
   PlotSeries series{.style = PlotStyle::lines};
-  const double initial = integrator.energy();
+  const runtime::Wide initial = integrator.energy();
   options.on_record = [&](const runtime::Record& record) {
-    series.points.push_back({record.time, record.energy - initial});
+    series.points.push_back({record.time, difference(record.energy, initial)});
   };
   static_cast<void>(runtime::integrate(integrator, options));
   return {"energy_zoom",

@@ -21,6 +21,7 @@ struct Figure {
 struct OrbitSummary {
   runtime::RunSummary run;  // of all the scene's steps
   std::string outcome;      // "done", or how it ended
+  int scalar_digits = 53;   // binary, of its scalar
 };
 
 struct ReportFigures {

@@ -7,6 +7,7 @@
 
 #include "app/output/math_markup.hpp"
 #include "app/output/report_style.hpp"
+#include "app/output/wide_text.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -222,10 +223,11 @@ std::string figures_section(const ReportContent& content) {
     text +=
         fmt::format("<p class='refuted'>The run ended early: {}.</p>\n", html_text(orbit.outcome));
   if (orbit.run.energy)
-    text +=
-        fmt::format("<p>{} steps: max |H − H(0)| = {:.3g}, spread {:.3g}, H(0) = {:.10g}.</p>\n",
-                    orbit.run.steps_done, orbit.run.energy->max_error(), orbit.run.energy->spread(),
-                    orbit.run.energy->initial);
+    text += fmt::format(
+        "<p>{} steps: max |H − H(0)| = {:.3g}, spread {:.3g}, H(0) = {}.</p>\n",
+        orbit.run.steps_done, orbit.run.energy->max_error(), orbit.run.energy->spread(),
+        orbit.scalar_digits > 53 ? wide_text(orbit.run.energy->initial, orbit.scalar_digits)
+                                 : fmt::format("{:.10g}", orbit.run.energy->initial.hi));
   text += "<div class='figures'>\n";
   for (const ReportPicture& picture : content.pictures) {
     const std::string image =

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/output/certify_output.hpp"
 #include "app/output/json_document.hpp"
+#include "app/output/wide_text.hpp"
 #include "app/studies/initial_data.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -52,11 +54,20 @@ std::string left_out_text(const std::vector<std::string>& items) {
   return text;
 }
 
-std::string numbers(const std::vector<runtime::Wide>& state, std::size_t begin, std::size_t end) {
-  constexpr std::size_t largest = 4;
+bool is_wide(const RunReport& report) { return report.scalar_digits > 53; }
+
+// Ten digits of a double, for the eye; all of a wider scalar, which is why it was chosen.
+std::string value_text(const RunReport& report, const runtime::Wide& value) {
+  return is_wide(report) ? wide_text(value, report.scalar_digits)
+                         : fmt::format("{:.10g}", value.hi);
+}
+
+std::string numbers(const RunReport& report, std::size_t begin, std::size_t end) {
+  const std::vector<runtime::Wide>& state = report.state;
+  const std::size_t largest = is_wide(report) ? 2 : 4;
   std::string text;
   for (std::size_t i = begin; i < std::min(end, begin + largest); ++i)
-    text += (i == begin ? "" : ", ") + number_text(state[i].hi);
+    text += (i == begin ? "" : ", ") + wide_text(state[i], report.scalar_digits);
   return end > begin + largest ? text + ", ..." : text;
 }
 
@@ -68,8 +79,9 @@ std::string seconds_text(double seconds) {
 std::string energy_text(const RunReport& report) {
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {:.10g}; max error {:.5g}, spread {:.5g}, last {:.3g}", energy.initial,
-                     energy.max_error(), energy.spread(), energy.final_error());
+  return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, last {:.3g}",
+                     value_text(report, energy.initial), energy.max_error(), energy.spread(),
+                     energy.final_error());
 }
 
 std::string time_text(const RunReport& report) {
@@ -82,11 +94,14 @@ std::string time_text(const RunReport& report) {
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
 }
 
-std::string invariant_text(const std::string& name, double before, double after) {
-  if (!std::isfinite(before)) return name + " is not defined at the initial state";
-  const std::string text = fmt::format("{} = {:.10g}; ", name, before);
-  if (!std::isfinite(after)) return text + "not defined at the last state";
-  return text + fmt::format("last error {:.3g}", after - before);
+std::string invariant_text(const RunReport& report, std::size_t i) {
+  const std::string& name = report.plugin->invariant_names[i];
+  const runtime::Wide before = report.initial_invariants[i];
+  const runtime::Wide after = report.final_invariants[i];
+  if (!std::isfinite(before.hi)) return name + " is not defined at the initial state";
+  const std::string text = fmt::format("{} = {}; ", name, value_text(report, before));
+  if (!std::isfinite(after.hi)) return text + "not defined at the last state";
+  return text + fmt::format("last error {:.3g}", difference(after, before));
 }
 
 // JSON has no nan: the status says why a value is null.
@@ -109,16 +124,25 @@ Json state_json(const std::vector<runtime::Wide>& state, bool wide) {
   return result;
 }
 
-Json energy_json(const runtime::RunSummary& summary) {
-  if (!summary.energy)
+// A wider scalar's value is that of the key and that of key_lo together.
+void put(Json& object, const std::string& key, const runtime::Wide& value, bool wide) {
+  object[key] = number(value.hi);
+  if (wide) object[key + "_lo"] = number(value.lo);
+}
+
+Json energy_json(const RunReport& report) {
+  const std::optional<runtime::EnergyStatistics>& energy = report.summary.energy;
+  if (!energy)
     return {{"initial", nullptr},
             {"max_error", nullptr},
             {"spread", nullptr},
             {"final_error", nullptr}};
-  return {{"initial", number(summary.energy->initial)},
-          {"max_error", number(summary.energy->max_error())},
-          {"spread", number(summary.energy->spread())},
-          {"final_error", number(summary.energy->final_error())}};
+  Json result;
+  put(result, "initial", energy->initial, is_wide(report));
+  result["max_error"] = number(energy->max_error());
+  result["spread"] = number(energy->spread());
+  result["final_error"] = number(energy->final_error());
+  return result;
 }
 
 Json parameters_json(const RunReport& report) {
@@ -131,11 +155,12 @@ Json parameters_json(const RunReport& report) {
 Json invariants_json(const RunReport& report) {
   Json result = Json::object();
   for (std::size_t i = 0; i < report.plugin->invariant_names.size(); ++i) {
-    const double before = report.initial_invariants[i];
-    const double after = report.final_invariants[i];
-    result[report.plugin->invariant_names[i]] = {{"initial", number(before)},
-                                                 {"final", number(after)},
-                                                 {"final_error", number(after - before)}};
+    const runtime::Wide before = report.initial_invariants[i];
+    const runtime::Wide after = report.final_invariants[i];
+    Json& values = result[report.plugin->invariant_names[i]];
+    put(values, "initial", before, is_wide(report));
+    put(values, "final", after, is_wide(report));
+    values["final_error"] = number(difference(after, before));
   }
   return result;
 }
@@ -203,12 +228,11 @@ std::string summary_text(const RunReport& report) {
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
-    text +=
-        entry("invariant", invariant_text(plugin.invariant_names[i], report.initial_invariants[i],
-                                          report.final_invariants[i]));
+    text += entry("invariant", invariant_text(report, i));
   const std::size_t n = report.state.size() / 2;
-  text += entry("last q", numbers(report.state, 0, n));
-  text += entry("last p", numbers(report.state, n, 2 * n));
+  text += entry("last q", numbers(report, 0, n));
+  text += entry("last p", numbers(report, n, 2 * n));
+  if (report.certificate) text += entry("certified", certificate_sentence(*report.certificate));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
   // It may be a command, to be pasted: not wrapped.
@@ -226,11 +250,11 @@ std::string json_text(const RunReport& report) {
                  {"steps_done", summary.steps_done},
                  {"status", runtime::to_text(summary.status)}};
   if (summary.status != runtime::Status::done) result["reason"] = failure_text(report);
-  result["energy"] = energy_json(summary);
+  result["energy"] = energy_json(report);
   result["invariants"] = invariants_json(report);
-  const bool wide = std::ranges::any_of(report.state, [](const auto& x) { return x.lo != 0.0; });
-  result["state"] = state_json(report.state, wide);
+  result["state"] = state_json(report.state, is_wide(report));
   result["parameters"] = parameters_json(report);
+  if (report.certificate) result["certified"] = certificate_json(*report.certificate);
   result["solver"] = {{"kind", report.plugin->solver},
                       {"iterations_per_step", summary.iterations_per_step()},
                       {"left_out", report.plugin->left_out}};

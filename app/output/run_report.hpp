@@ -1,9 +1,11 @@
 // What a run says of itself: a summary to read, and the same as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/studies/certify.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 #include "runtime/integrator.hpp"
@@ -18,14 +20,16 @@ struct RunReport {
   const runtime::InitialValues* start = nullptr;
   runtime::RunSummary summary;
   std::vector<runtime::Wide> state;  // the last good one: q then p
-  std::vector<double> initial_invariants;
-  std::vector<double> final_invariants;
+  std::vector<runtime::Wide> initial_invariants;
+  std::vector<runtime::Wide> final_invariants;
+  int scalar_digits = 53;  // binary, of the scalar
   bool from_cache = false;
   bool interpreted = false;  // there was no compiler
   double generate_seconds = 0.0;
   double compile_seconds = 0.0;
-  std::string trajectory;  // where it is and how many rows; empty if there is none
-  std::string header;      // where the emitted header is, or the command that prints it
+  std::optional<Certificate> certificate;  // if it was asked for
+  std::string trajectory;                  // where it is and how many rows; empty if there is none
+  std::string header;  // where the emitted header is, or the command that prints it
 };
 
 [[nodiscard]] std::string summary_text(const RunReport& report);

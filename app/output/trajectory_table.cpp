@@ -17,6 +17,13 @@ std::vector<std::string> column_names(const Columns& columns) {
   names.insert(names.end(), columns.state.begin(), columns.state.end());
   if (columns.energy) names.emplace_back(columns.has_time ? "H+p_t" : "H");
   names.insert(names.end(), columns.invariants.begin(), columns.invariants.end());
+  if (!columns.wide) return names;
+  const std::size_t first = 2;  // behind step and t
+  for (std::size_t i = first, end = names.size(); i < end; ++i) {
+    std::string low = names[i] + "_lo";
+    while (std::ranges::find(names, low) != names.end()) low += '_';  // a variable of that name
+    names.push_back(low);
+  }
   return names;
 }
 
@@ -42,17 +49,21 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
 }
 
 void TrajectoryTable::add(const runtime::Record& record) {
-  values_ = {record.time};
-  values_.insert(values_.end(), record.state.begin(), record.state.end());
+  values_.assign(record.state.begin(), record.state.end());
   if (columns_.energy) values_.push_back(record.energy);
   for (const std::size_t place : columns_.places) values_.push_back(record.invariants[place]);
   ++rows_;
+  row_ = {record.time};
+  for (const runtime::Wide& value : values_) row_.push_back(value.hi);
+  if (columns_.wide) {
+    for (const runtime::Wide& value : values_) row_.push_back(value.lo);
+  }
   if (file_) {
-    file_->write_row(record.step, values_);
+    file_->write_row(record.step, row_);
     return;
   }
   std::string line = fmt::format("{}", record.step);
-  for (const double value : values_) line += "," + runtime::number_text(value);
+  for (const double value : row_) line += "," + runtime::number_text(value);
   print_buffered(line + "\n");
 }
 

@@ -11,13 +11,15 @@
 
 namespace hamgen::app {
 
-// What a row holds besides step, t and the state.
+// What a row holds besides step and t.  Of a wide scalar each value is in two columns, x and,
+// behind all of these, x_lo: it is their sum.
 struct Columns {
   std::vector<std::string> state;  // names: q then p
   bool energy = true;
   bool has_time = false;                // H stands for H + p_t
   std::vector<std::string> invariants;  // names
   std::vector<std::size_t> places;      // of these among the record's invariants
+  bool wide = false;                    // the scalar's digits are more than a double's
 };
 
 class TrajectoryTable {
@@ -35,7 +37,8 @@ class TrajectoryTable {
  private:
   Columns columns_;
   std::unique_ptr<runtime::CsvWriter> file_;  // null for standard output
-  std::vector<double> values_;
+  std::vector<runtime::Wide> values_;         // of a row, without step and t
+  std::vector<double> row_;                   // without step
   long long rows_ = 0;
 };
 

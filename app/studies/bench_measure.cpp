@@ -103,7 +103,7 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   }
   const runtime::InitialValues start = start_of(method, scene, row);
   runtime::Integrator integrator(method.loaded.library, start);
-  const std::vector<double> before = integrator.invariants();
+  const std::vector<runtime::Wide> before = integrator.invariants();
   row.invariant_errors.assign(before.size(), 0.0);
   runtime::IntegrateOptions options;
   options.steps = row.steps;
@@ -111,8 +111,8 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   options.stop = method.stop;
   options.on_record = [&](const runtime::Record& record) {
     for (std::size_t i = 0; i < before.size(); ++i)
-      row.invariant_errors[i] =
-          std::max(row.invariant_errors[i], std::fabs(record.invariants[i] - before[i]));
+      row.invariant_errors[i] = std::max(
+          row.invariant_errors[i], std::fabs(runtime::difference(record.invariants[i], before[i])));
   };
   const runtime::RunSummary summary = runtime::integrate(integrator, options);
   row.outcome = outcome_of(summary);

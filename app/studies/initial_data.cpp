@@ -7,9 +7,7 @@
 #include <numbers>
 
 #include "app/studies/domain.hpp"
-#include "generator/algebra/evaluate.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/mechanics/derive.hpp"
 #include "generator/schemes/read_gauge.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -95,20 +93,6 @@ void require_defined(const Model& model, const SceneValues& scene, const runtime
         .help = fmt::format("the initial state is {}; give another with --initial",
                             state_text(names, state))}},
       model.source);
-}
-
-// E0 = H(q0, p0) with the digits of a wide scalar: a plugin tells energies as doubles.
-std::optional<Rational> exact_energy(const Model& model, const SceneValues& scene) {
-  if (degrees_of_freedom(model) > kMostWrittenOut) return std::nullopt;
-  Values values;
-  const auto add = [&values](const std::vector<std::string>& names,
-                             const std::vector<Rational>& numbers) {
-    for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = numbers[i];
-  };
-  add(element_names(model.parameters), scene.parameters);
-  add(element_names(model.coordinates), scene.q);
-  add(element_names(model.momenta), scene.p);
-  return evaluate(written_out_hamiltonian(model), values);
 }
 
 }  // namespace
@@ -215,12 +199,7 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
   require_defined(model, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;
-  std::optional<Rational> energy;
-  if (scalar->digits > 53) energy = exact_energy(model, scene);
-  values.parameters.back() =
-      energy
-          ? wide(*energy)
-          : runtime::Wide{.hi = library.energy(rounded(values.parameters), rounded(values.state))};
+  values.parameters.back() = library.energy(values.parameters, values.state);
   return values;
 }
 

@@ -29,7 +29,7 @@ void require_in_range(const Model& model, const SceneValues& scene, const Scalar
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request);
 
 // The values of the plugin's parameters are looked up by name; E0 = H(q0, p0), if the method needs
-// it, is computed by the plugin, and for a wide scalar exactly where H is written out.  Throws
+// it, is computed by the plugin.  Throws
 // UsageError if the run would change a folded parameter, its step is at a pole of the scheme or a
 // value is outside the range of its scalar, and ModelError naming the component if H or its
 // gradient is not defined at the initial state.

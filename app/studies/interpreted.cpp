@@ -63,49 +63,75 @@ void destroy(hamgen_run* run) {
   delete reinterpret_cast<Interpreter<Real>*>(run);
 }
 
+// The double nearest to the value; what it leaves of it is low.
+template <class Real>
+double high_part(Real value, double* low) {
+  const auto high = static_cast<double>(value);
+  if (low != nullptr) *low = static_cast<double>(value - static_cast<Real>(high));
+  return high;
+}
+
+template <class Real>
+void write(const std::vector<Real>& numbers, double* values, double* low) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    values[i] = high_part(numbers[i], low != nullptr ? low + i : nullptr);
+}
+
 // As the compiled one does it.
 template <class Real>
 void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* report) {
   Interpreter<Real>& interpreter = interpreter_of<Real>(run);
-  *report = {HAMGEN_DONE, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
-  for (long long i = 0; i < steps; ++i) {
+  *report = {};
+  Real min{}, max{}, now{};
+  const auto tell_energies = [&] {
+    report->energy_min = high_part(min, &report->energy_min_lo);
+    report->energy_max = high_part(max, &report->energy_max_lo);
+    report->energy_last = high_part(now, &report->energy_last_lo);
+  };
+  for (long long i = 0; i < steps && report->status == HAMGEN_DONE; ++i) {
     const auto last = interpreter.step();
     report->last_iterations = static_cast<int>(last.iterations);
     report->last_increment = static_cast<double>(last.increment);
     if (!last.converged) {
       report->status =
           std::isfinite(report->last_increment) ? HAMGEN_NOT_CONVERGED : HAMGEN_NOT_FINITE;
-      return;
+      break;
     }
     ++report->steps_done;
     report->iterations += last.iterations;
     if (watch_energy == 0) continue;
-    const auto energy = static_cast<double>(interpreter.energy(interpreter.state()));
-    const bool first = report->steps_done == 1;
-    report->energy_min = first ? energy : std::min(report->energy_min, energy);
-    report->energy_max = first ? energy : std::max(report->energy_max, energy);
-    report->energy_last = energy;
-    if (std::isfinite(energy)) continue;
-    report->status = HAMGEN_NOT_FINITE;
-    return;
+    now = interpreter.energy(interpreter.state());
+    if (i == 0 || now < min) min = now;
+    if (i == 0 || now > max) max = now;
+    if (!std::isfinite(static_cast<double>(now))) report->status = HAMGEN_NOT_FINITE;
   }
+  tell_energies();
 }
 
 template <class Real>
 void get_state(const hamgen_run* run, double* state, double* low) {
-  const std::vector<Real>& numbers = interpreter_of<Real>(run).state();
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    state[i] = static_cast<double>(numbers[i]);
-    if (low != nullptr) low[i] = static_cast<double>(numbers[i] - static_cast<Real>(state[i]));
-  }
+  write(interpreter_of<Real>(run).state(), state, low);
 }
 
 template <class Real>
-Interpreter<Real>& functions_with(const double* parameters, std::vector<Real>& state,
-                                  const double* values) {
+void get_carry(const hamgen_run* run, double* carry, double* low) {
+  std::vector<Real> rest = interpreter_of<Real>(run).state();
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    double lo = 0.0;
+    const double hi = high_part(rest[i], &lo);
+    rest[i] = (rest[i] - static_cast<Real>(hi) - static_cast<Real>(lo)) +
+              interpreter_of<Real>(run).carry()[i];
+  }
+  write(rest, carry, low);
+}
+
+template <class Real>
+Interpreter<Real>& functions_with(const double* parameters, const double* parameters_low,
+                                  std::vector<Real>& state, const double* values,
+                                  const double* values_low) {
   Interpreted<Real>& now = *Interpreted<Real>::now;
-  const std::vector<Real> par = read<Real>(parameters, nullptr, now.parameters);
-  state = read<Real>(values, nullptr, now.state);
+  const std::vector<Real> par = read<Real>(parameters, parameters_low, now.parameters);
+  state = read<Real>(values, values_low, now.state);
   if (!now.functions) {
     now.functions = std::make_unique<Interpreter<Real>>(now.code, par, Real(1), state);
   }
@@ -114,31 +140,30 @@ Interpreter<Real>& functions_with(const double* parameters, std::vector<Real>& s
 }
 
 template <class Real>
-double energy(const double* parameters, const double* state) {
+double energy(const double* parameters, const double* parameters_low, const double* state,
+              const double* state_low, double* low) {
   std::vector<Real> z;
-  Interpreter<Real>& functions = functions_with<Real>(parameters, z, state);
-  return static_cast<double>(functions.energy(z));
+  Interpreter<Real>& functions =
+      functions_with<Real>(parameters, parameters_low, z, state, state_low);
+  return high_part(functions.energy(z), low);
 }
 
 template <class Real>
-void write(const std::vector<Real>& numbers, double* values) {
-  std::ranges::transform(numbers, values, [](Real x) { return static_cast<double>(x); });
-}
-
-template <class Real>
-void invariants(const double* parameters, const double* state, double* values) {
+void invariants(const double* parameters, const double* parameters_low, const double* state,
+                const double* state_low, double* values, double* low) {
   std::vector<Real> z;
-  Interpreter<Real>& functions = functions_with<Real>(parameters, z, state);
+  Interpreter<Real>& functions =
+      functions_with<Real>(parameters, parameters_low, z, state, state_low);
   if (Interpreted<Real>::now->table.invariant_count > 0) {
-    write(functions.values("invariants", z), values);
+    write(functions.values("invariants", z), values, low);
   }
 }
 
 template <class Real>
 void gradient(const double* parameters, const double* state, double* values) {
   std::vector<Real> z;
-  Interpreter<Real>& functions = functions_with<Real>(parameters, z, state);
-  write(functions.values("gradient", z), values);
+  Interpreter<Real>& functions = functions_with<Real>(parameters, nullptr, z, state, nullptr);
+  write(functions.values("gradient", z), values, nullptr);
 }
 
 template <class Real>
@@ -163,6 +188,7 @@ runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits
                 destroy<Real>,
                 advance<Real>,
                 get_state<Real>,
+                get_carry<Real>,
                 energy<Real>,
                 invariants<Real>,
                 gradient<Real>,

@@ -21,17 +21,17 @@ std::vector<InvariantDefect> invariant_defects(const PluginSource& plugin,
   if (plugin.invariant_names.empty()) return {};
   runtime::Integrator integrator(loaded.library, start);
   std::vector<InvariantDefect> defects;
-  const std::vector<double> before = integrator.invariants();
+  const std::vector<runtime::Wide> before = integrator.invariants();
   for (std::size_t i = 0; i < before.size(); ++i)
-    defects.push_back({.name = plugin.invariant_names[i], .initial = before[i] + 0.0});  // no -0
+    defects.push_back({.name = plugin.invariant_names[i], .initial = before[i].hi + 0.0});  // no -0
   const long most = std::min(steps, kOrbit);
   for (long done = 0; done < most;) {
     const long now = std::min(10L, most - done);
     if (integrator.advance(now, false).status != runtime::Status::done) break;
     done += now;
-    const std::vector<double> after = integrator.invariants();
+    const std::vector<runtime::Wide> after = integrator.invariants();
     for (std::size_t i = 0; i < defects.size(); ++i) {
-      const double change = std::abs(after[i] - before[i]);
+      const double change = std::abs(runtime::difference(after[i], before[i]));
       // Once not a number, always: the maximum keeps its first argument.
       defects[i].largest = std::isnan(change) ? change : std::max(defects[i].largest, change);
       defects[i].steps = done;

@@ -35,8 +35,8 @@ std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::
     ++cell.steps_done;
     const std::vector<double> state = integrator.rounded_state();
     largest = std::max(largest, judge.size_of(state));
-    cell.energy_error =
-        std::max(cell.energy_error, std::fabs(report.energy->last - judge.energy()));
+    cell.energy_error = std::max(
+        cell.energy_error, std::fabs(runtime::difference(report.energy->last, judge.energy())));
     if (largest > kFarAway && judge.keeps_energy(state, cell.energy_error)) {
       cell.outcome = Status::escaped;
       break;

@@ -4,13 +4,21 @@
 #include <span>
 #include <string_view>
 
+#include "generator/formats/emit_options.hpp"
+#include "generator/formats/output_files.hpp"
+#include "generator/program/program.hpp"
+
 namespace hamgen {
 
 struct NamedFormat {
   std::string_view name;         // "cpp-header", "cpp-plugin", "cmake-package"
   std::string_view description;  // one line
+  OutputFiles (*files)(const Program& program, const EmitOptions& options);
 };
 
+// The first is the default.
 [[nodiscard]] std::span<const NamedFormat> all_formats();
+// "" is the default.  Throws UsageError for a name that is not in the list.
+[[nodiscard]] const NamedFormat& find_format(std::string_view name);
 
 }  // namespace hamgen

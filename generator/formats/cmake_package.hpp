@@ -1,14 +1,13 @@
 // The emitted header as a CMake package.
 #pragma once
 
-#include <string>
-
+#include "generator/formats/emit_options.hpp"
 #include "generator/formats/output_files.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
-// NAME.hpp and a CMakeLists.txt with the INTERFACE library NAME, linked to what the header needs.
-[[nodiscard]] OutputFiles cmake_package(const std::string& name, const std::string& header,
-                                        bool eigen, bool quadmath);
+// The files of cpp-header and a CMakeLists.txt with an INTERFACE library, linked to what it needs.
+[[nodiscard]] OutputFiles cmake_package(const Program& program, const EmitOptions& options);
 
 }  // namespace hamgen

@@ -137,7 +137,8 @@ class CodeWriter {
       if ((before == ')' || before == '}' || before == ']') && level > 0) --level;
       if (text[i] != ' ' || (start != std::string::npos && i <= start + 2)) continue;
       const bool weak = before == '+' || before == '-' || before == ',' || before == '?';
-      const bool strong = before == '*' || before == '/';
+      // Not the star of a pointer.
+      const bool strong = (before == '*' || before == '/') && i >= 2 && text[i - 2] == ' ';
       if (!weak && !strong) continue;
       const std::pair<std::size_t, int> rank{level, weak ? 0 : 1};
       if (rank <= least) {

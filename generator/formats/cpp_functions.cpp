@@ -4,15 +4,21 @@
 
 namespace hamgen {
 
-void write_functions(CodeWriter& out, CppContext& context) {
+void write_functions(CodeWriter& out, EmitContext& context) {
   context.write_routine(out, "energy");
-  context.write_routine(out, "invariants");
-  write_modified_energies(out, context);
-  const bool wanted = context.options.gradient || context.needs("gradient");
-  if (wanted) context.write_with_callees(out, "gradient");
+  context.write_with_callees(out, "gradient");
+  if (context.arrays()) {
+    out.lines(R"(// grad H, the derivatives by q first.
+inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n]) {
+  gradient(par, z.q, z.p, values, values + n);
 }
 
-void write_modified_energies(CodeWriter& out, CppContext& context) {
+)");
+  }
+  context.write_routine(out, "invariants");
+}
+
+void write_modified_energies(CodeWriter& out, EmitContext& context) {
   const std::vector<int>& powers = context.program.modified_powers;
   if (powers.empty()) return;
   context.write_routine(out, "modified_energies");

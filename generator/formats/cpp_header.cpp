@@ -5,130 +5,198 @@
 #include <algorithm>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
-#include "generator/formats/cpp_context.hpp"
+#include "generator/formats/cpp_dialect.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
-#include "generator/formats/cpp_preamble.hpp"
 #include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tangent.hpp"
-#include "generator/formats/numerics.hpp"
+#include "generator/formats/emit_context.hpp"
+#include "generator/formats/preamble.hpp"
+#include "generator/formats/support.hpp"
 
 namespace hamgen {
 
 namespace {
 
-void write_includes(CodeWriter& out, const CppContext& context) {
-  if (context.quad()) {
-    // Declared here rather than by <quadmath.h>, which clang does not find.
-    std::set<std::string> declared;
-    for (const std::string& function : context.used.functions) {
-      const Function* row = find_function(function);
-      const bool two = function == "pow" || (row != nullptr && row->arity == 2);
-      const std::string name = row != nullptr ? std::string(row->quad) : function + "q";
-      if (function == "fabs" || !declared.insert(name).second) continue;
-      if (declared.size() == 1) {
-        out.line();
-        out.line("extern \"C\" {");
-      }
-      out.line(fmt::format("__extension__ __float128 {}(__float128{}) noexcept;", name,
-                           two ? ", __float128" : ""));
-    }
-    if (!declared.empty()) out.line("}");
-  } else if (!context.used.functions.empty() && !context.options.builtins) {
-    out.line("#include <cmath>");
-  }
-  if (context.arrays()) {
-    const ArrayPlan& plan = *context.program.plan.arrays;
-    if (!uses_eigen(plan)) return;
-    if (plan.matrix->kind == MatrixKind::eigen_sparse) {
-      out.line("#include <algorithm>");
-      out.line("#include <vector>");
+// The functions of quad numbers that are used, declared here rather than by <quadmath.h>, which
+// clang does not find.
+void declare_quad_functions(CodeWriter& out, const std::set<std::string>& functions) {
+  std::set<std::string> declared;
+  for (const std::string& function : functions) {
+    const Function* row = find_function(function);
+    const bool two = function == "pow" || (row != nullptr && row->arity == 2);
+    const std::string name = row != nullptr ? std::string(row->quad) : function + "q";
+    if (function == "fabs" || !declared.insert(name).second) continue;
+    if (declared.size() == 1) {
       out.line();
-      out.line("#include <Eigen/SparseLU>");
-    } else {
-      out.line();
-      out.line("#include <Eigen/LU>");
+      out.line("extern \"C\" {");
     }
-  } else if (needs_eigen(context)) {
-    out.line();
-    out.line("#include <Eigen/LU>");
+    out.line(fmt::format("__extension__ __float128 {}(__float128{}) noexcept;", name,
+                         two ? ", __float128" : ""));
   }
+  if (!declared.empty()) out.line("}");
 }
 
-void open_namespace(CodeWriter& out, const CppContext& context) {
-  out.line(fmt::format("namespace {} {{", context.options.name_space));
+void write_includes(CodeWriter& out, const EmitContext& context, const Support& support) {
+  const bool shared = context.options.shared_support;
+  if (context.quad()) {
+    declare_quad_functions(out, context.used.functions);
+  } else if ((!context.used.functions.empty() && !context.options.builtins) ||
+             support.uses_cmath(shared)) {
+    out.line("#include <cmath>");
+  }
+  if (support.uses_eigen()) {
+    const std::optional<ArrayPlan>& arrays = context.program.plan.arrays;
+    const bool sparse =
+        arrays && arrays->matrix && arrays->matrix->kind == MatrixKind::eigen_sparse;
+    if (sparse) out.line("#include <algorithm>");
+    if (sparse) out.line("#include <vector>");
+    out.line();
+    out.line(sparse ? "#include <Eigen/SparseLU>" : "#include <Eigen/LU>");
+  }
+  if (!shared) return;
   out.line();
+  out.line(fmt::format("#include \"{}\"", shared_file_name(context.scalar)));
+}
+
+void write_pi(CodeWriter& out, const ScalarType& scalar) {
+  // 50 digits, rounded by the compiler where the type is standard.
+  const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
+  out.line(fmt::format("inline constexpr Real pi = {};", literal(pi, scalar)));
+}
+
+// What is said of the system alone: equal for all of its methods.
+std::string system_text(EmitContext& context) {
+  CodeWriter functions;
+  write_functions(functions, context);
+  CodeWriter out;
   out.line(context.quad() ? "__extension__ typedef __float128 Real;"
                           : fmt::format("using Real = {};", context.scalar.cpp));
-  if (context.used.pi) {
-    // 50 digits, rounded by the compiler where the type is standard.
-    const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
-    out.line(fmt::format("inline constexpr Real pi = {};", literal(pi, context.scalar)));
-  }
+  if (context.used.pi) write_pi(out, context.scalar);
   if (context.arrays()) {
     out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", context.n()));
   }
   out.line();
+  for (const Record* record : std::initializer_list<const Record*>{&context.system_parameters,
+                                                                   context.code.record("State")}) {
+    write_record(out, *record, context.scalar);
+    out.line();
+  }
+  out.lines(functions.text());
+  return out.text();
 }
 
-void write_scheme(CodeWriter& out, CppContext& context) {
-  write_types(out, context, needs_vocabulary(context));
-  write_functions(out, context);
-  write_solver(out, context);
-  write_steps(out, context);
-  if (context.options.tangent) context.write_with_callees(out, "tangent");
-}
-
-// Everything inside the namespace and the namespace itself.
-std::string namespace_text(CppContext& context) {
-  CodeWriter inner;
-  write_scheme(inner, context);
+std::string method_text(EmitContext& context) {
+  const bool had_pi = context.used.pi;
+  CodeWriter steps;
+  write_modified_energies(steps, context);
+  write_solver(steps, context);
+  write_steps(steps, context);
+  if (context.options.tangent) context.write_with_callees(steps, "tangent");
   CodeWriter out;
-  open_namespace(out, context);  // what it defines depends on what was used
-  out.lines(inner.text());
-  out.line(fmt::format("}}  // namespace {}", context.options.name_space));
+  if (context.used.pi && !had_pi) {
+    write_pi(out, context.scalar);
+    out.line();
+  }
+  if (!context.method_parameters.fields.empty()) {
+    write_record(out, context.method_parameters, context.scalar,
+                 "::" + context.options.spaces.system + "::Parameters");
+    out.line();
+  }
+  out.lines(steps.text());
+  return out.text();
+}
+
+// The text in its namespace, once however many headers have it.  Another text of the same name does
+// not mix with it: in one translation unit it is an error, and in two the inline namespace, named
+// after the digest, keeps them apart.
+void write_section(CodeWriter& out, std::string_view kind, const std::string& name_space,
+                   const std::string& digest, const std::string& text) {
+  std::string macro =
+      fmt::format("HAMGEN_{}_{}", kind == "system" ? "SYSTEM" : "METHOD", name_space);
+  for (auto at = macro.find("::"); at != std::string::npos; at = macro.find("::")) {
+    macro.replace(at, 2, "_");
+  }
+  const std::string version = "emitted_" + digest;
+  out.line("#ifndef " + macro);
+  out.line(fmt::format("#define {} 0x{}", macro, digest));
+  out.line(fmt::format("namespace {} {{", name_space));
+  out.line(fmt::format("inline namespace {} {{", version));
+  out.line();
+  out.lines(text);
+  out.line(fmt::format("}}  // namespace {}", version));
+  out.line(fmt::format("}}  // namespace {}", name_space));
+  out.line(fmt::format("#elif {} != 0x{}", macro, digest));
+  out.line(fmt::format(
+      "#error \"another {} of this name is included before: generate one with --namespace\"",
+      kind));
+  out.line("#endif");
+  out.line();
+}
+
+CppDialect dialect_of(const Program& program, const EmitOptions& options) {
+  const bool arrays = program.plan.arrays.has_value();
+  return {find_scalar(options.scalar),
+          arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0, options.builtins};
+}
+
+// All but what a plugin has besides.
+std::string file_text(EmitContext& context, const char* first_line) {
+  const EmitOptions& options = context.options;
+  const std::string system = system_text(context);
+  const std::string method = method_text(context);
+  Support support(context.scalar, options.builtins);
+  support.require_for(method);
+  CodeWriter out;
+  write_preamble(out, context);
+  out.line(first_line);
+  write_includes(out, context, support);
+  out.line();
+  begin_ieee_arithmetic(out, context.scalar);
+  out.line();
+  write_section(out, "system", options.spaces.system, short_digest(system), system);
+  support.write(out, options.shared_support);
+  CodeWriter known;
+  support.write_names(known, method);
+  write_section(out, "method", options.spaces.of_method(),
+                short_digest(system + method + support.digest()), known.text() + method);
+  end_ieee_arithmetic(out);
   return out.text();
 }
 
 }  // namespace
 
-std::string cpp_header(const Program& program, const CppOptions& options) {
-  CppOptions with_derivatives = options;
-  with_derivatives.gradient = options.gradient || (options.tangent && program.plan.sweeps);
-  CppContext context(program, with_derivatives);
-  const std::string body = namespace_text(context);
+std::string cpp_header(const Program& program, const EmitOptions& options) {
+  const CppDialect dialect = dialect_of(program, options);
+  EmitContext context(program, options, dialect);
+  return file_text(context, "#pragma once");
+}
+
+std::string cpp_plugin(const Program& program, const EmitOptions& options) {
+  EmitOptions with_builtins = options;
+  with_builtins.builtins = true;
+  const CppDialect dialect = dialect_of(program, with_builtins);
+  EmitContext context(program, with_builtins, dialect);
   CodeWriter out;
-  write_preamble(out, context);
-  out.line("#pragma once");
-  write_includes(out, context);
-  out.line();
-  begin_ieee_arithmetic(out, context.scalar);
-  out.line();
-  out.lines(body);
-  out.line();
-  end_ieee_arithmetic(out);
+  out.lines(file_text(context, "#include \"plugin.h\""));
+  write_interface(out, context);
   return out.text();
 }
 
-std::string cpp_plugin(const Program& program, const CppOptions& options) {
-  CppOptions with_gradient = options;
-  with_gradient.gradient = true;
-  with_gradient.builtins = true;
-  CppContext context(program, with_gradient);
-  const std::string body = namespace_text(context);
-  CodeWriter out;
-  write_preamble(out, context);
-  out.line("#include \"plugin.h\"");
-  write_includes(out, context);
-  out.line();
-  begin_ieee_arithmetic(out, context.scalar);
-  out.line();
-  out.lines(body);
-  out.line();
-  end_ieee_arithmetic(out);
-  write_interface(out, context);
-  return out.text();
+OutputFiles cpp_header_files(const Program& program, const EmitOptions& options) {
+  OutputFiles files = {{options.file_name + ".hpp", cpp_header(program, options)}};
+  if (options.shared_support) files.push_back(shared_file(find_scalar(options.scalar)));
+  return files;
+}
+
+OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options) {
+  if (options.shared_support) {
+    throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
+  }
+  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)}};
 }
 
 bool needs_eigen(const Program& program) {

@@ -1,31 +1,23 @@
-// The format `cpp-header`: one self-contained C++ header.
+// The formats in C++: `cpp-header`, a header for programs, and `cpp-plugin`, which the runtime
+// compiles and loads.
 #pragma once
 
 #include <string>
 
-#include "generator/formats/scalar.hpp"
+#include "generator/formats/emit_options.hpp"
+#include "generator/formats/output_files.hpp"
 #include "generator/program/program.hpp"
 
 namespace hamgen {
 
-struct CppOptions {
-  std::string command;  // as the user typed it
-  std::string model_path;
-  std::string model_digest;  // SHA-256 of its text
-  std::string scalar;        // name of a scalar, "" is double
-  std::string name_space;    // "pendulum::implicit_midpoint"
-  // What is proved, tested and refuted of the step, for the first lines; empty: not looked at.
-  std::string proved, tested, refuted;
-  bool gradient = false;  // emit gradient() too
-  bool tangent = false;   // emit the linearised step too
-  // Where a plugin, whose interface has no h there, adds the modified energies to its invariants.
-  Rational watched_step = {};
-  bool builtins = false;  // functions of the compiler instead of <cmath>
-};
-
-[[nodiscard]] std::string cpp_header(const Program& program, const CppOptions& options);
+// The header alone.
+[[nodiscard]] std::string cpp_header(const Program& program, const EmitOptions& options);
 // The same mathematics with the C interface of runtime/plugin.h around it: one translation unit.
-[[nodiscard]] std::string cpp_plugin(const Program& program, const CppOptions& options);
+[[nodiscard]] std::string cpp_plugin(const Program& program, const EmitOptions& options);
+
+// Their files; the header's with the shared blocks where the options want them.
+[[nodiscard]] OutputFiles cpp_header_files(const Program& program, const EmitOptions& options);
+[[nodiscard]] OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options);
 
 [[nodiscard]] bool needs_eigen(const Program& program);
 

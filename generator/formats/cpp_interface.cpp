@@ -7,7 +7,7 @@ namespace hamgen {
 namespace {
 
 // Copies an array of doubles into a struct's fields.
-void write_fill(CodeWriter& out, const CppContext& context, const std::string& target,
+void write_fill(CodeWriter& out, const EmitContext& context, const std::string& target,
                 const std::vector<std::string>& names, const std::string& values) {
   if (context.arrays() && target == "result" && values == "state") {
     const std::string low =
@@ -30,7 +30,7 @@ void write_fill(CodeWriter& out, const CppContext& context, const std::string& t
   }
 }
 
-void write_tangent_interface(CodeWriter& out, const CppContext& context) {
+void write_tangent_interface(CodeWriter& out, const EmitContext& context) {
   const int size = 2 * context.n();
   std::string increments;
   std::string ends;
@@ -74,26 +74,24 @@ void write_tangent_interface(CodeWriter& out, const CppContext& context) {
 
 }  // namespace
 
-void write_interface(CodeWriter& out, const CppContext& context) {
+void write_interface(CodeWriter& out, const EmitContext& context) {
   const std::string description =
       cpp_string(fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name));
   out.line();
   out.line("// The interface of plugin.h.");
-  out.line(fmt::format("using namespace {};", context.options.name_space));
-  out.line();
+  const std::string method = context.options.spaces.of_method();
   out.open("struct hamgen_run");
-  out.line("Propagator propagator;");
-  out.line("Parameters par;");
+  out.line(method + "::Propagator propagator;");
   out.close(";");
   out.line();
+  out.line(fmt::format("namespace {} {{", method));
   out.line("namespace {");
   out.line();
   auto fill = [&](const std::string& name, const std::string& type,
                   const std::vector<std::string>& names, const std::string& values) {
-    out.open(
-        fmt::format("{0} {1}([[maybe_unused]] const double* {2}, [[maybe_unused]] const "
-                    "double* {2}_lo)",
-                    type, name, values));
+    const bool low = context.scalar.digits > 53 && !names.empty();
+    out.open(fmt::format("{} {}(const double*{}, const double*{})", type, name,
+                         names.empty() ? "" : " " + values, low ? " " + values + "_lo" : ""));
     out.line(type + " result;");
     write_fill(out, context, "result", names, values);
     out.line("return result;");
@@ -103,16 +101,32 @@ void write_interface(CodeWriter& out, const CppContext& context) {
   fill("read_parameters", "Parameters", context.parameter_fields, "parameters");
   fill("read_state", "State", context.state_fields, "state");
   out.lines(
-      R"(hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
+      R"(// The double nearest to the value; what it leaves of it is lo.
+double high_part(Real value, double* lo) {
+  const double hi = static_cast<double>(value);
+  if (lo) *lo = static_cast<double>(value - static_cast<Real>(hi));
+  return hi;
+}
+
+// What hi + lo leave of a state's value, and what rounding took from it.
+Real carried(Real value, Real carry) {
+  double lo;
+  const double hi = high_part(value, &lo);
+  return (value - static_cast<Real>(hi) - static_cast<Real>(lo)) + carry;
+}
+
+hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
                    const double* state, const double* state_lo) {
-  const Parameters par = read_parameters(parameters, parameters_lo);
-  return new hamgen_run{Propagator(par, static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)), par};
+  return new hamgen_run{Propagator(read_parameters(parameters, parameters_lo),
+                                   static_cast<Real>(h) + static_cast<Real>(h_lo),
+                                   read_state(state, state_lo))};
 }
 
 void destroy(hamgen_run* run) { delete run; }
 
 void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* report) {
-  hamgen_report total{HAMGEN_DONE, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
+  hamgen_report total{};
+  Real energy_min{}, energy_max{}, energy_last{};
   for (long long i = 0; i < steps; ++i) {
     const StepReport last = run->propagator.step();
     total.last_iterations = static_cast<int>(last.iterations);
@@ -125,16 +139,19 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     total.iterations += last.iterations;
     ++total.steps_done;
     if (watch_energy) {
-      const double now = static_cast<double>(energy(run->par, run->propagator.state()));
-      if (i == 0 || now < total.energy_min) total.energy_min = now;
-      if (i == 0 || now > total.energy_max) total.energy_max = now;
-      total.energy_last = now;
+      energy_last = energy(run->propagator.parameters(), run->propagator.state());
+      if (i == 0 || energy_last < energy_min) energy_min = energy_last;
+      if (i == 0 || energy_last > energy_max) energy_max = energy_last;
+      const double now = static_cast<double>(energy_last);
       if (!(now - now == 0.0)) {
         total.status = HAMGEN_NOT_FINITE;
         break;
       }
     }
   }
+  total.energy_min = high_part(energy_min, &total.energy_min_lo);
+  total.energy_max = high_part(energy_max, &total.energy_max_lo);
+  total.energy_last = high_part(energy_last, &total.energy_last_lo);
   *report = total;
 }
 )");
@@ -144,72 +161,90 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   if (context.arrays()) {
     out.open("for (int i = 0; i < 2 * n; ++i)");
     out.line("const Real value = i < n ? z.q[i] : z.p[i - n];");
-    out.line("state[i] = static_cast<double>(value);");
-    out.line(
-        "if (state_lo) state_lo[i] = static_cast<double>(value - static_cast<Real>(state[i]));");
+    out.line("state[i] = high_part(value, state_lo ? state_lo + i : nullptr);");
     out.close();
   }
   for (int i = 0; i < (context.arrays() ? 0 : 2 * context.n()); ++i) {
-    out.line(fmt::format("state[{}] = static_cast<double>(z.{});", i, context.state_field(i)));
-    out.line(
-        fmt::format("if (state_lo) state_lo[{0}] = static_cast<double>(z.{1} - "
-                    "static_cast<Real>(state[{0}]));",
-                    i, context.state_field(i)));
+    out.line(fmt::format("state[{0}] = high_part(z.{1}, state_lo ? state_lo + {0} : nullptr);", i,
+                         context.state_field(i)));
   }
   out.close();
   out.line();
-  out.open("double energy_of(const double* parameters, const double* state)");
-  out.line(
-      "return static_cast<double>(energy(read_parameters(parameters, nullptr), "
-      "read_state(state, nullptr)));");
+  out.open("void get_carry(const hamgen_run* run, double* carry, double* carry_lo)");
+  out.line("const State& z = run->propagator.state();");
+  out.line("const State& c = run->propagator.carry();");
+  if (context.arrays()) {
+    out.open("for (int i = 0; i < n; ++i)");
+    out.line("carry[i] = high_part(carried(z.q[i], c.q[i]), carry_lo + i);");
+    out.line("carry[n + i] = high_part(carried(z.p[i], c.p[i]), carry_lo + n + i);");
+    out.close();
+  }
+  for (int i = 0; i < (context.arrays() ? 0 : 2 * context.n()); ++i)
+    out.line(fmt::format("carry[{0}] = high_part(carried(z.{1}, c.{1}), carry_lo + {0});", i,
+                         context.state_field(i)));
   out.close();
+  out.line();
+  out.lines(
+      R"(double energy_of(const double* parameters, const double* parameters_lo, const double* state,
+                 const double* state_lo, double* energy_lo) {
+  return high_part(energy(read_parameters(parameters, parameters_lo), read_state(state, state_lo)),
+                   energy_lo);
+}
+)");
   out.line();
   // Fills values from `first` on with what the call leaves in the named array.
   const auto fill_values = [&out](const std::string& array, std::size_t count, std::size_t first,
                                   const std::string& call) {
     if (count == 0) return;
+    const std::string place = first == 0 ? "i" : fmt::format("{} + i", first);
     out.line(fmt::format("Real {}[{}];", array, count));
     out.line(call);
-    out.line(fmt::format("for (int i = 0; i < {}; ++i) values[{}i] = static_cast<double>({}[i]);",
-                         count, first == 0 ? "" : fmt::format("{} + ", first), array));
+    out.line(
+        fmt::format("for (int i = 0; i < {0}; ++i) values[{1}] = high_part({2}[i], values_lo ? "
+                    "values_lo + {1} : nullptr);",
+                    count, place, array));
   };
-  const auto open_vector_function = [&out](const std::string& name) {
-    out.open(
-        fmt::format("void {}([[maybe_unused]] const double* parameters, [[maybe_unused]] const "
-                    "double* state, [[maybe_unused]] double* values)",
-                    name));
-  };
-  const std::string arguments = "read_parameters(parameters, nullptr), ";
-  const std::string state = "read_state(state, nullptr)";
+  const std::string arguments = "read_parameters(parameters, parameters_lo), ";
+  const std::string state = "read_state(state, state_lo)";
   const std::size_t invariants = context.mechanics.invariants.size();
+  const auto size = static_cast<std::size_t>(2 * context.n());
   const std::size_t modified = context.program.modified_powers.size();
-  open_vector_function("invariants_of");
+  out.open(invariants + modified == 0
+               ? "void invariants_of(const double*, const double*, const double*, const double*, "
+                 "double*, double*)"
+               : "void invariants_of(const double* parameters, const double* parameters_lo, const "
+                 "double* state, const double* state_lo, double* values, double* values_lo)");
   fill_values("result", invariants, 0, "invariants(" + arguments + state + ", result);");
   fill_values("modified", modified, invariants,
               fmt::format("modified_energies({}{}, {}, modified);", arguments,
                           literal(context.options.watched_step, context.scalar), state));
   out.close();
   out.line();
-  open_vector_function("gradient_of");
-  if (context.arrays()) out.line("const State z = " + state + ";");
-  fill_values("result", static_cast<std::size_t>(2 * context.n()), 0,
-              "gradient(" + arguments +
-                  (context.arrays() ? "z.q, z.p, result, result + n" : state + ", result") + ");");
+  if (size == 0) {
+    out.open("void gradient_of(const double*, const double*, double*)");
+  } else {
+    out.open("void gradient_of(const double* parameters, const double* state, double* values)");
+    out.line(fmt::format("Real result[{}];", size));
+    out.line("gradient(read_parameters(parameters, nullptr), read_state(state, nullptr), result);");
+    out.line(fmt::format("for (int i = 0; i < {}; ++i) values[i] = static_cast<double>(result[i]);",
+                         size));
+  }
   out.close();
   out.line();
   if (context.options.tangent) write_tangent_interface(out, context);
   out.line(
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, "
-                  "{}, create, destroy, advance, get_state, energy_of, invariants_of, "
+                  "{}, create, destroy, advance, get_state, get_carry, energy_of, invariants_of, "
                   "gradient_of, {}}};",
                   context.n(), context.environment.parameters.size(), invariants + modified,
                   context.scalar.digits, description, cpp_string(context.program.plan.solver),
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");
+  out.line(fmt::format("}}  // namespace {}", method));
   out.line();
   out.open("extern \"C\" const hamgen_plugin* hamgen_plugin_entry()");
-  out.line("return hamgen_arithmetic_is_ieee() ? &plugin : nullptr;");
+  out.line(fmt::format("return hamgen_arithmetic_is_ieee() ? &{}::plugin : nullptr;", method));
   out.close();
 }
 

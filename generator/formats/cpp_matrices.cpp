@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "generator/formats/numerics.hpp"
-
 namespace hamgen {
 
 namespace {
@@ -38,21 +36,18 @@ std::string order_text(const ArrayMatrix& matrix) {
 }
 
 void write_band(CodeWriter& out, const ArrayMatrix& matrix) {
-  out.lines(cpp_numerics("band_matrix"));
   const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) {
     out.line(fmt::format("using Matrix = {};", band));
     return;
   }
-  out.lines(cpp_numerics("reordered_matrix"));
   out.comment("// ", order_text(matrix));
   out.lines("struct Order {\n  static int row(int i) {\n" + row_of(matrix) + "  }\n};\n\n");
   out.line(fmt::format("using Matrix = ReorderedMatrix<{}, Order>;", band));
 }
 
-// The matrices that need no more than their size: the header and its class.
-void write_plain(CodeWriter& out, const char* numerics, const char* name, int size) {
-  out.lines(cpp_numerics(numerics));
+// The matrices that need no more than their size.
+void write_plain(CodeWriter& out, const char* name, int size) {
   out.line(fmt::format("using Matrix = {}<{}>;", name, size));
 }
 
@@ -64,17 +59,17 @@ void write_matrix(CodeWriter& out, const ArrayMatrix& matrix) {
       if (matrix.bandwidth > 0) {
         write_band(out, matrix);
       } else {  // a band of no width
-        write_plain(out, "diagonal_matrix", "DiagonalMatrix", matrix.size);
+        write_plain(out, "DiagonalMatrix", matrix.size);
       }
       break;
     case MatrixKind::dense:
-      write_plain(out, "dense_matrix", "DenseMatrix", matrix.size);
+      write_plain(out, "DenseMatrix", matrix.size);
       break;
     case MatrixKind::eigen_dense:
-      write_plain(out, "eigen_dense_matrix", "EigenDenseMatrix", matrix.size);
+      write_plain(out, "EigenDenseMatrix", matrix.size);
       break;
     case MatrixKind::eigen_sparse:
-      write_plain(out, "eigen_sparse_matrix", "EigenSparseMatrix", matrix.size);
+      write_plain(out, "EigenSparseMatrix", matrix.size);
       break;
   }
   out.line();

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "generator/formats/cpp_step.hpp"
-#include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
@@ -19,7 +18,7 @@ struct CallNames {
 
 class StepWriter {
  public:
-  StepWriter(CodeWriter& out, const CppContext& context)
+  StepWriter(CodeWriter& out, const EmitContext& context)
       : out_(out),
         context_(context),
         code_(context.code),
@@ -27,13 +26,12 @@ class StepWriter {
         start_(code_.record("Start") != nullptr),
         rest_(code_.has_rest()),
         composed_(code_.substeps.size() > 1),
-        large_(context.arrays()) {}
+        large_(context.arrays()),
+        has_time_(context.mechanics.has_time) {}
 
   void write() {
     const bool by_propagator = composed_ || large_;
     if (!by_propagator) write_step();
-    if (code_.unknowns > 0) out_.lines(cpp_numerics("history"));
-    if (code_.unknowns > 0 && composed_) out_.lines(cpp_numerics("forget"));
     write_propagator();
     if (by_propagator) write_step_of_propagator();
   }
@@ -119,13 +117,18 @@ class StepWriter {
       out_.close();
     }
     out_.line();
-    write_advance(out_);
+    write_advance();
+    out_.line();
+    write_reset();
+    out_.line();
+    write_accessors();
     out_.line();
     access(" private:");
     if (composed_) {
       out_.line("// Substep i from z + carry.");
       out_.open("StepReport substep(int i, State& z, State& carry)");
-      write_solve(with_room({"par_", "k_[i]", "h_[i]", "z", "carry", "start_[i]", "history_[i]"}));
+      write_solve(
+          with_room({"par_", "k_[i]", "lengths_[i]", "z", "carry", "start_[i]", "history_[i]"}));
       out_.close();
       out_.line();
     }
@@ -141,9 +144,7 @@ class StepWriter {
   }
 
   void write_constructor() {
-    std::string initialisers = "par_(par)";
-    if (takes_step()) initialisers += ", h_(h)";
-    initialisers += ", z_(z)";
+    std::string initialisers = "par_(par), h_(h), z_(z)";
     if (coefficients_) initialisers += ", k_(prepare(par, h))";
     const std::string head = "Propagator(const Parameters& par, Real h, const State& z)";
     if (head.size() + initialisers.size() > 90) {
@@ -161,11 +162,12 @@ class StepWriter {
     }
     out_.line(fmt::format("static constexpr int substeps = {};", code_.substeps.size()));
     out_.line();
-    out_.open("Propagator(const Parameters& par, Real h, const State& z) : par_(par), z_(z)");
-    out_.line(fmt::format("constexpr Real lengths[substeps] = {{{}}};", lengths));
+    out_.open(
+        "Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z)");
+    out_.line(fmt::format("constexpr Real fractions[substeps] = {{{}}};", lengths));
     out_.open("for (int i = 0; i < substeps; ++i)");
-    out_.line("h_[i] = h * lengths[i];");
-    if (coefficients_) out_.line("k_[i] = prepare(par, h_[i]);");
+    out_.line("lengths_[i] = h * fractions[i];");
+    if (coefficients_) out_.line("k_[i] = prepare(par, lengths_[i]);");
     out_.close();
     out_.close();
   }
@@ -187,10 +189,12 @@ class StepWriter {
       write_solve_with_memory(names);
     }
     write_each([&](const std::string& x) {
-      return fmt::format(fmt::runtime(rest_ ? "add({0}.{2}, {1}.{2}, {3}.{2}, {4}.{2});"
-                                            : "two_sum({0}.{2}, {1}.{2}, {3}.{2});"),
-                         names.z, names.carry, x, names.dz, names.rest);
+      return fmt::format(
+          fmt::runtime(rest_ ? "two_sum_with_rest({0}.{2}, {1}.{2}, {3}.{2}, {4}.{2});"
+                             : "two_sum({0}.{2}, {1}.{2}, {3}.{2});"),
+          names.z, names.carry, x, names.dz, names.rest);
     });
+    if (!composed_ && !has_time_) out_.line("++steps_;");
     out_.line("return report;");
   }
 
@@ -259,6 +263,7 @@ class StepWriter {
     out_.close();
     out_.line("z_ = z;");
     out_.line("carry_ = carry;");
+    if (!has_time_) out_.line("++steps_;");
     out_.line("total.converged = true;");
     out_.line("return total;");
     out_.close();
@@ -267,36 +272,20 @@ class StepWriter {
   void write_members() {
     const char* each = composed_ ? "[substeps]" : "";
     out_.line("Parameters par_;");
-    if (composed_) {
-      out_.line("Real h_[substeps] = {};");
-    } else if (takes_step()) {
-      out_.line("Real h_;");
-    }
+    out_.line("Real h_;");
     out_.line("State z_;");
     out_.line("State carry_;");
+    if (!has_time_) out_.line("long long steps_ = 0;");
+    if (composed_) out_.line("Real lengths_[substeps] = {};");
     if (coefficients_) out_.line(fmt::format("Coefficients k_{};", each));
     if (start_) out_.line(fmt::format("Start start_{};", each));
     if (code_.unknowns > 0) out_.line(fmt::format("History<{}> history_{};", code_.unknowns, each));
     if (large_) out_.line(rest_ ? "State dz_, rest_;" : "State dz_;");
   }
 
-  [[nodiscard]] bool takes_step() const {
-    return std::ranges::any_of(code_.routine("solve")->arguments,
-                               [](const Argument& a) { return a.name == "h"; });
-  }
-
-  CodeWriter& out_;
-  const CppContext& context_;
-  const StepCode& code_;
-  bool coefficients_, start_, rest_, composed_, large_;
-};
-
-}  // namespace
-
-void write_steps(CodeWriter& out, const CppContext& context) { StepWriter(out, context).write(); }
-
-void write_advance(CodeWriter& out) {
-  out.lines(R"(// Up to `steps` steps; stops at the first failure.  The report sums the iterations.
+  void write_advance() {
+    out_.lines(
+        R"(// Up to `steps` steps; stops at the first failure.  The report sums the iterations.
 StepReport advance(long long steps) {
   StepReport total;
   total.converged = true;
@@ -311,11 +300,66 @@ StepReport advance(long long steps) {
   }
   return total;
 }
-
-[[nodiscard]] const State& state() const { return z_; }
-// What rounding took from the state: the sum of both is what the steps go on from.
-[[nodiscard]] const State& carry() const { return carry_; }
 )");
-}
+  }
+
+  void write_reset() {
+    out_.line("// Begins anew at z, as a new Propagator would.");
+    out_.open("void reset(const State& z)");
+    out_.line("z_ = z;");
+    out_.line("carry_ = State();");
+    if (!has_time_) out_.line("steps_ = 0;");
+    if (start_ && composed_ && !large_) {
+      out_.line("for (Start& start : start_) start = Start();");
+    } else if (start_ && composed_) {
+      write_start_anew("start", "for (Start& start : start_) ");
+    } else if (start_) {
+      large_ ? write_start_anew("start_", "") : out_.line("start_ = Start();");
+    }
+    if (code_.unknowns > 0) {
+      out_.line(composed_ ? "for (auto& history : history_) forget(history);"
+                          : "forget(history_);");
+    }
+    out_.close();
+  }
+
+  // What decides how the next step begins; arrays and matrices are filled before they are read.
+  void write_start_anew(const std::string& start, const std::string& head) {
+    for (const Field& field : code_.record("Start")->fields) {
+      const std::string name = start + "." + field.name;
+      if (!field.sizes.empty() || field.type == "Matrix") continue;
+      const std::string line = field.type == "bool"               ? name + " = false;"
+                               : field.type == "int"              ? name + " = 0;"
+                               : field.type.starts_with("Refine") ? name + ".rounds = 0;"
+                                                                  : name + " = {};";
+      out_.line(head + line);
+    }
+  }
+
+  void write_accessors() {
+    out_.line("[[nodiscard]] const State& state() const { return z_; }");
+    out_.line(
+        "// What rounding took from the state: the sum of both is what the steps go on from.");
+    out_.line("[[nodiscard]] const State& carry() const { return carry_; }");
+    if (has_time_) {
+      const std::string& t = context_.state_field(context_.n() - 1);
+      out_.line(fmt::format("[[nodiscard]] Real time() const {{ return z_.{}; }}", t));
+    } else {
+      out_.line("// Since the first state.");
+      out_.line("[[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }");
+    }
+    out_.line("[[nodiscard]] Real h() const { return h_; }");
+    out_.line("[[nodiscard]] const Parameters& parameters() const { return par_; }");
+  }
+
+  CodeWriter& out_;
+  const EmitContext& context_;
+  const StepCode& code_;
+  bool coefficients_, start_, rest_, composed_, large_, has_time_;
+};
+
+}  // namespace
+
+void write_steps(CodeWriter& out, const EmitContext& context) { StepWriter(out, context).write(); }
 
 }  // namespace hamgen

@@ -17,7 +17,6 @@ std::string cpp_vocabulary(const ScalarType& scalar, bool builtins) {
   return fmt::format(R"(inline Real magnitude(Real x) {{ return {}; }}
 inline constexpr Real largest = {};  // what is beyond counts as infinite
 inline constexpr Real epsilon = {};  // the distance from 1 to the next number
-
 )",
                      value, scalar.largest, scalar.epsilon);
 }
@@ -25,7 +24,7 @@ inline constexpr Real epsilon = {};  // the distance from 1 to the next number
 std::string cpp_numerics(std::string_view name) {
   const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
   if (found == all_numerics().end()) internal_error(fmt::format("no numerics '{}'", name));
-  return std::string(found->text) + "\n";
+  return std::string(found->text);
 }
 
 }  // namespace hamgen

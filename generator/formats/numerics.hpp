@@ -21,7 +21,7 @@ namespace hamgen {
 // The vocabulary but for Real; |x| by the compiler's own function where no header is wanted.
 [[nodiscard]] std::string cpp_vocabulary(const ScalarType& scalar, bool builtins);
 
-// The text of generator/numerics/NAME.hpp and an empty line.
+// The text of generator/numerics/NAME.hpp.
 [[nodiscard]] std::string cpp_numerics(std::string_view name);
 
 // A header's name, "two_sum", and its text.  Their table is made from the headers by the build: an

@@ -20,24 +20,67 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
       routine_(routine),
       dialect_(dialect),
       used_(used),
-      cpp_(
-          dialect.scalar, [this](const std::string& symbol) { return name(symbol); },
-          dialect.builtins) {
+      cpp_(dialect, [this](const std::string& symbol) { return name(symbol); }) {
   // What iterations declare.
   for (const char* local :
        {"size", "scale", "iteration", "verdict", "progress", "length", "increment", "sweep", "part",
         "i", "j", "rule", "more", "lack", "slope", "point", "distance"}) {
     names_.reserve(local);
   }
-  for (const Argument& argument : routine.arguments) names_.reserve(argument.name);
+  name_objects();
   reserve_arrays(routine.body);
+}
+
+// An argument makes way for a quantity of that name: the user's z stays z.
+void RoutinePrinter::name_objects() {
+  std::set<std::string> symbols;
+  collect_symbols(routine_.body, symbols);
+  for (const Argument& argument : routine_.arguments) {
+    const std::string& name = argument.name;
+    const bool number = argument.record.empty() && argument.sizes.empty();
+    const bool is_free = !symbols.contains(name) || routine_.places.contains(name);
+    if (number || name == "start" || is_free) {
+      names_.reserve(name);
+      continue;
+    }
+    std::string other = name + "_";
+    while (symbols.contains(other)) other += "_";
+    names_.reserve(other);
+    objects_[name] = other;
+    names_.set(name, name);
+  }
+}
+
+bool RoutinePrinter::is_address(const std::string& object) const {
+  return !dialect_.has_references() &&
+         std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
+           return argument.name == object && !argument.record.empty();
+         });
+}
+
+std::string RoutinePrinter::of(const std::string& object_name) const {
+  return object(object_name) + (is_address(object_name) ? "->" : ".");
+}
+
+std::string RoutinePrinter::value_of(const std::string& object_name) const {
+  return (is_address(object_name) ? "*" : "") + object(object_name);
+}
+
+std::string RoutinePrinter::object(const std::string& name) const {
+  const auto other = objects_.find(name);
+  return other == objects_.end() ? name : other->second;
 }
 
 void RoutinePrinter::print() {
   for (const std::string& line : routine_.remark) out_.remark("// ", line);
   out_.open(signature());
+  for (const Argument& argument : routine_.arguments) {
+    if (!dialect_.has_references() && !uses_object(routine_, argument.name)) {
+      out_.line("(void)" + object(argument.name) + ";");
+    }
+  }
   if (!routine_.result.object.empty()) {
-    out_.line(routine_.result.type + " " + routine_.result.object + ";");
+    out_.line(dialect_.declaration(routine_.result.type, routine_.result.object));
   }
   print(routine_.body);
   const bool filled = !routine_.result.object.empty() && routine_.result.type != "StepReport";
@@ -89,15 +132,17 @@ void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
 
 void RoutinePrinter::operator()(const Let& let) {
   const std::string value = cpp_(let.value);
-  out_.line(fmt::format("{}Real {} = {};", let.varies || kept_.contains(let.symbol) ? "" : "const ",
-                        names_.local(let.symbol), value));
+  out_.line(fmt::format("{}{} {} = {};", let.varies || kept_.contains(let.symbol) ? "" : "const ",
+                        dialect_.real(), names_.local(let.symbol), value));
 }
 void RoutinePrinter::operator()(const Array& array) {
   std::string sizes;
   for (const int size : array.sizes) sizes += "[" + count_text(size) + "]";
   std::vector<std::string> values;
   for (const Expression& e : array.values) values.push_back(cpp_(e));
-  out_.line(fmt::format("Real {}{} = {{{}}};", array.name, sizes, joined_texts(values, ", ")));
+  const std::string text =
+      values.empty() ? dialect_.empty_array() : "{" + joined_texts(values, ", ") + "}";
+  out_.line(fmt::format("{} {}{} = {};", dialect_.real(), array.name, sizes, text));
 }
 void RoutinePrinter::operator()(const Matrix& matrix) {
   if (matrix.patterned) return out_.line("Matrix " + matrix.name + ";");
@@ -107,8 +152,11 @@ void RoutinePrinter::operator()(const Matrix& matrix) {
                         matrix.name));
 }
 void RoutinePrinter::operator()(const Copy& copy) {
-  const std::string from = copy.from.empty() ? copy.record + "()" : copy.from;
-  out_.line(fmt::format("{}{} = {};", copy.declares ? copy.record + " " : "", copy.to, from));
+  const std::string from =
+      copy.from.empty() ? dialect_.empty_record(copy.record) : value_of(copy.from);
+  const std::string to =
+      copy.declares ? dialect_.record(copy.record) + " " + copy.to : value_of(copy.to);
+  out_.line(to + " = " + from + ";");
 }
 void RoutinePrinter::operator()(const Assign& assign) {
   const std::string value = cpp_(assign.value);
@@ -116,7 +164,9 @@ void RoutinePrinter::operator()(const Assign& assign) {
 }
 void RoutinePrinter::operator()(const Collect& sum) {
   const std::string value = cpp_(sum.value);
-  out_.line(fmt::format("collect({}, {}, {});", name(sum.symbol), name(sum.lost), value));
+  const char* by = dialect_.has_references() ? "" : "&";
+  out_.line(fmt::format("{0}({1}{2}, {1}{3}, {4});", dialect_.block("collect"), by,
+                        name(sum.symbol), name(sum.lost), value));
 }
 // target += value, or target -= what follows a minus, if that is one product.
 void RoutinePrinter::operator()(const Accumulate& sum) {
@@ -150,7 +200,8 @@ void RoutinePrinter::operator()(const Call& call) {
     return out_.line(fmt::format("if (!{}{}) {}", call_text(call), success, failure()));
   }
   if (call.object.empty()) return out_.line(call_text(call) + ";");
-  out_.line(fmt::format("const {} {} = {};", call.record, call.object, call_text(call)));
+  out_.line(
+      fmt::format("const {} {} = {};", dialect_.record(call.record), call.object, call_text(call)));
 }
 void RoutinePrinter::operator()(const Alternate& alternate) {
   const std::string patience = text(alternate.patience);
@@ -200,13 +251,13 @@ void RoutinePrinter::length_of(const Return& end) {
   }
   const std::string sum = joined_texts(squares, " + ");
   if (!end.ranges.empty()) {
-    out_.line("Real length = 0;");
+    out_.line(dialect_.real() + " length = 0;");
     for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.open(head(end.ranges[i]));
     out_.line(head(end.ranges.back()) + " length += " + sum + ";");
     for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.close();
   }
   out_.line("// False for infinities and NaN alike.");
-  if (end.ranges.empty()) out_.line("const Real length = " + sum + ";");
+  if (end.ranges.empty()) out_.line(fmt::format("const {} length = {};", dialect_.real(), sum));
 }
 
 std::string RoutinePrinter::failure() const {
@@ -216,7 +267,7 @@ std::string RoutinePrinter::failure() const {
 std::string RoutinePrinter::call_text(const Call& call) const {
   std::vector<std::string> arguments;
   for (const Place& place : call.arguments) arguments.push_back(given(place));
-  return fmt::format("{}({})", call.routine, joined_texts(arguments, ", "));
+  return fmt::format("{}({})", dialect_.routine(call.routine), joined_texts(arguments, ", "));
 }
 
 std::string RoutinePrinter::count_text(long count) const {
@@ -240,7 +291,7 @@ std::string RoutinePrinter::head(const KernelRange& range) const {
 std::string RoutinePrinter::name(const std::string& symbol) {
   if (symbol == "pi") {
     used_.pi = true;
-    return "pi";
+    return dialect_.constant("pi");
   }
   const auto place = routine_.places.find(symbol);
   if (place != routine_.places.end()) return text(place->second);
@@ -264,13 +315,15 @@ std::string RoutinePrinter::text(const AffineIndex& a) const {
 }
 
 std::string RoutinePrinter::text(const Place& place) const {
-  if (place.object.empty()) return "Real(" + text(place.indices.front()) + ")";
-  std::string result = place.object + (place.field.empty() ? "" : "." + place.field);
+  if (place.object.empty()) return dialect_.number(text(place.indices.front()));
+  std::string result = place.field.empty() ? object(place.object) : of(place.object) + place.field;
   for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
   return result;
 }
 
 std::string RoutinePrinter::given(const Place& place) const {
+  const bool record = place.field.empty() && records_.contains(place.object);
+  if (record && !dialect_.has_references()) return "&" + object(place.object);
   if (place.indices.empty()) return text(place);
   const AffineIndex& index = place.indices.front();
   const std::string offset = index.factors.empty() ? count_text(index.constant) : text(index);
@@ -278,33 +331,28 @@ std::string RoutinePrinter::given(const Place& place) const {
 }
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {
-  const std::string name = uses_object(routine_, argument.name) ? argument.name : "";
-  const std::string constant = argument.changes ? "" : "const ";
-  const std::string type = argument.record.empty() ? "Real" : argument.record;
-  if (argument.sizes.empty() && argument.record.empty()) {
-    return name.empty() ? "Real" : "Real " + name;
-  }
-  const std::string named = name.empty() ? "" : " " + name;
-  if (argument.decays) return constant + "Real*" + named;
-  if (argument.sizes.empty()) return constant + type + "&" + named;
-  std::string text = constant + type + " (&" + name + ")";
-  for (const int size : argument.sizes) text += "[" + count_text(size) + "]";
-  return text;
+  // C wants a name for every argument.
+  const bool named = !dialect_.has_references() || uses_object(routine_, argument.name);
+  const std::string name = named ? object(argument.name) : "";
+  std::string sizes;
+  for (const int size : argument.sizes) sizes += "[" + count_text(size) + "]";
+  return dialect_.argument(argument, name, sizes);
 }
 
 std::string RoutinePrinter::signature() const {
   std::vector<std::string> list;
   for (const Argument& argument : routine_.arguments) list.push_back(declaration(argument));
-  const std::string type = routine_.result.type.empty() ? "void" : routine_.result.type;
-  return fmt::format("{}inline {} {}({})", type == "StepReport" ? "[[nodiscard]] " : "", type,
-                     routine_.name, joined_texts(list, ", "));
+  return dialect_.head(routine_, list);
 }
 
 void RoutinePrinter::reserve_arrays(const Body& body) {
   for (const Instruction& node : body) {
     if (const auto* array = std::get_if<Array>(&node.value)) names_.reserve(array->name);
     if (const auto* matrix = std::get_if<Matrix>(&node.value)) names_.reserve(matrix->name);
-    if (const auto* copy = std::get_if<Copy>(&node.value)) names_.reserve(copy->to);
+    if (const auto* copy = std::get_if<Copy>(&node.value)) {
+      names_.reserve(copy->to);
+      if (copy->declares) records_.insert(copy->to);
+    }
     if (const auto* call = std::get_if<Call>(&node.value)) names_.reserve(call->object);
     if (const auto* loop = std::get_if<For>(&node.value)) names_.reserve(loop->range.index);
     if (const auto* refine = std::get_if<Refine>(&node.value)) {

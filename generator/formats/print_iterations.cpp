@@ -4,22 +4,19 @@
 
 namespace hamgen {
 
-namespace {
-
-std::string magnitude(const std::string& x) {
-  return "magnitude(" + (x.starts_with('-') ? x.substr(1) : x) + ")";
+std::string RoutinePrinter::magnitude(const std::string& x) const {
+  return dialect_.block("magnitude") + "(" + (x.starts_with('-') ? x.substr(1) : x) + ")";
 }
-
-}  // namespace
 
 void RoutinePrinter::operator()(const Iterate& iterate) {
   for (const std::string& symbol : iterate.kept) {
-    out_.line(fmt::format("Real {} = {};", names_.local(symbol), literal(0, dialect_.scalar)));
+    out_.line(fmt::format("{} {} = {};", dialect_.real(), names_.local(symbol),
+                          literal(0, dialect_.scalar)));
   }
   for (const Unknown& u : iterate.unknowns) {
     const std::string start = cpp_(u.start);
-    out_.line(fmt::format("Real {} = start.known ? start.value[{}] : {};", names_.local(u.symbol),
-                          u.memory, start));
+    out_.line(fmt::format("{0} {1} = {2}known ? {2}value[{3}] : {4};", dialect_.real(),
+                          names_.local(u.symbol), of("start"), u.memory, start));
   }
   kept_.insert(iterate.kept.begin(), iterate.kept.end());
   iterates_ = true;
@@ -28,7 +25,7 @@ void RoutinePrinter::operator()(const Iterate& iterate) {
   for (const Unknown& u : iterate.unknowns) {
     std::string value = names_.local(u.symbol);
     if (iterate.rule == Rule::newton) value += " + " + cpp_(u.correction);
-    out_.line(fmt::format("start.value[{}] = {};", u.memory, value));
+    out_.line(fmt::format("{}value[{}] = {};", of("start"), u.memory, value));
   }
 }
 
@@ -87,7 +84,7 @@ void RoutinePrinter::operator()(const RefineArray& refine) {
 void RoutinePrinter::operator()(const Sweep& sweep) {
   for (const Unknown& u : sweep.unknowns) {
     const std::string start = cpp_(u.start);
-    out_.line(fmt::format("Real {} = {};", names_.local(u.symbol), start));
+    out_.line(fmt::format("{} {} = {};", dialect_.real(), names_.local(u.symbol), start));
   }
   out_.open(fmt::format("for (int sweep = 0; sweep < {}; ++sweep)", sweep.count));
   print(sweep.body);
@@ -95,23 +92,23 @@ void RoutinePrinter::operator()(const Sweep& sweep) {
   for (const Unknown& u : sweep.unknowns) {
     const std::string value = cpp_(u.correction);
     next.push_back(names_.unique(names_.local(u.symbol) + "_next"));
-    out_.line(fmt::format("const Real {} = {};", next.back(), value));
+    out_.line(fmt::format("const {} {} = {};", dialect_.real(), next.back(), value));
   }
   for (std::size_t j = 0; j < next.size(); ++j) {
     out_.line(fmt::format("{} = {};", names_.local(sweep.unknowns[j].symbol), next[j]));
   }
   out_.close();
   for (std::size_t j = 0; j < sweep.results.size(); ++j) {
-    out_.line(fmt::format("const Real {} = {};", names_.local(sweep.results[j]),
+    out_.line(fmt::format("const {} {} = {};", dialect_.real(), names_.local(sweep.results[j]),
                           names_.local(sweep.unknowns[j].symbol)));
   }
   out_.line(fmt::format("report.iterations = {};", sweep.count));
 }
 
 void RoutinePrinter::newton(const Iterate& iterate) {
-  const std::string rule = "start." + iterate.name;
+  const std::string rule = of("start") + iterate.name;
   for (const std::string& line : *remark_) out_.remark("// ", line);
-  out_.line(rule + ".begin();");
+  out_.line(dialect_.call("NewtonRule", rule, "begin", "") + ";");
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   std::vector<std::string> corrections;
@@ -120,9 +117,10 @@ void RoutinePrinter::newton(const Iterate& iterate) {
     corrections.push_back(cpp_(u.correction));
     sizes.push_back(magnitude(corrections.back()));
   }
-  out_.line("const Real size = " + joined_texts(sizes, " + ") + ";");
-  out_.line("const Real scale = " + scale(iterate) + ";");
-  out_.line(fmt::format("const Verdict verdict = {}(size, scale, iteration);", rule));
+  out_.line(fmt::format("const {} size = {};", dialect_.real(), joined_texts(sizes, " + ")));
+  out_.line(fmt::format("const {} scale = {};", dialect_.real(), scale(iterate)));
+  out_.line(fmt::format("const {} verdict = {};", dialect_.block("Verdict"),
+                        dialect_.call("NewtonRule", rule, "", "size, scale, iteration")));
   end_newton();
   for (std::size_t j = 0; j < corrections.size(); ++j) {
     out_.line(fmt::format("{} += {};", names_.local(iterate.unknowns[j].symbol), corrections[j]));
@@ -131,17 +129,18 @@ void RoutinePrinter::newton(const Iterate& iterate) {
 }
 
 void RoutinePrinter::newton(const IterateArray& iterate) {
-  const std::string rule = "start." + iterate.name;
-  out_.line(rule + ".begin();");
+  const std::string rule = of("start") + iterate.name;
+  out_.line(dialect_.call("NewtonRule", rule, "begin", "") + ";");
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
-  out_.line("Real size = 0;");
-  out_.line("Real scale = 0;");
+  out_.line(dialect_.real() + " size = 0;");
+  out_.line(dialect_.real() + " scale = 0;");
   for_elements(iterate, [&](const UnknownArray& u) {
     out_.line("size += " + magnitude(name(u.increment)) + ";");
     out_.line("scale += " + length(u) + ";");
   });
-  out_.line(fmt::format("const Verdict verdict = {}(size, scale, iteration);", rule));
+  out_.line(fmt::format("const {} verdict = {};", dialect_.block("Verdict"),
+                        dialect_.call("NewtonRule", rule, "", "size, scale, iteration")));
   end_newton();
   for_elements(iterate, [&](const UnknownArray& u) {
     out_.line(fmt::format("{} += {};", name(u.value), name(u.increment)));
@@ -150,12 +149,12 @@ void RoutinePrinter::newton(const IterateArray& iterate) {
 }
 
 void RoutinePrinter::end_newton() {
-  out_.open("if (verdict == Verdict::failed)");
+  out_.open("if (verdict == " + dialect_.verdict("failed") + ")");
   out_.line("report.iterations += iteration;");
   out_.line("report.increment = size;");
   out_.line(failure());
   out_.close();
-  out_.open("if (verdict == Verdict::done)");
+  out_.open("if (verdict == " + dialect_.verdict("done") + ")");
   out_.line("report.iterations += iteration;");
   out_.line("break;");
   out_.close();
@@ -183,7 +182,7 @@ void RoutinePrinter::fixed_point(const Iterate& iterate) {
 
 // The fixed point, and Newton with a matrix that serves for many steps.
 void RoutinePrinter::contraction(const IterateArray& iterate) {
-  const std::string rule = "start." + iterate.name;
+  const std::string rule = of("start") + iterate.name;
   const bool newton = iterate.rule == Rule::simplified_newton;
   const std::string served = newton ? text(*iterate.factorised) : "";
   out_.line(newton ? fmt::format("{}.begin({});", rule, served) : rule + ".begin();");

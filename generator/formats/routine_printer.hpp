@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "generator/formats/cpp_expression.hpp"
 #include "generator/formats/print_code.hpp"
+#include "generator/formats/print_expression.hpp"
 #include "generator/program/names.hpp"
 
 namespace hamgen {
@@ -64,6 +65,7 @@ class RoutinePrinter {
   [[nodiscard]] std::string length(const Unknown& u);
   [[nodiscard]] std::string length(const UnknownArray& u);
   [[nodiscard]] std::string scale(const Iterate& iterate);
+  [[nodiscard]] std::string magnitude(const std::string& x) const;
   // Where the values of the body at the rounded unknowns wait: kept_0 beside refinement_0.
   [[nodiscard]] static std::string kept_name(const Refine& refine);
 
@@ -80,19 +82,26 @@ class RoutinePrinter {
   [[nodiscard]] std::string declaration(const Argument& argument) const;
   [[nodiscard]] std::string signature() const;
   void reserve_arrays(const Body& body);
+  void name_objects();
+  // What an object of the routine is called.
+  [[nodiscard]] std::string object(const std::string& name) const;
+  // Is it a record that the routine is given the address of?
+  [[nodiscard]] bool is_address(const std::string& object) const;
+  // "z.", before a field, and z itself.
+  [[nodiscard]] std::string of(const std::string& object) const;
+  [[nodiscard]] std::string value_of(const std::string& object) const;
 
   CodeWriter& out_;
   const Routine& routine_;
   const Dialect& dialect_;
   Used& used_;
   Names names_;
-  CppExpression cpp_;
-  std::set<std::string> kept_;  // locals that an iteration changes
+  ExpressionPrinter cpp_;
+  std::map<std::string, std::string> objects_;  // those called otherwise than in the routine
+  std::set<std::string> records_;               // that it declares
+  std::set<std::string> kept_;                  // locals that an iteration changes
   bool iterates_ = false;
   const std::vector<std::string>* remark_ = nullptr;
 };
-
-[[nodiscard]] std::string joined_texts(const std::vector<std::string>& items,
-                                       const char* separator);
 
 }  // namespace hamgen

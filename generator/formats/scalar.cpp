@@ -15,13 +15,14 @@ namespace {
 // Of quad numbers the exponents of long double, in which they are written, less the digits that
 // must not get lost below them.
 constexpr std::array kScalars = {
-    ScalarType{"float", "float", 24, "f", "0x1p-23f", "3.0e38f", -149, 128, "1.4e-45 and 3.4e38"},
+    ScalarType{"float", "float", 24, "f", "0x1p-23f", "3.0e38f", -149, 128, "1.4e-45 and 3.4e38",
+               "float32"},
     ScalarType{"double", "double", 53, "", "0x1p-52", "1.0e308", -1074, 1024,
-               "4.9e-324 and 1.7e308"},
+               "4.9e-324 and 1.7e308", "float64"},
     ScalarType{"long-double", "long double", 64, "L", "0x1p-63L", "1.0e4932L", -16445, 16384,
-               "3.6e-4951 and 1.1e4932"},
+               "3.6e-4951 and 1.1e4932", "long_double"},
     ScalarType{"quad", "__float128", 113, "", "Real(0x1p-112)", "Real(1.0e308)", -16300, 16384,
-               "1e-4906 and 1.1e4932"},
+               "1e-4906 and 1.1e4932", "quad"},
 };
 
 // 2^exponent.

@@ -20,6 +20,7 @@ struct ScalarType {
   int low = -1074;           // the smallest number is 2^low,
   int high = 1024;           // and all are below 2^high:
   std::string_view range;    // in decimals
+  std::string_view space;    // what its namespaces are called
 };
 
 [[nodiscard]] std::span<const ScalarType> all_scalars();

@@ -14,38 +14,18 @@ namespace hamgen {
 
 namespace {
 
-// Keywords of C++20.
-constexpr std::string_view kKeywords[] = {"alignas",       "alignof",     "and",
-                                          "and_eq",        "asm",         "auto",
-                                          "bitand",        "bitor",       "bool",
-                                          "break",         "case",        "catch",
-                                          "char",          "char8_t",     "char16_t",
-                                          "char32_t",      "class",       "compl",
-                                          "concept",       "const",       "consteval",
-                                          "constexpr",     "constinit",   "const_cast",
-                                          "continue",      "co_await",    "co_return",
-                                          "co_yield",      "decltype",    "default",
-                                          "delete",        "do",          "double",
-                                          "dynamic_cast",  "else",        "enum",
-                                          "explicit",      "export",      "extern",
-                                          "false",         "float",       "for",
-                                          "friend",        "goto",        "if",
-                                          "inline",        "int",         "long",
-                                          "mutable",       "namespace",   "new",
-                                          "noexcept",      "not",         "not_eq",
-                                          "nullptr",       "operator",    "or",
-                                          "or_eq",         "private",     "protected",
-                                          "public",        "register",    "reinterpret_cast",
-                                          "requires",      "return",      "short",
-                                          "signed",        "sizeof",      "static",
-                                          "static_assert", "static_cast", "struct",
-                                          "switch",        "template",    "this",
-                                          "thread_local",  "throw",       "true",
-                                          "try",           "typedef",     "typeid",
-                                          "typename",      "union",       "unsigned",
-                                          "using",         "virtual",     "void",
-                                          "volatile",      "wchar_t",     "while",
-                                          "xor",           "xor_eq"};
+// Keywords of C++20 and C11.
+constexpr std::string_view kKeywords =
+    " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t"
+    " char32_t char8_t class co_await co_return co_yield compl concept const const_cast"
+    " consteval constexpr constinit continue decltype default delete do double dynamic_cast"
+    " else enum explicit export extern false float for friend goto if inline int long mutable"
+    " namespace new noexcept not not_eq nullptr operator or or_eq private protected public"
+    " register reinterpret_cast requires restrict return short signed sizeof static"
+    " static_assert static_cast struct switch template this thread_local throw true try"
+    " typedef typeid typename union unsigned using virtual void volatile wchar_t while xor"
+    " xor_eq"
+    " ";
 
 // Names the emitted functions use themselves.
 constexpr std::string_view kOurs[] = {"std",
@@ -108,8 +88,7 @@ bool is_numbered(std::string_view name) {
 std::string beside(const std::string& name) { return name + (is_macro(name) ? "_value" : "_"); }
 
 bool is_keyword(std::string_view name) {
-  if (is_macro(name)) return true;
-  return std::ranges::find(kKeywords, name) != std::end(kKeywords);
+  return is_macro(name) || kKeywords.find(fmt::format(" {} ", name)) != std::string_view::npos;
 }
 
 // A function that the emitted code calls by this name alone.

@@ -205,7 +205,8 @@ constexpr std::string_view kGlobalFamilies =
 
 // Of an emitted plugin.
 constexpr std::string_view kPlugin =
-    " advance create destroy energy_of get_state gradient_of invariants_of plugin "
+    " advance carried create destroy energy_of get_carry get_state gradient_of high_part "
+    "invariants_of plugin "
     "read_parameters read_state tangent_of ";
 
 bool has_word(std::string_view list, std::string_view word) {

@@ -3,7 +3,7 @@ hamgen_generate(TARGET target MODEL model.ham
                 [SCHEME name] [ALPHA x] [BETA x] [GAMMA x] [ORDER n]
                 [GAUGE locally-exact or C] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
-                [NAMESPACE name] [PREFIX folder])
+                [NAMESPACE name] [SUPPORT own or shared] [PREFIX folder])
 
 Emits the integrator of a Hamiltonian as a header when the target is built, and again whenever the
 model or hamgen changes.  The header is named after the model and found by the target and by all
@@ -15,7 +15,7 @@ that link to it:
 TARGET     an executable or library of the project, INTERFACE libraries included
 MODEL      relative to the current source directory
 PREFIX     emits into a folder, #include "folder/kepler.hpp": for several methods of one model,
-           which then differ in their NAMESPACE or scheme
+           which share its State
 the rest   as the options of `hamgen generate`; a list for several degrees of freedom is one value,
            ALPHA "1/2,1/3"
 
@@ -23,7 +23,8 @@ Nothing is linked, except libquadmath for SCALAR quad.  A header whose plan need
 `hamgen show --stage plan`) expects Eigen3::Eigen from the project.
 ]]
 function(hamgen_generate)
-  set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE PREFIX)
+  set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE SUPPORT
+                PREFIX)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "${one_value}" "FOLD;SIZES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hamgen_generate: unexpected ${arg_UNPARSED_ARGUMENTS}")
@@ -60,7 +61,8 @@ function(hamgen_generate)
   set_property(TARGET ${arg_TARGET} APPEND PROPERTY HAMGEN_HEADERS ${header})
 
   set(options)
-  foreach(option SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE)
+  foreach(option SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE
+                 SUPPORT)
     if(DEFINED arg_${option})
       string(TOLOWER ${option} flag)
       list(APPEND options --${flag}=${arg_${option}})

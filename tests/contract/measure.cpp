@@ -25,8 +25,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-// A plugin's text has the gradient, which a header may lack; what follows its namespace is the
-// interface to the runtime.  Its members are looked at.
+// A plugin's text without the interface to the runtime.  Its members are looked at.
 std::string inside(const Case& c, const std::string& name_space, const std::string& scalar) {
   Request request = c.request;
   request.scalar = scalar;
@@ -34,17 +33,15 @@ std::string inside(const Case& c, const std::string& name_space, const std::stri
   // A slow fixed point has not the iterations for the digits of quad; Newton has.
   if (scalar == "quad" && request.solver == "fixed-point") request.solver = "";
   std::string text = generate_plugin(c.model, request).text;
-  const std::string end = fmt::format("}}  // namespace {}\n", name_space);
-  text.erase(text.find(end) + end.size());
+  text.erase(text.find("// The interface of plugin.h."));
   replace_all(text, "#include \"plugin.h\"\n", "");
   replace_all(text, " private:\n", " public:\n");
   return text;
 }
 
-// The gradient by one signature, and the names that step_defect.hpp wants.
-std::string adapter(const std::string& name, const std::string& name_space, const std::string& text,
+// The names that step_defect.hpp wants.
+std::string adapter(const std::string& name, const std::string& name_space,
                     const ScalarType& scalar) {
-  const bool loops = text.find("Real* dq, Real* dp)") != std::string::npos;
   return fmt::format(R"(struct {0} {{
   using Real = {1}::Real;
   using State = {1}::State;
@@ -53,16 +50,13 @@ std::string adapter(const std::string& name, const std::string& name_space, cons
   static constexpr Real epsilon = {2};
   static void gradient(const Parameters& par, const State& z, Real* g) {{
     constexpr int size = sizeof(State) / sizeof(Real);
-    {3}
+    Real values[size];
+    {1}::gradient(par, z, values);
+    for (int i = 0; i < size; ++i) g[i] = values[i];
   }}
 }};
 )",
-                     name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon,
-                     loops
-                         ? fmt::format("{}::gradient(par, z.q, z.p, g, g + size / 2);", name_space)
-                         : fmt::format("Real values[size];\n    {}::gradient(par, z, values);\n"
-                                       "    for (int i = 0; i < size; ++i) g[i] = values[i];",
-                                       name_space));
+                     name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon);
 }
 
 std::string list(const std::vector<Rational>& values) {
@@ -91,8 +85,8 @@ std::string call(const Case& c, std::size_t i, bool runge_kutta) {
   }
   const std::string equations =
       runge_kutta ? fmt::format(
-                        "contract::runge_kutta(case_{0}::exact::prepare("
-                        "case_{0}::exact::Parameters(), 1))",
+                        "contract::runge_kutta(case_{0}_exact::prepare("
+                        "case_{0}_exact::Parameters(), 1))",
                         i)
                   : fmt::format(
                         "contract::member({}, contract::Quad({}), contract::Quad({}), "
@@ -127,14 +121,14 @@ std::string program(const std::vector<Case>& cases,
   std::string calls;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const ScalarType& scalar = find_scalar(cases[i].request.scalar);
-    const std::string measured = fmt::format("case_{}::measured", i);
-    const std::string exact = fmt::format("case_{}::exact", i);
+    const std::string measured = fmt::format("case_{}_measured", i);
+    const std::string exact = fmt::format("case_{}_exact", i);
     std::string code = inside(cases[i], measured, std::string(scalar.name));
     if (edit) code = edit(std::move(code));
     const std::string quad = inside(cases[i], exact, "quad");
     const bool runge_kutta = code.find("k.coupling[") != std::string::npos;
-    text += code + quad + adapter(fmt::format("Measured_{}", i), measured, code, scalar) +
-            adapter(fmt::format("Exact_{}", i), exact, quad, find_scalar("quad"));
+    text += code + quad + adapter(fmt::format("Measured_{}", i), measured, scalar) +
+            adapter(fmt::format("Exact_{}", i), exact, find_scalar("quad"));
     calls += call(cases[i], i, runge_kutta);
   }
   return fmt::format("#include \"{}/tests/contract/step_defect.hpp\"\n", HAMGEN_SOURCE_DIR) + text +

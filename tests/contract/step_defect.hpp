@@ -11,8 +11,9 @@
 // g the emitted gradient in these numbers: no algorithm does better than to round its own solution
 // and to evaluate H's gradient as it is emitted.  (The maximum: a rule that adds up the increments
 // of its unknowns cannot see one that is a thousand times smaller than the others to its last
-// digit.)  Then, A = I - h (a J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r,
-// and so does Z but for rounding it:
+// digit.  Y_i lies between two numbers, and g(Y_i) is the worse of the two there: where g is a
+// single product, its error at one of them may vanish by chance.)  Then, A = I - h (a J H''(Y_j))
+// the matrix of the equations, the stages err by |A^-1| r, and so does Z but for rounding it:
 //   member:  dZ = h J H'' dY + h J dg,  and h J H'' dY = (I/2 + C)^-1 (dY - r): for the midpoint
 //   rule
 //            twice dY, for others of that order;
@@ -28,8 +29,10 @@
 // the increment of dense Newton on all unknowns, says how far the solution is.
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -57,6 +60,18 @@ State state_of(const Vector& values) {
     std::memcpy(static_cast<void*>(&state), rounded.data(), sizeof(State));
   }
   return state;
+}
+
+// Values lie between two numbers of type Real: the ones that are not the nearest.
+template <class Real>
+Vector on_the_other_side(const Vector& values) {
+  Vector result;
+  for (const Quad value : values) {
+    const Real nearest = static_cast<Real>(value);
+    const Real far = std::numeric_limits<Real>::max();
+    result.push_back(std::nextafter(nearest, static_cast<Quad>(nearest) < value ? far : -far));
+  }
+  return result;
 }
 
 // J grad H at the numbers of a state, by the code of one scalar.
@@ -292,14 +307,17 @@ class Watch {
     for (std::size_t j = 0; j < s; ++j) {
       const Vector f = field<Exact>(exact_par_, y[j]);
       const Vector rounded = field<Code>(par_, y[j]);
+      const Vector other = field<Code>(par_, on_the_other_side<Real>(y[j]));
       exact_field.push_back(f);
       const Matrix slope = jacobian(y[j]);
       Quad longest = 0;
       for (const Quad value : y[j])
         longest = magnitude(value) > longest ? magnitude(value) : longest;
       for (std::size_t k = 0; k < size; ++k) {
+        const Quad here = magnitude(rounded[k] - f[k]);
+        const Quad there = magnitude(other[k] - f[k]);
         right[j * size + k][0] = Code::epsilon * (magnitude(y[j][k]) + longest / 1024) +
-                                 magnitude(h * (rounded[k] - f[k]));
+                                 magnitude(h) * (here > there ? here : there);
         for (std::size_t i = 0; i < s; ++i) {
           for (std::size_t l = 0; l < size; ++l) {
             Quad entry = 0;
@@ -367,7 +385,7 @@ struct OneSubstep {
   using State = typename Code::State;
   using Parameters = typename Code::Parameters;
   OneSubstep(const Parameters& par, Quad h, const State& z) : all(par, h, z), z_(z) {
-    all.h_[0] = h;
+    all.lengths_[0] = h;
     if constexpr (requires { all.k_; }) all.k_[0] = prepare(par, h);
   }
   auto step() { return all.substep(0, z_, carry_); }
@@ -389,7 +407,7 @@ Defects run(const typename Code::Parameters& par, const Equations& equations, ty
                                                           propagator.carry_};
       for (substep.i = 0; substep.i < Code::Propagator::substeps; ++substep.i) {
         defects.failed = !watch.template solve<decltype(substep), OneSubstep<Exact>>(
-            substep, propagator.h_[substep.i], defects);
+            substep, propagator.lengths_[substep.i], defects);
         if (defects.failed) return defects;
       }
       propagator.z_ = substep.z_;

@@ -11,11 +11,12 @@ namespace {
 
 const std::string root = HAMGEN_SOURCE_DIR;
 
-// What stands between ```cpp and ``` in the file, the first time.
-std::string program_of(const std::string& file) {
+// What stands between ```cpp and ``` in the file, the first time or the next.
+std::string program_of(const std::string& file, int number = 0) {
   const std::string text = read(root + file);
   const std::string begin = "```cpp\n";
-  const auto from = text.find(begin) + begin.size();
+  auto from = text.find(begin) + begin.size();
+  for (; number > 0; --number) from = text.find(begin, from) + begin.size();
   return text.substr(from, text.find("```\n", from) - from);
 }
 
@@ -32,6 +33,33 @@ TEST(Documentation, TheProgramOfEmittedCodeRunsAndKeepsTheEnergy) {
   EXPECT_LT(std::abs(std::strtod(output.c_str(), nullptr)), 1e-2) << output;
 }
 
+TEST(Documentation, TheProgramOfTwoMethodsRuns) {
+  std::string program = program_of("/docs/emitted-code.md", 1);
+  const SourceText model = read_source(root + "/hamiltonians/fput.ham");
+  for (const auto& [folder, scheme] : {std::pair("midpoint", ""), {"verlet", "stormer-verlet"}}) {
+    const std::string include = std::string("#include \"") + folder + "/fput.hpp\"";
+    const auto at = program.find(include);
+    ASSERT_NE(at, std::string::npos);
+    const auto end = program.find('\n', at) + 1;
+    program.replace(at, end - at, without_pragma(generate(model, {.scheme = scheme}).at(0).text));
+  }
+  EXPECT_EQ(run_program(program), "");
+}
+
+TEST(Documentation, TheProgramInCCompiles) {
+  const std::string text = read(root + "/docs/emitted-code.md");
+  const auto from = text.find("```c\n") + 5;
+  std::string program = text.substr(from, text.find("```\n", from) - from);
+  const std::string include = "#include \"pendulum.h\"\n";
+  const auto at = program.find(include);
+  ASSERT_NE(at, std::string::npos);
+  const SourceText model = read_source(root + "/hamiltonians/pendulum.ham");
+  program.replace(at, include.size(),
+                  without_pragma(generate(model, {.format = "c-header"}).at(0).text));
+  EXPECT_EQ(messages("gcc", program, {"-x", "c", "-std=c11", "-Wall", "-Wextra", "-Wpedantic"}),
+            "");
+}
+
 // Every name in the table of parts is one of the header's.
 TEST(Documentation, ThePartsOfAHeaderAreThere) {
   const std::string header =
@@ -39,8 +67,9 @@ TEST(Documentation, ThePartsOfAHeaderAreThere) {
           .at(0)
           .text;
   for (const char* part :
-       {"Real", "Parameters", "State", "StepReport", "energy(", "Coefficients", "prepare(", "Start",
-        "solve(", "step(", "Propagator", "advance(", "state()", "carry()", "tangent("}) {
+       {"Real",     "Parameters", "State",  "StepReport", "energy(",  "Coefficients", "prepare(",
+        "Start",    "solve(",     "step(",  "Propagator", "advance(", "state()",      "carry()",
+        "tangent(", "gradient(",  "reset(", "time()",     "h()",      "parameters()"}) {
     EXPECT_NE(header.find(part), std::string::npos) << part;
   }
 }

@@ -25,14 +25,14 @@ std::vector<Variant> variants() {
           {"sweeps", {.solver = "sweeps:3"}}};
 }
 
-// The header of a shipped model, in the namespace MODEL::VARIANT_SCALAR.
+// The header of a shipped model, in the namespace MODEL_SCALAR::VARIANT.
 std::string header(const std::filesystem::path& model, const Variant& variant,
                    const std::string& scalar) {
   Request request = variant.request;
   request.scalar = scalar;
   std::string suffix = scalar;
   std::erase(suffix, '-');
-  request.name_space = "shipped_" + model.stem().string() + "::" + variant.name + "_" + suffix;
+  request.name_space = "shipped_" + model.stem().string() + "_" + suffix + "::" + variant.name;
   return generate(read_source(model.string()), request).at(0).text;
 }
 
@@ -161,9 +161,9 @@ TEST(OptimisedHeader, CompilesWithoutAWarning) {
       const std::string code = header(model, variant, "double");
       if (code.find("Eigen") != std::string::npos) continue;
       text += without_pragma(code);
-      const std::string space = "shipped_" + name + "::" + variant.name + "_double";
+      const std::string space = "shipped_" + name + "_double";
       uses += "int use_" + std::to_string(number++) + "(" + space + "::State& z) {\n  " + space +
-              "::Propagator run(" + space + "::Parameters{}, 0.1, z);\n" +
+              "::" + variant.name + "::Propagator run(" + space + "::Parameters{}, 0.1, z);\n" +
               "  const long long n = run.advance(3).iterations;\n  z = run.state();\n  return (n > "
               "0) + (" +
               space + "::energy({}, z) > 0);\n}\n";

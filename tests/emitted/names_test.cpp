@@ -29,7 +29,7 @@ const std::vector<std::string> hostile = {
 // A model that the language accepts, or nothing if it refuses the name.
 std::string header(const std::string& text, const Request& request, const std::string& space) {
   Request named = request;
-  named.name_space = "names::" + space;
+  named.name_space = "names_" + space;
   try {
     return without_pragma(generate(make_source("hostile.ham", text), named).at(0).text);
   } catch (const ModelError&) {
@@ -96,6 +96,14 @@ TEST(HostileNames, GiveCodeThatCompilesForAnExplicitStep) {
 TEST(HostileNames, GiveCodeThatCompilesForSweepsAndForAFixedPoint) {
   EXPECT_EQ(messages("g++", written_out({.solver = "sweeps:2"})), "");
   EXPECT_EQ(messages("g++", written_out({.solver = "fixed-point"})), "");
+}
+
+TEST(HostileNames, GiveCodeThatCompilesInC) {
+  for (const char* alpha : {"", "0"}) {
+    const std::string text = written_out({.alpha = alpha, .format = "c-header"});
+    EXPECT_GT(text.size(), 100000u);
+    EXPECT_EQ(messages("gcc", text, {"-x", "c", "-std=c11", "-Wall"}), "") << alpha;
+  }
 }
 
 TEST(HostileNames, GiveCodeThatCompilesForLoops) { EXPECT_EQ(messages("g++", in_loops({})), ""); }
@@ -219,6 +227,7 @@ const std::vector<std::string> taken = {"linux",
                                         "advance",
                                         "get_state",
                                         "energy_of",
+                                        "high_part",
                                         "read_state",
                                         "hamgen_run",
                                         "hamgen_plugin",

@@ -14,7 +14,8 @@ using tests::oscillator_library;
 
 // omega = 2, (q, p) = (1, 0): H = 2, |z| |grad H| = 1*4, q H_q/2 = 2, p H_p/2 = 0.
 Judge judge(bool defined_everywhere = false) {
-  return {oscillator_library(), {2.0, 0.0}, std::vector<double>{1.0, 0.0}, defined_everywhere};
+  return {oscillator_library(), std::vector<Wide>{{2.0}, {0.0}}, std::vector<Wide>{{1.0}, {0.0}},
+          defined_everywhere};
 }
 
 TEST(Status, HasADifferentNameForEach) {
@@ -25,7 +26,7 @@ TEST(Status, HasADifferentNameForEach) {
 }
 
 TEST(Judge, MeasuresByTheStart) {
-  EXPECT_EQ(judge().energy(), 2.0);
+  EXPECT_EQ(judge().energy(), (Wide{2.0}));
   EXPECT_EQ(judge().energy_scale(), 4.0);
   // q by 1; p by sqrt(2*4), the momentum of that energy.
   EXPECT_EQ(judge().size_of(std::vector<double>{-3.0, 1.0}), 3.0);

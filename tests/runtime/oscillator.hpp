@@ -39,6 +39,11 @@ double energy(const double* par, const double* z) {
   return 0.5 * z[1] * z[1] + 0.5 * par[0] * par[0] * z[0] * z[0];
 }
 
+double energy_of(const double* par, const double*, const double* z, const double*, double* lo) {
+  if (lo) *lo = 0.0;
+  return energy(par, z);
+}
+
 hamgen_run* create(const double* par, const double*, double h, double, const double* z,
                    const double*) {
   return new hamgen_run{par[0], static_cast<long long>(par[1]), 0, h, z[0], z[1]};
@@ -81,8 +86,14 @@ void get_state(const hamgen_run* run, double* z, double* lo) {
   if (lo) lo[0] = lo[1] = 0.0;
 }
 
-void invariants(const double* par, const double* z, double* values) {
+void get_carry(const hamgen_run*, double* carry, double* lo) {
+  carry[0] = carry[1] = lo[0] = lo[1] = 0.0;
+}
+
+void invariants(const double* par, const double*, const double* z, const double*, double* values,
+                double* lo) {
   values[0] = energy(par, z) / par[0];
+  if (lo) lo[0] = 0.0;
 }
 
 void gradient(const double* par, const double* z, double* g) {
@@ -91,7 +102,7 @@ void gradient(const double* par, const double* z, double* g) {
 }
 
 const hamgen_plugin plugin = {HAMGEN_PLUGIN_VERSION, 1, 2, 1, 53, "oscillator, stormer-verlet",
-                              "explicit", create, destroy, advance, get_state, energy, invariants,
+                              "explicit", create, destroy, advance, get_state, get_carry, energy_of, invariants,
                               gradient};
 
 }  // namespace

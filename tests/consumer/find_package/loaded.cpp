@@ -22,10 +22,10 @@ int swing(const char* path) {
   start.h = {0.1};
   start.state = {{3.1}, {0.0}};
   Integrator integrator(loaded.library, start);
-  const double energy = integrator.energy();
+  const double energy = integrator.energy().hi;
   const Report report = integrator.advance(100000, true);
   if (report.status != Status::done || !report.energy) return 1;
-  const double spread = report.energy->max - report.energy->min;
+  const double spread = difference(report.energy->max, report.energy->min);
   std::printf("energy %.6f, spread %.4e\n", energy, spread);
   return spread > 1.48e-6 && spread < 1.51e-6 ? 0 : 1;
 }

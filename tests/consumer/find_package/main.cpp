@@ -5,10 +5,10 @@
 #include "pendulum.hpp"
 
 int main() {
-  using namespace pendulum::implicit_midpoint;
+  using namespace pendulum;
   const Parameters par;
   const State start{3.1, 0.0};
-  Propagator propagator(par, 0.1, start);
+  implicit_midpoint::Propagator propagator(par, 0.1, start);
   double error = 0.0;
   for (int output = 0; output < 1000; ++output) {
     if (!propagator.advance(100).converged) return 1;

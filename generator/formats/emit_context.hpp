@@ -7,23 +7,24 @@
 #include <vector>
 
 #include "generator/formats/code_writer.hpp"
-#include "generator/formats/cpp_expression.hpp"
-#include "generator/formats/cpp_header.hpp"
+#include "generator/formats/emit_options.hpp"
 #include "generator/formats/print_code.hpp"
+#include "generator/formats/print_expression.hpp"
 #include "generator/program/environment.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
-class CppContext {
+class EmitContext {
  public:
-  CppContext(const Program& program, const CppOptions& options);
-  CppContext(const CppContext&) = delete;
-  CppContext& operator=(const CppContext&) = delete;
+  EmitContext(const Program& program, const EmitOptions& options, const Dialect& dialect);
+  EmitContext(const EmitContext&) = delete;
+  EmitContext& operator=(const EmitContext&) = delete;
 
   const Program& program;
-  const CppOptions& options;
+  const EmitOptions& options;
+  const Dialect& dialect;
   const ScalarType& scalar;
   const StepEquations& equations;
   const Mechanics& mechanics;
@@ -32,6 +33,9 @@ class CppContext {
   std::vector<std::string> parameter_fields;
   std::vector<std::string> state_fields;  // "q" or "q[2]": of z_1..z_2n in State
   Used used;                              // so far
+  // Parameters by who reads them: H, its gradient and the invariants, or the method alone.
+  Record system_parameters;
+  Record method_parameters;
 
   [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }
   [[nodiscard]] bool arrays() const { return program.plan.arrays.has_value(); }
@@ -48,11 +52,13 @@ class CppContext {
   [[nodiscard]] bool needs(const std::string& routine) const { return needed_.contains(routine); }
 
  private:
+  void split_parameters();
+
   std::set<std::string> needed_;
   std::set<std::string, std::less<>> written_;
 };
 
-// The types Parameters, State, StepReport; what cpp_numerics() needs if `with_vocabulary`.
-void write_types(CodeWriter& out, CppContext& context, bool with_vocabulary);
+// "[2][2]" of an array.
+[[nodiscard]] std::string sizes_text(const Field& field);
 
 }  // namespace hamgen

@@ -1,10 +1,10 @@
 // The comment at the head of an emitted file: where it comes from and what it does.
 #pragma once
 
-#include "generator/formats/cpp_context.hpp"
+#include "generator/formats/emit_context.hpp"
 
 namespace hamgen {
 
-void write_preamble(CodeWriter& out, const CppContext& context);
+void write_preamble(CodeWriter& out, const EmitContext& context);
 
 }  // namespace hamgen

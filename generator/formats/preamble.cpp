@@ -1,4 +1,4 @@
-#include "generator/formats/cpp_preamble.hpp"
+#include "generator/formats/preamble.hpp"
 
 #include <fmt/format.h>
 
@@ -37,16 +37,62 @@ void write_gradient_cost(CodeWriter& out, const Program& program) {
   out.line("//   cost      per gradient: " + to_text(cost(all)));
 }
 
+// "(q + Q)/2" for alpha = 1/2: (1 - alpha) z + alpha Z.
+std::string between(const Expression& alpha, const char* z, const char* Z) {
+  if (alpha == Expression(0)) return z;
+  if (alpha == Expression(1)) return Z;
+  if (alpha == Expression(Rational(1, 2))) return fmt::format("({} + {})/2", z, Z);
+  const auto times = [](const Expression& factor, const char* x) {
+    const std::string text = to_text(factor);
+    const bool sum = text.find_first_of("+-", 1) != std::string::npos;
+    return fmt::format(fmt::runtime(sum ? "({})*{}" : "{}*{}"), text, x);
+  };
+  return times(Expression(1) - alpha, z) + " + " + times(alpha, Z);
+}
+
+std::string push(const Expression& factor, const char* difference) {
+  return factor.is_zero() ? "" : fmt::format(" - ({})*({})", to_text(factor), difference);
+}
+
+std::string member_equations(const Member& member) {
+  const char* function = member.generating_order > 0 ? "K" : "H";
+  const std::string raised =
+      member.generating_order > 0 ? ", K(z, h) a modified Hamiltonian in place of H" : "";
+  const auto parameters = uniform_parameters(member);
+  if (!parameters || to_text(parameters->alpha).size() > 40) {
+    return fmt::format("Z = z + h J grad {}(zbar), zbar = (z + Z)/2 + C (Z - z), z = (q, p){}",
+                       function, raised);
+  }
+  const auto& [alpha, beta, gamma] = *parameters;
+  return fmt::format("Q = q + h d{0}/dp, P = p - h d{0}/dq at qbar = {1}{2}, pbar = {3}{4}{5}",
+                     function, between(alpha, "q", "Q"), push(gamma, "P - p"),
+                     between(Expression(1) - alpha, "p", "P"), push(beta, "Q - q"), raised);
+}
+
+// The equations of a step from z = (q, p) to Z = (Q, P).
+std::string equations_of(const Scheme& scheme) {
+  if (scheme.is_member()) return member_equations(scheme.member());
+  if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    return fmt::format("{}, {} times in turn, with parts of h", member_equations(composition->base),
+                       composition->substeps.size());
+  }
+  if (std::holds_alternative<Splitting>(scheme.method)) {
+    return "p -= b h dV/dq (kick) and q += a h dT/dp (drift) in turn, H = T(p) + V(q)";
+  }
+  return "Z = z + h sum b_i f(Y_i), Y_i = z + h sum a_ij f(Y_j), f = (dH/dp, -dH/dq), z = (q, p)";
+}
+
 }  // namespace
 
-void write_preamble(CodeWriter& out, const CppContext& context) {
+void write_preamble(CodeWriter& out, const EmitContext& context) {
   const Scheme& scheme = context.equations.scheme;
   const SolvePlan& plan = context.program.plan;
   out.remark("// ", fmt::format("{}, {}.  Generated: change the model, not this file.",
                                 context.mechanics.name, scheme.name));
   out.line("//");
-  out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
-  const CppOptions& options = context.options;
+  out.line(
+      fmt::format("//   made by   hamgen {}, in {}", HAMGEN_VERSION, context.dialect.language()));
+  const EmitOptions& options = context.options;
   if (!options.command.empty()) out.remark("//   command   ", options.command);
   if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);
   if (!options.model_digest.empty()) out.remark("//   sha256    ", options.model_digest);
@@ -59,6 +105,7 @@ void write_preamble(CodeWriter& out, const CppContext& context) {
                                             raised ? " by generating function" : "",
                                             scheme.symmetric && !plan.sweeps ? ", symmetric" : "",
                                             symplectic ? ", symplectic" : ", not symplectic"));
+  out.comment("//   step      ", equations_of(scheme));
   if (!options.proved.empty()) out.comment("//   proved    ", options.proved);
   if (!options.tested.empty()) out.comment("//   tested    ", options.tested);
   if (!options.refuted.empty()) out.comment("//   refuted   ", options.refuted);

@@ -1,10 +1,5 @@
-#include "generator/formats/cpp_expression.hpp"
+#include "generator/formats/print_expression.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -19,32 +14,22 @@ std::string bracket(std::string text, int level, int context) {
 
 }  // namespace
 
-std::string CppExpression::operator()(const Expression& e) const {
+std::string ExpressionPrinter::operator()(const Expression& e) const {
   return print(arrange(e), level_sum);
 }
 
-std::string CppExpression::call(const std::string& function, const std::string& arguments) const {
-  if (function == kProductError) return function + "(" + arguments + ")";
+std::string ExpressionPrinter::call(const std::string& function,
+                                    const std::string& arguments) const {
+  if (function == kProductError) return dialect_.block(function) + "(" + arguments + ")";
   functions_.insert(function);
-  const Function* row = find_function(function);
-  if (scalar_.digits == 113) {
-    const std::string name = row != nullptr ? std::string(row->quad) : function + "q";
-    return name + "(" + arguments + ")";
-  }
-  const std::string name = row != nullptr ? std::string(row->cpp) : function;
-  if (builtins_) {
-    std::string suffix(scalar_.suffix);
-    std::ranges::transform(suffix, suffix.begin(), [](char c) { return c == 'L' ? 'l' : c; });
-    return "__builtin_" + name + suffix + "(" + arguments + ")";
-  }
-  return "std::" + name + "(" + arguments + ")";
+  return dialect_.function(function) + "(" + arguments + ")";
 }
 
-std::string CppExpression::print(const Arithmetic& a, int context) const {
+std::string ExpressionPrinter::print(const Arithmetic& a, int context) const {
   const auto operand = [&](std::size_t i, int level) { return print(a.operands[i], level); };
   switch (a.operation) {
     case Operation::number:
-      return literal(a.number, scalar_);
+      return literal(a.number, dialect_.scalar);
     case Operation::symbol:
       return namer_(a.name);
     case Operation::negate:

@@ -1,0 +1,87 @@
+#include "generator/formats/c_dialect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/algebra/functions.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// What a system has whatever its method.
+constexpr std::string_view kOfSystem[] = {"Parameters", "State",      "energy",
+                                          "gradient",   "invariants", "default_parameters"};
+
+std::string with_underscores(std::string text) {
+  for (auto at = text.find("::"); at != std::string::npos; at = text.find("::")) {
+    text.replace(at, 2, "_");
+  }
+  return text;
+}
+
+std::string small(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](char c) { return c == 'L' ? 'l' : c; });
+  return result;
+}
+
+}  // namespace
+
+CDialect::CDialect(const ScalarType& scalar_type, const EmittedSpaces& spaces)
+    : Dialect(scalar_type, 0),
+      system_(with_underscores(spaces.system)),
+      method_(with_underscores(spaces.of_method())) {}
+
+std::string CDialect::function(const std::string& name) const {
+  const Function* row = find_function(name);
+  return (row != nullptr ? std::string(row->cpp) : name) + small(scalar.suffix);
+}
+
+std::string CDialect::block(const std::string& name) const {
+  return "hamgen_" + name + small(scalar.suffix);
+}
+
+std::string CDialect::declaration(const std::string& record_name, const std::string& object) const {
+  const std::string type = record_name == "StepReport" ? block(record_name) : record(record_name);
+  return fmt::format("{} {} = {{0}};", type, object);
+}
+
+std::string CDialect::argument(const Argument& argument, const std::string& name,
+                               const std::string& sizes) const {
+  const std::string constant = argument.changes ? "" : "const ";
+  if (argument.sizes.empty() && argument.record.empty()) return real() + " " + name;
+  if (argument.decays) return fmt::format("{}{}* {}", constant, real(), name);
+  if (argument.sizes.empty()) {
+    return fmt::format("{}{}* {}", constant, record(argument.record), name);
+  }
+  return fmt::format("{}{} {}{}", constant, real(), name, sizes);
+}
+
+std::string CDialect::head(const Routine& routine,
+                           const std::vector<std::string>& arguments) const {
+  const std::string& result = routine.result.type;
+  const std::string type = result.empty()           ? "void"
+                           : result == "Real"       ? real()
+                           : result == "StepReport" ? block(result)
+                           : result == "bool"       ? result
+                                                    : record(result);
+  return fmt::format("static inline {} {}({})", type, named(routine.name),
+                     joined_texts(arguments, ", "));
+}
+
+std::string CDialect::call(const std::string& type, const std::string& object,
+                           const std::string& action, const std::string& arguments) const {
+  return fmt::format("{}(&{}{}{})", block(type + "_" + (action.empty() ? "check" : action)), object,
+                     arguments.empty() ? "" : ", ", arguments);
+}
+
+std::string CDialect::verdict(const std::string& name) const { return block(name); }
+
+std::string CDialect::named(const std::string& name) const {
+  const bool of_system = std::ranges::find(kOfSystem, name) != std::end(kOfSystem);
+  return (of_system ? system_ : method_) + "_" + name;
+}
+
+}  // namespace hamgen

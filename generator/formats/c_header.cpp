@@ -1,0 +1,213 @@
+#include "generator/formats/c_header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <variant>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/short_digest.hpp"
+#include "generator/formats/c_dialect.hpp"
+#include "generator/formats/c_propagator.hpp"
+#include "generator/formats/cpp_arithmetic.hpp"
+#include "generator/formats/numerics.hpp"
+#include "generator/formats/preamble.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// What there are no blocks for in C; empty if the body has nothing of the kind.
+std::string missing(const Body& body) {
+  for (const Instruction& instruction : body) {
+    const auto& value = instruction.value;
+    if (std::holds_alternative<Matrix>(value) || std::holds_alternative<Invert>(value)) {
+      return "matrices";
+    }
+    if (std::holds_alternative<Refine>(value) || std::holds_alternative<RefineArray>(value) ||
+        std::holds_alternative<IterateArray>(value) || std::holds_alternative<Alternate>(value)) {
+      return "fixed points";
+    }
+    for (const Body* inner : inner_bodies(instruction)) {
+      const std::string found = missing(*inner);
+      if (!found.empty()) return found;
+    }
+  }
+  return {};
+}
+
+void require_c(const EmitContext& context) {
+  const auto refuse = [](const std::string& what) {
+    throw UsageError(fmt::format(
+        "--format c-header: {}\nhelp: what is written in C are steps that are explicit, or solved "
+        "by "
+        "Newton's iteration of a size up to 3, in float, double or long double: --scheme "
+        "stormer-verlet, --format cpp-header",
+        what));
+  };
+  if (context.quad()) refuse("C has no quad numbers");
+  if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
+  if (context.options.tangent) refuse("there is no tangent map in C");
+  if (context.options.shared_support) refuse("there is no shared support in C");
+  if (!context.method_parameters.fields.empty()) {
+    refuse(
+        fmt::format("'{}' is a parameter of the method", context.method_parameters.fields[0].name));
+  }
+  for (const Routine& routine : context.code.routines) {
+    if (!context.needs(routine.name)) continue;
+    const std::string found = missing(routine.body);
+    if (!found.empty()) refuse("there are no " + found + " in C");
+  }
+}
+
+// The text of a block with our names for its own.
+std::string block_text(std::string_view name, const CDialect& dialect, int unknowns) {
+  const auto renamed = [&](const std::string& word) -> std::string {
+    if (word == "Real") return dialect.real();
+    if (word == "Unknowns") return std::to_string(unknowns);
+    if (word == "Degrees") return unknowns > 32 ? "8" : "16";
+    if (word.starts_with("History")) return dialect.named(word);
+    for (const char* ours :
+         {"StepReport", "two_sum", "two_sum_with_rest", "collect", "product_error", "magnitude",
+          "largest", "epsilon", "Verdict", "go_on", "done", "failed"}) {
+      if (word == ours) return dialect.block(word);
+    }
+    return word.starts_with("NewtonRule") ? dialect.block(word) : word;
+  };
+  std::string result;
+  std::string word;
+  for (const char c : cpp_numerics(name)) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      word += c;
+      continue;
+    }
+    result += renamed(word) + c;
+    word.clear();
+  }
+  return result;
+}
+
+// A section once, and an error where another text of its name is there.
+void write_section(CodeWriter& out, const std::string& macro, const std::string& text) {
+  const std::string digest = short_digest(text);
+  out.line("#ifndef " + macro);
+  out.line(fmt::format("#define {} 0x{}", macro, digest));
+  out.lines(text);
+  out.line(fmt::format("#elif {} != 0x{}", macro, digest));
+  out.line(
+      "#error \"another text of this name is included before: generate one with --namespace\"");
+  out.line("#endif");
+  out.line();
+}
+
+void write_pi(CodeWriter& out, const CDialect& dialect) {
+  const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
+  const std::string name = dialect.constant("pi");
+  write_section(
+      out, "HAMGEN_C_" + name,
+      fmt::format("static const {} {} = {};\n", dialect.real(), name, literal(pi, dialect.scalar)));
+}
+
+std::string system_text(EmitContext& context, const CDialect& dialect) {
+  CodeWriter out;
+  write_c_record(out, context.system_parameters, dialect);
+  write_c_record(out, *context.code.record("State"), dialect);
+  const std::string type = dialect.record("Parameters");
+  out.open(fmt::format("static inline {} {}(void)", type, dialect.named("default_parameters")));
+  std::string values;
+  for (const Field& field : context.system_parameters.fields) {
+    std::string list;
+    for (const Rational& value : field.values) {
+      list += (list.empty() ? "" : ", ") + literal(value, context.scalar);
+    }
+    values += (values.empty() ? "" : ", ") + (field.sizes.empty() ? list : "{" + list + "}");
+  }
+  out.line(fmt::format("const {} par = {{{}}};", type, values.empty() ? "0" : values));
+  out.line("return par;");
+  out.close();
+  out.line();
+  for (const char* name : {"energy", "gradient", "invariants"}) context.write_routine(out, name);
+  return out.text();
+}
+
+std::string method_text(EmitContext& context, const CDialect& dialect) {
+  CodeWriter out;
+  if (context.code.unknowns > 0) {
+    out.lines(block_text("c/history", dialect, context.code.unknowns));
+    out.line();
+  }
+  context.write_routine(out, "modified_energies");
+  if (const Record* record = context.code.record("Coefficients")) {
+    write_c_record(out, *record, dialect);
+    context.write_with_callees(out, "prepare");
+  }
+  if (const Record* record = context.code.record("Start")) write_c_record(out, *record, dialect);
+  context.write_with_callees(out, "solve");
+  write_c_propagator(out, context, dialect);
+  return out.text();
+}
+
+// The fixed blocks that the text uses.
+void write_blocks(CodeWriter& out, const CDialect& dialect, const std::string& text) {
+  const auto uses = [&](const char* name) {
+    return text.find(dialect.block(name)) != std::string::npos;
+  };
+  std::vector<std::pair<std::string, std::string>> blocks = {
+      {"STEP_REPORT", block_text("c/step_report", dialect, 0)},
+      {"TWO_SUM", block_text("c/two_sum", dialect, 0)}};
+  if (uses("two_sum_with_rest")) {
+    blocks.emplace_back("SUM_WITH_REST", block_text("c/sum_with_rest", dialect, 0));
+  }
+  if (uses("collect")) blocks.emplace_back("COLLECT", block_text("c/collected_sum", dialect, 0));
+  if (uses("NewtonRule") || uses("product_error")) {
+    blocks.emplace_back(
+        "EPSILON", fmt::format("// The distance from 1 to the next number.\n"
+                               "static const {} {} = {};\n",
+                               dialect.real(), dialect.block("epsilon"), dialect.scalar.epsilon));
+  }
+  if (uses("product_error")) {
+    blocks.emplace_back("PRODUCT_ERROR", block_text("c/product_error", dialect, 0));
+  }
+  if (uses("NewtonRule")) {
+    blocks.emplace_back(
+        "NEWTON_RULE",
+        fmt::format("static inline {0} {1}({0} x) {{ return {2}(x); }}\n"
+                    "static const {0} {3} = {4};  // what is beyond counts as infinite\n",
+                    dialect.real(), dialect.block("magnitude"), dialect.function("fabs"),
+                    dialect.block("largest"), dialect.scalar.largest) +
+            block_text("c/newton_rule", dialect, 0));
+  }
+  std::string scalar(dialect.scalar.space);
+  std::ranges::transform(scalar, scalar.begin(), [](unsigned char c) { return std::toupper(c); });
+  out.line("// What follows is the same in every header.");
+  for (const auto& [name, block] : blocks) {
+    write_section(out, fmt::format("HAMGEN_C_{}_{}", scalar, name), block);
+  }
+}
+
+}  // namespace
+
+OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
+  const CDialect dialect(find_scalar(options.scalar), options.spaces);
+  EmitContext context(program, options, dialect);
+  require_c(context);
+  const std::string system = system_text(context, dialect);
+  const std::string method = method_text(context, dialect);
+  CodeWriter out;
+  write_preamble(out, context);
+  out.line("#pragma once");
+  out.line("#include <math.h>");
+  out.line("#include <stdbool.h>");
+  out.line();
+  begin_ieee_arithmetic(out, context.scalar);
+  out.line();
+  if (context.used.pi) write_pi(out, dialect);
+  write_section(out, "HAMGEN_C_SYSTEM_" + dialect.system(), system);
+  write_blocks(out, dialect, method);
+  write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method);
+  end_ieee_arithmetic(out);
+  return {{options.file_name + ".h", out.text()}};
+}
+
+}  // namespace hamgen

@@ -1,0 +1,44 @@
+#include "generator/formats/cpp_dialect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/algebra/functions.hpp"
+
+namespace hamgen {
+
+std::string CppDialect::function(const std::string& name) const {
+  const Function* row = find_function(name);
+  if (scalar.digits == 113) return row != nullptr ? std::string(row->quad) : name + "q";
+  const std::string cpp = row != nullptr ? std::string(row->cpp) : name;
+  if (!builtins_) return "std::" + cpp;
+  std::string suffix(scalar.suffix);
+  std::ranges::transform(suffix, suffix.begin(), [](char c) { return c == 'L' ? 'l' : c; });
+  return "__builtin_" + cpp + suffix;
+}
+
+std::string CppDialect::argument(const Argument& argument, const std::string& name,
+                                 const std::string& sizes) const {
+  const std::string constant = argument.changes ? "" : "const ";
+  const std::string named = name.empty() ? "" : " " + name;
+  if (argument.sizes.empty() && argument.record.empty()) return "Real" + named;
+  if (argument.decays) return constant + "Real*" + named;
+  if (argument.sizes.empty()) return constant + argument.record + "&" + named;
+  return fmt::format("{}{} (&{}){}", constant, argument.record.empty() ? "Real" : argument.record,
+                     name, sizes);
+}
+
+std::string CppDialect::head(const Routine& routine,
+                             const std::vector<std::string>& arguments) const {
+  const std::string type = routine.result.type.empty() ? "void" : routine.result.type;
+  return fmt::format("{}inline {} {}({})", type == "StepReport" ? "[[nodiscard]] " : "", type,
+                     routine.name, joined_texts(arguments, ", "));
+}
+
+std::string CppDialect::call(const std::string&, const std::string& object,
+                             const std::string& action, const std::string& arguments) const {
+  return fmt::format("{}{}{}({})", object, action.empty() ? "" : ".", action, arguments);
+}
+
+}  // namespace hamgen

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "generator/formats/dialect.hpp"
+
+namespace hamgen {
+
+class CppDialect : public Dialect {
+ public:
+  // With builtins, functions are the compiler's own (__builtin_sin), which need no header: reading
+  // <cmath> takes three times as long as compiling a small plugin.
+  CppDialect(const ScalarType& scalar_type, int count, bool builtins)
+      : Dialect(scalar_type, count), builtins_(builtins) {}
+
+  [[nodiscard]] std::string language() const override { return "C++17"; }
+  [[nodiscard]] std::string real() const override { return "Real"; }
+  [[nodiscard]] std::string number(const std::string& integer) const override {
+    return "Real(" + integer + ")";
+  }
+  [[nodiscard]] std::string function(const std::string& name) const override;
+  [[nodiscard]] std::string record(const std::string& name) const override { return name; }
+  [[nodiscard]] std::string routine(const std::string& name) const override { return name; }
+  [[nodiscard]] std::string block(const std::string& name) const override { return name; }
+  [[nodiscard]] std::string constant(const std::string& name) const override { return name; }
+  [[nodiscard]] std::string empty_record(const std::string& name) const override {
+    return name + "()";
+  }
+  [[nodiscard]] std::string empty_array() const override { return "{}"; }
+  [[nodiscard]] std::string declaration(const std::string& record_name,
+                                        const std::string& object) const override {
+    return record_name + " " + object + ";";
+  }
+  [[nodiscard]] bool has_references() const override { return true; }
+  [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
+                                     const std::string& sizes) const override;
+  [[nodiscard]] std::string head(const Routine& routine,
+                                 const std::vector<std::string>& arguments) const override;
+  [[nodiscard]] std::string call(const std::string& type, const std::string& object,
+                                 const std::string& action,
+                                 const std::string& arguments) const override;
+  [[nodiscard]] std::string verdict(const std::string& name) const override {
+    return "Verdict::" + name;
+  }
+
+ private:
+  bool builtins_;
+};
+
+}  // namespace hamgen

@@ -1,0 +1,63 @@
+// How a language spells what all of them have: routines, records and expressions are printed
+// through it.  A new language is a Dialect, what stands around the routines, and the fixed blocks
+// it needs.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/formats/scalar.hpp"
+#include "generator/program/code.hpp"
+
+namespace hamgen {
+
+class Dialect {
+ public:
+  // n: the degrees of freedom, where the text has a constant of that name; else 0.
+  Dialect(const ScalarType& scalar_type, int count) : scalar(scalar_type), n(count) {}
+  Dialect(const Dialect&) = delete;
+  Dialect& operator=(const Dialect&) = delete;
+  virtual ~Dialect() = default;
+
+  const ScalarType& scalar;
+  const int n;
+
+  [[nodiscard]] virtual std::string language() const = 0;  // "C++17"
+  // The type of a number, and an integer as one.
+  [[nodiscard]] virtual std::string real() const = 0;
+  [[nodiscard]] virtual std::string number(const std::string& integer) const = 0;
+  // A function of the mathematical library: "sin" is std::sin.
+  [[nodiscard]] virtual std::string function(const std::string& name) const = 0;
+  // What the program calls a record or a routine, and what a block calls a function.
+  [[nodiscard]] virtual std::string record(const std::string& name) const = 0;
+  [[nodiscard]] virtual std::string routine(const std::string& name) const = 0;
+  [[nodiscard]] virtual std::string block(const std::string& name) const = 0;
+  // A number that the text defines: pi.
+  [[nodiscard]] virtual std::string constant(const std::string& name) const = 0;
+  // A record of zeros, and those of an array.
+  [[nodiscard]] virtual std::string empty_record(const std::string& name) const = 0;
+  [[nodiscard]] virtual std::string empty_array() const = 0;
+  // "StepReport report;", with what its fields begin with.
+  [[nodiscard]] virtual std::string declaration(const std::string& record_name,
+                                                const std::string& object) const = 0;
+  // Are records given by reference?  Else by their address.
+  [[nodiscard]] virtual bool has_references() const = 0;
+  // An argument; `name` is empty if nothing reads it.
+  [[nodiscard]] virtual std::string argument(const Argument& argument, const std::string& name,
+                                             const std::string& sizes) const = 0;
+  // The first line of a routine with these arguments.
+  [[nodiscard]] virtual std::string head(const Routine& routine,
+                                         const std::vector<std::string>& arguments) const = 0;
+  // What a block, of which `object` is one, does: rule.begin().  Without `action` what it is for.
+  [[nodiscard]] virtual std::string call(const std::string& type, const std::string& object,
+                                         const std::string& action,
+                                         const std::string& arguments) const = 0;
+  // "Verdict::done"
+  [[nodiscard]] virtual std::string verdict(const std::string& name) const = 0;
+};
+
+[[nodiscard]] std::string joined_texts(const std::vector<std::string>& items,
+                                       const char* separator);
+
+}  // namespace hamgen

@@ -1,0 +1,184 @@
+#include "generator/formats/support.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "generator/base/short_digest.hpp"
+#include "generator/formats/cpp_arithmetic.hpp"
+#include "generator/formats/numerics.hpp"
+
+namespace hamgen {
+
+namespace {
+
+struct FixedBlock {
+  std::string_view name;     // of its file in generator/numerics
+  std::string_view defines;  // with blanks between them
+  bool eigen = false;
+};
+
+constexpr std::string_view kVocabulary = "vocabulary";  // see numerics.hpp
+
+// In an order in which each uses those before it only.
+constexpr FixedBlock kBlocks[] = {
+    {"step_report", "StepReport"},
+    {kVocabulary, "magnitude largest epsilon"},
+    {"two_sum", "two_sum"},
+    {"sum_with_rest", "two_sum_with_rest"},
+    {"collected_sum", "collect"},
+    {"product_error", "product_error"},
+    {"dense_matrix", "DenseMatrix"},
+    {"diagonal_matrix", "DiagonalMatrix"},
+    {"band_matrix", "BandMatrix"},
+    {"reordered_matrix", "ReorderedMatrix"},
+    {"eigen_dense_matrix", "EigenDenseMatrix", true},
+    {"eigen_sparse_matrix", "EigenSparseMatrix", true},
+    {"inverse", "invert"},
+    {"verdict", "Verdict"},
+    {"newton_rule", "NewtonRule"},
+    {"fixed_point_rule", "FixedPointRule Distance"},
+    {"impatient_rule", "ImpatientRule"},
+    {"simplified_newton_rule", "SimplifiedNewtonRule"},
+    {"refinement", "Refinement"},
+    {"history", "History"},
+    {"forget", "forget"},
+};
+
+// The words of C++ code, without comments and without members: what follows a dot.
+std::set<std::string> words_of(std::string_view code) {
+  std::set<std::string> words;
+  std::istringstream lines{std::string(code)};
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(std::min(line.size(), line.find("//")));
+    std::string word;
+    char before = ' ';
+    for (const char c : line + ' ') {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+        word += c;
+        continue;
+      }
+      if (!word.empty() && before != '.') words.insert(word);
+      word.clear();
+      before = c;
+    }
+  }
+  return words;
+}
+
+std::vector<std::string> names_of(const FixedBlock& block) {
+  std::istringstream text{std::string(block.defines)};
+  std::vector<std::string> names;
+  for (std::string name; text >> name;) names.push_back(name);
+  return names;
+}
+
+std::string capitals(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+
+}  // namespace
+
+void Support::require_for(std::string_view code) {
+  const std::set<std::string> words = words_of(code);
+  for (const FixedBlock& block : kBlocks) {
+    const bool used = std::ranges::any_of(
+        names_of(block), [&](const std::string& name) { return words.contains(name); });
+    if (used && blocks_.insert(block.name).second) require_for(text(block.name));
+  }
+}
+
+bool Support::uses_eigen() const {
+  return std::ranges::any_of(kBlocks, [&](const FixedBlock& block) {
+    return block.eigen && blocks_.contains(block.name);
+  });
+}
+
+bool Support::uses_cmath(bool shared) const {
+  return !shared && blocks_.contains(kVocabulary) && !builtins_ && scalar_.digits != 113;
+}
+
+void Support::write(CodeWriter& out, bool shared) const {
+  const auto is_written = [&](const FixedBlock& block) {
+    return blocks_.contains(block.name) && (block.eigen || !shared);
+  };
+  if (std::ranges::none_of(kBlocks, is_written)) return;
+  const std::string space = name_space();
+  out.line("// What follows is the same in every header.");
+  out.line(fmt::format("namespace {} {{", space));
+  out.line(scalar_.digits == 113 ? "__extension__ typedef __float128 Real;"
+                                 : fmt::format("using Real = {};", scalar_.cpp));
+  out.line();
+  for (const FixedBlock& block : kBlocks) {
+    if (!is_written(block)) continue;
+    const std::string guard =
+        fmt::format("HAMGEN_{}_{}_{}", capitals(digest()), capitals(std::string(scalar_.space)),
+                    capitals(std::string(block.name)));
+    out.line("#ifndef " + guard);
+    out.line("#define " + guard);
+    out.lines(text(block.name));
+    out.line("#endif");
+    out.line();
+  }
+  out.line(fmt::format("}}  // namespace {}", space));
+  out.line();
+}
+
+void Support::write_names(CodeWriter& out, std::string_view code) const {
+  const std::set<std::string> words = words_of(code);
+  std::string list;
+  for (const FixedBlock& block : kBlocks) {
+    for (const std::string& name : names_of(block)) {
+      if (words.contains(name)) list += (list.empty() ? "numerics::" : ", numerics::") + name;
+    }
+  }
+  if (list.empty()) return;
+  out.line(fmt::format("namespace numerics = ::{};", name_space()));
+  out.line("using " + list + ";");
+  out.line();
+}
+
+std::string Support::digest() const {
+  std::string all;
+  for (const FixedBlock& block : kBlocks) all += text(block.name);
+  return short_digest(all);
+}
+
+std::string Support::name_space() const {
+  return fmt::format("hamgen_{}::{}", digest(), scalar_.space);
+}
+
+std::string Support::text(std::string_view block) const {
+  const std::string text =
+      block == kVocabulary ? cpp_vocabulary(scalar_, builtins_) : cpp_numerics(block);
+  return text.substr(0, text.find_last_not_of('\n') + 1);
+}
+
+std::string shared_file_name(const ScalarType& scalar) {
+  return scalar.digits == 53 ? "hamgen_support.hpp"
+                             : fmt::format("hamgen_support_{}.hpp", scalar.space);
+}
+
+OutputFile shared_file(const ScalarType& scalar) {
+  Support support(scalar, false);
+  for (const FixedBlock& block : kBlocks) {
+    if (!block.eigen) support.require_for(block.defines);
+  }
+  CodeWriter out;
+  out.line("// What headers that were generated with --support shared have in common.");
+  out.line("//");
+  out.line(fmt::format("//   made by   hamgen {}, in C++17", HAMGEN_VERSION));
+  out.line("#pragma once");
+  if (support.uses_cmath(false)) out.line("#include <cmath>");
+  out.line();
+  begin_ieee_arithmetic(out, scalar);
+  out.line();
+  support.write(out, false);
+  end_ieee_arithmetic(out);
+  return {shared_file_name(scalar), out.text()};
+}
+
+}  // namespace hamgen

@@ -1,0 +1,53 @@
+// The fixed blocks of emitted files, which do not depend on the mathematics: where they stand, and
+// how the headers of one program share them.
+//
+// They are the headers of generator/numerics, letter by letter, in a namespace of their scalar
+// below one that is named after the digest of all their texts: so equal blocks are one, whatever
+// header they come with, and those of two versions of hamgen never mix.  Each has a guard of its
+// own.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/formats/code_writer.hpp"
+#include "generator/formats/output_files.hpp"
+#include "generator/formats/scalar.hpp"
+
+namespace hamgen {
+
+class Support {
+ public:
+  // With builtins, |x| is the compiler's own function, where no header is wanted.
+  Support(const ScalarType& scalar, bool builtins) : scalar_(scalar), builtins_(builtins) {}
+
+  // Adds the blocks that the C++ text uses, and those that these use.
+  void require_for(std::string_view code);
+
+  [[nodiscard]] bool uses_eigen() const;
+  // Does what is written of them call std::fabs?  `shared`: but for what stands in shared_file().
+  [[nodiscard]] bool uses_cmath(bool shared) const;
+  // The blocks in their namespace.
+  void write(CodeWriter& out, bool shared) const;
+  // The names of the blocks that the code uses, made known to the namespace it stands in.
+  void write_names(CodeWriter& out, std::string_view code) const;
+  // What tells these texts from all others.
+  [[nodiscard]] std::string digest() const;
+
+ private:
+  [[nodiscard]] std::string name_space() const;
+  [[nodiscard]] std::string text(std::string_view block) const;
+
+  const ScalarType& scalar_;
+  bool builtins_;
+  std::set<std::string_view> blocks_;
+};
+
+// "hamgen_support.hpp" of double numbers.
+[[nodiscard]] std::string shared_file_name(const ScalarType& scalar);
+// All blocks that need no library in a header that others include.
+[[nodiscard]] OutputFile shared_file(const ScalarType& scalar);
+
+}  // namespace hamgen
