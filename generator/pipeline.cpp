@@ -228,18 +228,53 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(program)};
 }
 
-Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
+Expression written_out(const Stages& stages) {
+  return stages.mechanics.keeps_sums() ? written_out_hamiltonian(stages.model)
+                                       : stages.mechanics.energy;
+}
+
+SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
+                         long size) {
+  request.sizes[constant] = size;
+  Stages stages = run_stages(source, request);
+  Expression hamiltonian = written_out(stages);
+  return {size, std::move(stages.mechanics), std::move(stages.equations.scheme),
+          std::move(stages.program), std::move(hamiltonian)};
+}
+
+// Of a large system in loops: its largest size as small as loops are made of, and the next one.
+// Empty where the model has no such sizes: a list of values fits one of them only.
+std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
+                                              const Stages& stages) {
+  if (!stages.mechanics.keeps_sums() || stages.mechanics.degrees_of_freedom <= kMostLookedAt)
+    return {};
+  const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
+  constexpr long size = kMostWrittenOut + 1;
+  if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
+  try {
+    SmallerSystems smaller{largest->name, largest->value,
+                           sized_system(source, request, largest->name, size),
+                           sized_system(source, request, largest->name, size + 1)};
+    const bool in_loops =
+        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
+    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+Proof prove(const SourceText& source, const Request& request, const Stages& stages,
+            const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
-  const Expression hamiltonian = stages.mechanics.keeps_sums()
-                                     ? written_out_hamiltonian(stages.model)
-                                     : stages.mechanics.energy;
-  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
+  return verify(stages.mechanics, stages.equations.scheme, stages.program, written_out(stages),
+                around, smaller_systems(source, request, stages));
 }
 
 // What the first lines of a header say of the step.
-void add_proof(const Stages& stages, const Request& request, EmitOptions& options) {
-  const Proof proof = prove(stages);
+void add_proof(const SourceText& source, const Stages& stages, const Request& request,
+               EmitOptions& options) {
+  const Proof proof = prove(source, request, stages);
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -286,7 +321,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  add_proof(stages, request, options);
+  add_proof(source, stages, request, options);
   const NamedFormat& format = find_format(request.format);
   return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
@@ -334,7 +369,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
 
 Proof verify_step(const SourceText& source, const Request& request,
                   const std::optional<SceneValues>& scene) {
-  return prove(run_stages(source, request), scene);
+  return prove(source, request, run_stages(source, request), scene);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
@@ -355,7 +390,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   EmitOptions options = emit_options(source, stages.program, request);
   PluginSource plugin;
   plugin.text = plugin_text(stages, options, request);
-  if (proof == HeaderProof::included) add_proof(stages, request, options);
+  if (proof == HeaderProof::included) add_proof(source, stages, request, options);
   plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
