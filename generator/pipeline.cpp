@@ -251,10 +251,20 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
   const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
   constexpr long size = kMostWrittenOut + 1;
   if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
+  const auto made_by = [&](const Request& wish) {
+    return SmallerSystems{largest->name, largest->value,
+                          sized_system(source, wish, largest->name, size),
+                          sized_system(source, wish, largest->name, size + 1)};
+  };
+  const auto routines = [](const Program& program) { return step_code(program).routines.size(); };
   try {
-    SmallerSystems smaller{largest->name, largest->value,
-                           sized_system(source, request, largest->name, size),
-                           sized_system(source, request, largest->name, size + 1)};
+    SmallerSystems smaller = made_by(request);
+    // Where Newton's matrix is too large the larger system is left without it.
+    if (request.solver.empty() && routines(smaller.first.program) > routines(stages.program)) {
+      Request without_matrix = request;
+      without_matrix.solver = "fixed-point";
+      smaller = made_by(without_matrix);
+    }
     const bool in_loops =
         smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
     return in_loops ? std::optional(std::move(smaller)) : std::nullopt;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
-#include <optional>
 
 namespace hamgen {
 
@@ -281,7 +281,13 @@ std::vector<CodeEvent> outline(const StepCode& code, const std::string& left_out
     for (const Field& field : record.fields) {
       lines.word(fmt::format("{} {}", field.name, field.type.substr(0, field.type.find('<'))),
                  {field.sizes.begin(), field.sizes.end()});
-      for (const Rational& value : field.values) lines.word(value.get_str());
+      // One value for all elements of an array is one value for more of them.
+      const auto differs = [&](const Rational& value) { return value != field.values.front(); };
+      const bool all_one = std::ranges::none_of(field.values, differs);
+      for (const Rational& value : field.values) {
+        lines.word(value.get_str());
+        if (all_one) break;
+      }
     }
   }
   for (const Routine& routine : code.routines) {

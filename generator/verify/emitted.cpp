@@ -238,20 +238,15 @@ Finding prove_longer(const StepUnderProof& step, const Expression& hamiltonian,
     }
     add(decision, total);
   }
-  const std::string sizes =
-      fmt::format("{0} = {1} and {0} = {2}{3}", smaller->constant, smaller->first.size,
-                  smaller->second.size, scope(step.scheme, step.code, false));
+  const std::string sizes = fmt::format("{0} = {1} and {0} = {2}", smaller->constant,
+                                        smaller->first.size, smaller->second.size);
   const auto why = why_not_inherited(step.mechanics, step.code, *smaller);
-  if (!why) {
-    return {property, total.verdict,
-            fmt::format("{}: every element of all loops at {}, which at {} = {} have the same "
-                        "neighbours",
-                        to_text(total), sizes, smaller->constant, smaller->size)};
-  }
-  return {property, both(total.verdict, Verdict::tested),
-          fmt::format("{}: every element of all loops at {}; here only the summands, their "
-                      "derivatives and that they sum up to H: {}",
-                      to_text(total), sizes, *why)};
+  const std::string rest =
+      why ? "here only the summands, their derivatives and that they sum up to H: " + *why
+          : "more elements repeat the inner ones";
+  return {property, why ? both(total.verdict, Verdict::tested) : total.verdict,
+          fmt::format("{}{}, at {}; {}", to_text(total), scope(step.scheme, step.code, true), sizes,
+                      rest)};
 }
 
 }  // namespace

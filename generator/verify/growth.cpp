@@ -87,6 +87,12 @@ class Locality {
   }
   [[nodiscard]] bool in_growing() const { return std::ranges::any_of(loops_, &Loop::grows); }
 
+  // The claims about all others take these for functions of which nothing is known.
+  [[nodiscard]] bool is_opaque(const std::string& called) const {
+    static const std::set<std::string> functions = {"vector_field", "hessian", "gradient",
+                                                    "potential_gradient"};
+    return functions.contains(called) && !functions.contains(routine_);
+  }
   // How often the loops around it run what stands here.
   [[nodiscard]] long times() const {
     long product = 1;
@@ -106,7 +112,7 @@ class Locality {
         return;
       case Event::call:
         if (in_growing()) throw NotLonger{"a routine is called for every element"};
-        radius_[routine_] += times() * radius_[of.text];
+        if (!is_opaque(of.text)) radius_[routine_] += times() * radius_[of.text];
         return;
       case Event::shared:
         throw NotLonger{"a routine reads what it changes by another name"};
@@ -249,8 +255,8 @@ std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& siz
   try {
     const std::vector<GrowingEvent> events = affine_events(sizes);
     // Two ends and what lies between.
-    if (2 * Locality(events).reach() + 1 > sizes[0].size)
-      return "its loops reach too far for a system of size " + std::to_string(sizes[0].size);
+    const long reach = Locality(events).reach();
+    if (2 * reach + 1 > sizes[0].size) return fmt::format("its loops reach {} elements far", reach);
     return {};
   } catch (const NotLonger& not_longer) {
     return not_longer.why;

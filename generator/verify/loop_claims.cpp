@@ -1,6 +1,6 @@
 // A member of a system whose sums are loops, one and the same alpha, beta, gamma everywhere.  The
-// loops run over all their instances, and the claims are made of every element; those that differ
-// by the names of their symbols alone are decided once.
+// loops run over all their instances, and the claims are made of every element: growth.hpp says
+// what they are for systems that are too large for that.
 //
 // In solve the gradient is a function of which nothing is known: what it returns is free, and where
 // it is called is compared.  What the functions return, and the entries of Newton's matrix, are

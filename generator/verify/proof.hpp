@@ -30,7 +30,7 @@ struct SmallerSystems {
   SizedSystem first, second;
 };
 // Up to so many degrees of freedom every element of a system in loops is looked at.
-inline constexpr int kMostLookedAt = 48;
+inline constexpr int kMostLookedAt = 32;
 
 // Everything that can be decided by algebra about the scheme's step for this system, and about the
 // program that computes it.  `hamiltonian` is H with its sums written out.

@@ -75,6 +75,7 @@ struct SymbolicMachine::Run {
     if (m.flags_[cell(m.reference(frame, branch.flag))] == branch.set) m.run(frame, branch.then);
   }
   void operator()(const Call& call) const {
+    if (m.skipped_.contains(call.routine)) return;
     const Routine& routine = *m.code_.routine(call.routine);
     Frame inner = m.frame_of(call.routine, fmt::format("{}#{}.", call.routine, ++m.frames_));
     for (std::size_t i = 0; i < routine.arguments.size(); ++i) {

@@ -59,6 +59,9 @@ class SymbolicMachine {
   // Routines of the names in `opaque` are not run: what they change becomes free symbols.
   explicit SymbolicMachine(const StepCode& code, std::set<std::string> opaque = {});
 
+  // Calls of this routine are left out: of claims that do not look at what it changes.
+  void skip(const std::string& routine) { skipped_.insert(routine); }
+
   // A field or an element of an argument, from outside.
   void set(const Place& place, const Expression& value);
   void set_flag(const Place& place, bool value);
@@ -136,6 +139,7 @@ class SymbolicMachine {
 
   const StepCode& code_;
   std::set<std::string> opaque_;
+  std::set<std::string> skipped_;
   std::map<std::string, Expression> cells_;
   std::set<std::string> zeroed_;  // objects and fields that begin with zeros
   std::map<std::string, bool> flags_;
