@@ -12,6 +12,7 @@
 #include "generator/mechanics/derive.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
+#include "tests/verify/evaluator.hpp"
 #include "tests/verify/mutants.hpp"
 
 namespace hamgen {
@@ -19,6 +20,7 @@ namespace {
 
 using verify_test::computes_the_same;
 using verify_test::program_of;
+using verify_test::some_of;
 
 struct Case {
   std::string name;
@@ -115,6 +117,7 @@ TEST(EmittedCode, MayHoldAProductBothRoundedAndExact) {
 TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
   int mutants = 0;
   int equivalent = 0;
+  std::size_t first = 0;
   std::map<std::string, int> by_kind;
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
@@ -124,7 +127,7 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
     const StepCode code = step_code(original);
     std::vector<verify_test::Mutant> list = verify_test::mutants_of(code);
     std::ranges::move(verify_test::mutants_of_structure(code), std::back_inserter(list));
-    for (const verify_test::Mutant& mutant : list) {
+    for (const verify_test::Mutant& mutant : some_of(std::move(list), 3, first++)) {
       const Finding finding = prove(mechanics, scheme, original, mutant.code);
       if (computes_the_same(code, mutant.code)) {
         EXPECT_NE(finding.verdict, Verdict::refuted)
@@ -252,13 +255,10 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
       const Program program = program_of(mechanics, *c.scheme, c.solver);
       const StepCode code = step_code(program);
       // Some of each, for a proof takes long here.
-      std::vector<verify_test::Mutant> list;
-      for (std::size_t number = first++; auto& mutant : verify_test::mutants_of_structure(code)) {
-        if (number++ % 3 == 0) list.push_back(std::move(mutant));
-      }
-      for (std::size_t number = first; auto& mutant : verify_test::mutants_of(code)) {
-        if (number++ % 16 == 0) list.push_back(std::move(mutant));
-      }
+      std::vector<verify_test::Mutant> list =
+          some_of(verify_test::mutants_of_structure(code), 12, first);
+      std::ranges::move(some_of(verify_test::mutants_of(code), 64, first++),
+                        std::back_inserter(list));
       for (const verify_test::Mutant& mutant : list) {
         if (computes_the_same(code, mutant.code)) continue;
         const Finding finding =

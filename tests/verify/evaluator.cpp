@@ -1,10 +1,11 @@
 // Routines evaluated in double: an oracle that shares nothing with the proof.
+#include "tests/verify/evaluator.hpp"
+
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "generator/program/arithmetic.hpp"
-#include "tests/verify/mutants.hpp"
 
 namespace hamgen::verify_test {
 

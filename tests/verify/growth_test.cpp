@@ -10,6 +10,7 @@
 #include "generator/mechanics/derive.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
+#include "tests/verify/evaluator.hpp"
 #include "tests/verify/mutants.hpp"
 
 namespace hamgen {

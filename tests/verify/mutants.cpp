@@ -300,4 +300,11 @@ std::vector<Mutant> mutants_of_structure(const StepCode& original) {
   return mutants;
 }
 
+std::vector<Mutant> some_of(std::vector<Mutant> list, std::size_t every, std::size_t first) {
+  std::vector<Mutant> some;
+  for (std::size_t i = first % every; i < list.size(); i += every)
+    some.push_back(std::move(list[i]));
+  return some;
+}
+
 }  // namespace hamgen::verify_test

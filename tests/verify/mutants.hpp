@@ -1,4 +1,4 @@
-// Routines with one thing changed, and an oracle that says if they still compute the same.
+// Routines with one thing changed.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,9 @@ struct Mutant {
 // Substeps exchanged and left out; instructions left out, loops that run too far or not far enough.
 [[nodiscard]] std::vector<Mutant> mutants_of_structure(const StepCode& original);
 
-// By evaluating both in double, which shares nothing with the proof.
-[[nodiscard]] bool computes_the_same(const StepCode& a, const StepCode& b);
+// Every so many of a list, from `first` on, which differs from case to case: all of them take
+// minutes.
+[[nodiscard]] std::vector<Mutant> some_of(std::vector<Mutant> list, std::size_t every,
+                                          std::size_t first);
 
 }  // namespace hamgen::verify_test
