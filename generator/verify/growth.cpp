@@ -76,6 +76,7 @@ class Locality {
     std::string index;
     bool grows = false;
     long times = 1;  // of one that does not
+    long last = 0;
   };
   // An element in a nest of loops: by dimension the growing index, and what is added to it.
   using Offsets = std::vector<std::pair<std::string, long>>;
@@ -154,8 +155,8 @@ class Locality {
       loop.grows |= bound.slope != 0;
       boundary_ = std::max(boundary_, std::abs(bound.near));
     }
-    if (!loop.grows)
-      loop.times = std::max(1L, event.numbers.back().near - event.numbers.front().near + 1);
+    loop.last = std::abs(event.numbers.back().near);
+    if (!loop.grows) loop.times = std::max(1L, loop.last - event.numbers.front().near + 1);
     loops_.push_back(std::move(loop));
   }
   void start_nest() {
@@ -188,24 +189,35 @@ class Locality {
     }
   }
 
+  // In one dimension the growing index, if there is one, and what is added to it.  Other indices
+  // may choose a block, whose length grows with the size, or an element near an end.
   std::pair<std::string, long> element(const GrowingEvent& event) {
-    std::pair<std::string, long> result;
-    const AffineNumber& constant = event.numbers.back();
+    std::pair<std::string, long> result{"", event.numbers.back().near};
+    long furthest = std::abs(result.second);
     for (std::size_t i = 0; i < event.of.names.size(); ++i) {
       const std::string& name = event.of.names[i];
-      if (!grows(name)) continue;
-      if (!result.first.empty() || event.numbers[i].slope != 0 || event.numbers[i].near != 1)
+      const auto& [near, slope] = event.numbers[i];
+      if (!grows(name)) {
+        furthest += std::abs(near) * last_of(name);
+        continue;
+      }
+      if (!result.first.empty() || slope != 0 || near != 1)
         throw NotLonger{"neighbours in its loops do not have neighbouring places"};
       result.first = name;
     }
-    result.second = constant.near;
     if (result.first.empty()) {
-      boundary_ = std::max(boundary_, std::abs(constant.near));
-    } else {
-      lowest_ = std::min(lowest_, constant.near);
-      highest_ = std::max(highest_, constant.near);
+      boundary_ = std::max(boundary_, furthest);
+      return result;
     }
+    if (furthest != std::abs(result.second))
+      throw NotLonger{"neighbours in its loops do not have neighbouring places"};
+    lowest_ = std::min(lowest_, result.second);
+    highest_ = std::max(highest_, result.second);
     return result;
+  }
+  [[nodiscard]] long last_of(const std::string& index) const {
+    const auto loop = std::ranges::find(loops_, index, &Loop::index);
+    return loop == loops_.end() ? 0 : loop->last;
   }
 
   void access(const CodeEvent& of) {

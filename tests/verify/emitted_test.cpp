@@ -19,8 +19,9 @@ namespace hamgen {
 namespace {
 
 using verify_test::computes_the_same;
+using verify_test::mutants_of;
+using verify_test::mutants_of_structure;
 using verify_test::program_of;
-using verify_test::some_of;
 
 struct Case {
   std::string name;
@@ -125,9 +126,9 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
     const Program original = program_of(mechanics, scheme, c.solver);
     int of_case = 0;
     const StepCode code = step_code(original);
-    std::vector<verify_test::Mutant> list = verify_test::mutants_of(code);
-    std::ranges::move(verify_test::mutants_of_structure(code), std::back_inserter(list));
-    for (const verify_test::Mutant& mutant : some_of(std::move(list), 3, first++)) {
+    std::vector<verify_test::Mutant> list = mutants_of(code, {3, first});
+    std::ranges::move(mutants_of_structure(code, {3, first++}), std::back_inserter(list));
+    for (const verify_test::Mutant& mutant : list) {
       const Finding finding = prove(mechanics, scheme, original, mutant.code);
       if (computes_the_same(code, mutant.code)) {
         EXPECT_NE(finding.verdict, Verdict::refuted)
@@ -143,14 +144,14 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
       ++of_case;
       ++by_kind[mutant.kind];
     }
-    EXPECT_GE(of_case, 8) << c.name;
+    EXPECT_GE(of_case, 3) << c.name;
   }
   RecordProperty("mutants", mutants);
   std::string counts;
   for (const auto& [name, count] : by_kind) counts += fmt::format(", {} {}", count, name);
   fmt::print("{} mutants{}; {} others compute the same\n", mutants, counts, equivalent);
-  EXPECT_GE(mutants, 300);
-  EXPECT_GE(by_kind.size(), 7U);
+  EXPECT_GE(mutants, 150);
+  EXPECT_GE(by_kind.size(), 6U);
 }
 
 TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
@@ -255,10 +256,8 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
       const Program program = program_of(mechanics, *c.scheme, c.solver);
       const StepCode code = step_code(program);
       // Some of each, for a proof takes long here.
-      std::vector<verify_test::Mutant> list =
-          some_of(verify_test::mutants_of_structure(code), 12, first);
-      std::ranges::move(some_of(verify_test::mutants_of(code), 64, first++),
-                        std::back_inserter(list));
+      std::vector<verify_test::Mutant> list = mutants_of_structure(code, {13, first});
+      std::ranges::move(mutants_of(code, {67, first++}), std::back_inserter(list));
       for (const verify_test::Mutant& mutant : list) {
         if (computes_the_same(code, mutant.code)) continue;
         const Finding finding =
@@ -271,7 +270,7 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
     }
   }
   fmt::print("{} mutants of loops\n", mutants);
-  EXPECT_GE(mutants, 100);
+  EXPECT_GE(mutants, 20);
 }
 
 // The derivatives are derived anew from H, for loops too.

@@ -174,7 +174,8 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
 
 }  // namespace
 
-std::vector<Mutant> mutants_of(const StepCode& original, const std::set<std::string>& routines) {
+std::vector<Mutant> mutants_of(const StepCode& original, Some some,
+                               const std::set<std::string>& routines) {
   std::vector<Mutant> mutants;
   std::set<std::string> known;
   std::vector<Expression> all;
@@ -196,7 +197,7 @@ std::vector<Mutant> mutants_of(const StepCode& original, const std::set<std::str
       if ((place + kind) % (1 + places / 12) != 0) continue;
       const std::vector<Expression> variants = changed_somewhere(all[place], mutation.change);
       for (std::size_t v = 0; v < variants.size(); v += 1 + variants.size() / 2) {
-        if (variants[v] == all[place]) continue;
+        if (variants[v] == all[place] || some.first++ % some.every != 0) continue;
         StepCode mutant = original;
         std::size_t now = 0;
         for_each(mutant, [&](Expression& e) {
@@ -238,9 +239,10 @@ bool computes(const Instruction& instruction) {
 
 }  // namespace
 
-std::vector<Mutant> mutants_of_structure(const StepCode& original) {
+std::vector<Mutant> mutants_of_structure(const StepCode& original, Some some) {
   std::vector<Mutant> mutants;
   const auto change = [&](const std::string& kind, const auto& alter) {
+    if (some.first++ % some.every != 0) return;
     StepCode mutant = original;
     const std::string what = alter(mutant);
     if (!what.empty()) mutants.push_back({kind, what, std::move(mutant)});
@@ -298,13 +300,6 @@ std::vector<Mutant> mutants_of_structure(const StepCode& original) {
     });
   }
   return mutants;
-}
-
-std::vector<Mutant> some_of(std::vector<Mutant> list, std::size_t every, std::size_t first) {
-  std::vector<Mutant> some;
-  for (std::size_t i = first % every; i < list.size(); i += every)
-    some.push_back(std::move(list[i]));
-  return some;
 }
 
 }  // namespace hamgen::verify_test

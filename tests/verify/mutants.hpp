@@ -25,16 +25,17 @@ struct Mutant {
   StepCode code;
 };
 
+// Of all of them every so many, from `first` on, which differs from case to case: all take minutes.
+struct Some {
+  std::size_t every = 1;
+  std::size_t first = 0;
+};
+
 // A sign, a coefficient, an operand, a power, a variable, a function changed in a handful of places
 // that are spread over the routines, or over those of these names.
-[[nodiscard]] std::vector<Mutant> mutants_of(const StepCode& original,
+[[nodiscard]] std::vector<Mutant> mutants_of(const StepCode& original, Some some = {},
                                              const std::set<std::string>& routines = {});
 // Substeps exchanged and left out; instructions left out, loops that run too far or not far enough.
-[[nodiscard]] std::vector<Mutant> mutants_of_structure(const StepCode& original);
-
-// Every so many of a list, from `first` on, which differs from case to case: all of them take
-// minutes.
-[[nodiscard]] std::vector<Mutant> some_of(std::vector<Mutant> list, std::size_t every,
-                                          std::size_t first);
+[[nodiscard]] std::vector<Mutant> mutants_of_structure(const StepCode& original, Some some = {});
 
 }  // namespace hamgen::verify_test
