@@ -8,8 +8,7 @@
 //             q[i])^3/3)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
-//   proved    symplectic, symmetric, order 2
-//   tested    emitted code
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     banded Newton of size 32; momenta torn out, in loops
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0

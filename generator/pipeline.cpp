@@ -274,25 +274,76 @@ Stages run_stages(const SourceText& source, const Request& request) {
           std::move(equations), std::move(plan),   std::move(program)};
 }
 
-Proof prove(const Stages& stages, const Request& request,
+Expression written_out(const Stages& stages) {
+  const Specialised& system = stages.system;
+  return system.mechanics.keeps_sums()
+             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
+             : system.mechanics.energy;
+}
+
+SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
+                         long size) {
+  request.sizes[constant] = size;
+  if (request.scene) {
+    SceneValues values = scene_values(read_request(source, request), request.scene->asked);
+    values.observe = request.scene->values.observe;
+    values.formulas = request.scene->values.formulas;
+    request.scene->values = std::move(values);
+  }
+  Stages stages = run_stages(source, request);
+  Expression hamiltonian = written_out(stages);
+  return {size, std::move(stages.system.mechanics), std::move(stages.equations.scheme),
+          std::move(stages.program), std::move(hamiltonian)};
+}
+
+// Of a large system in loops: its largest size as small as loops are made of, and the next one.
+// Empty where the model has no such sizes: a list of values fits one of them only.
+std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
+                                              const Stages& stages) {
+  if (!stages.system.mechanics.keeps_sums() ||
+      stages.system.mechanics.degrees_of_freedom <= kMostLookedAt)
+    return {};
+  const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
+  constexpr long size = kMostWrittenOut + 1;
+  if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
+  const auto made_by = [&](const Request& wish) {
+    return SmallerSystems{largest->name, largest->value,
+                          sized_system(source, wish, largest->name, size),
+                          sized_system(source, wish, largest->name, size + 1)};
+  };
+  const auto routines = [](const Program& program) { return step_code(program).routines.size(); };
+  try {
+    SmallerSystems smaller = made_by(request);
+    // Where Newton's matrix is too large the larger system is left without it.
+    if (request.solver.empty() && routines(smaller.first.program) > routines(stages.program)) {
+      Request without_matrix = request;
+      without_matrix.solver = "fixed-point";
+      smaller = made_by(without_matrix);
+    }
+    const bool in_loops =
+        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
+    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+Proof prove(const SourceText& source, const Request& request, const Stages& stages,
             const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
-  const Specialised& system = stages.system;
-  const Expression hamiltonian =
-      system.mechanics.keeps_sums()
-          ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
-          : system.mechanics.energy;
-  Proof proof =
-      verify(system.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
+  Proof proof = verify(stages.system.mechanics, stages.equations.scheme, stages.program,
+                       written_out(stages), around, smaller_systems(source, request, stages));
   if (request.scene && is_something_left_out(stages))
-    proof.push_back(prove_specialised(stages.model, stages.folded, system, *request.scene, around));
+    proof.push_back(
+        prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));
   return proof;
 }
 
 // What the first lines of a header say of the step.
-void add_proof(const Stages& stages, const Request& request, EmitOptions& options) {
-  const Proof proof = prove(stages, request);
+void add_proof(const SourceText& source, const Stages& stages, const Request& request,
+               EmitOptions& options) {
+  const Proof proof = prove(source, request, stages);
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -339,7 +390,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  add_proof(stages, request, options);
+  add_proof(source, stages, request, options);
   const NamedFormat& format = find_format(request.format);
   return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
@@ -390,7 +441,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
 
 Proof verify_step(const SourceText& source, const Request& request,
                   const std::optional<SceneValues>& scene) {
-  return prove(run_stages(source, request), request, scene);
+  return prove(source, request, run_stages(source, request), scene);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
@@ -414,7 +465,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   EmitOptions anonymous = options;
   anonymous.command.clear();
   plugin.text = plugin_text(stages, anonymous, request);
-  if (proof == HeaderProof::included) add_proof(stages, request, options);
+  if (proof == HeaderProof::included) add_proof(source, stages, request, options);
   plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {

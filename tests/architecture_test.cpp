@@ -220,7 +220,7 @@ std::map<std::string, std::vector<Include>> read_tree() {
 // specialisation of a template is no type of its own.
 std::vector<std::string> types_of(const std::string& text) {
   static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]+) \{|)"
-                               R"((?:struct|class|enum class|enum) (\w+)\b(?!<)[^;\n]*\{))");
+                               R"((?:struct|class|enum class|enum) (\w+)\b(?!<|::)[^;\n]*\{))");
   std::vector<std::string> found;
   std::string space;
   for (std::sregex_iterator match(text.begin(), text.end(), line), end; match != end; ++match) {
@@ -379,7 +379,8 @@ TEST(Architecture, ATypeHasOneDefinition) {
 TEST(Architecture, TypesAreReadWithTheirNamespace) {
   const std::string text =
       "namespace hamgen {\nstruct Model;\nstruct Model {  // one\n  struct Inner {};\n};\n"
-      "enum class Kind : int { a };\ntemplate <>\nstruct Many<Kind> {\n};\n}\n"
+      "enum class Kind : int { a };\ntemplate <>\nstruct Many<Kind> {\n};\nstruct Model::Later "
+      "{\n};\n}\n"
       "namespace hamgen::app {\nclass Command : public X {\n};\n";
   const std::vector<std::string> expected = {"hamgen::Model", "hamgen::Kind",
                                              "hamgen::app::Command"};
