@@ -83,7 +83,7 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   command.add_option("--scalar", options.scalar, "float, double (default), long-double or quad")
       ->type_name("TYPE");
   add_repeated(command, "--fold", options.fold,
-               "put a parameter's value, the scene's or the default, into the code")
+               "put a parameter's value, the scene's or the default, in")
       ->type_name("NAME");
 }
 
