@@ -36,8 +36,7 @@ Command add_show(CLI::App& app) {
       app.add_subcommand("show", "prints what one stage of the pipeline makes of a model");
   parser
       ->add_option("--stage", *stage,
-                   "model, mechanics, equations, plan (default), program, or "
-                   "origins, the program with where its lines come from")
+                   "model, mechanics, equations, plan (default), program, origins")
       ->type_name("NAME");
   add_method_options(*parser, *options);
   add_scene_choice(*parser, *scene);
