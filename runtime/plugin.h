@@ -1,8 +1,8 @@
 /* The interface between a compiled integrator and the runtime: plain C, versioned.
  *
  * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  A value
- * crosses the interface as hi + lo, where hi is the double nearest to it; lo is 0 unless the scalar is
- * wider.  `lo` pointers may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
+ * crosses the interface as hi + lo, where hi is the double nearest to it; lo is 0 unless the scalar
+ * is wider.  `lo` pointers may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
  *
  * hamgen_plugin_entry returns null where hamgen_arithmetic_is_ieee() is 0: the plugin then was
  * compiled with flags, such as -ffast-math, under which its methods are not what they claim. */
@@ -59,8 +59,8 @@ struct hamgen_plugin {
   void (*advance)(struct hamgen_run* run, long long steps, int watch_energy,
                   struct hamgen_report* report);
   void (*get_state)(const struct hamgen_run* run, double* state, double* state_lo);
-  /* What rounding took from the state: state + state_lo + carry + carry_lo, exactly, is what the next
-   * step starts from. */
+  /* What rounding took from the state: state + state_lo + carry + carry_lo, exactly, is what the
+   * next step starts from. */
   void (*get_carry)(const struct hamgen_run* run, double* carry, double* carry_lo);
   /* The hi of H. */
   double (*energy)(const double* parameters, const double* parameters_lo, const double* state,

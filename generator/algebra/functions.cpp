@@ -13,23 +13,23 @@ namespace hamgen {
 namespace {
 
 constexpr std::array<Function, 17> table = {{
-    // name, arity, cpp, quad, description, domain
-    {"abs", 1, "fabs", "fabsq", "absolute value, derivative x/abs(x)", "all x"},
+    // name, arity, cpp, quad, description, domain, analytic at 0
+    {"abs", 1, "fabs", "fabsq", "absolute value, derivative x/abs(x)", "all x", false},
     {"acos", 1, "acos", "acosq", "arc cosine", "-1 <= x <= 1"},
-    {"acosh", 1, "acosh", "acoshq", "inverse hyperbolic cosine", "x >= 1"},
+    {"acosh", 1, "acosh", "acoshq", "inverse hyperbolic cosine", "x >= 1", false},
     {"asin", 1, "asin", "asinq", "arc sine", "-1 <= x <= 1"},
     {"asinh", 1, "asinh", "asinhq", "inverse hyperbolic sine", "all x"},
     {"atan", 1, "atan", "atanq", "arc tangent", "all x"},
     {"atan2", 2, "atan2", "atan2q", "angle of the point (x, y), written atan2(y, x)",
-     "(x, y) other than (0, 0)"},
+     "(x, y) other than (0, 0)", false},
     {"atanh", 1, "atanh", "atanhq", "inverse hyperbolic tangent", "-1 < x < 1"},
     {"cos", 1, "cos", "cosq", "cosine", "all x"},
     {"cosh", 1, "cosh", "coshq", "hyperbolic cosine", "all x"},
     {"exp", 1, "exp", "expq", "exponential", "all x"},
-    {"log", 1, "log", "logq", "natural logarithm", "x > 0"},
+    {"log", 1, "log", "logq", "natural logarithm", "x > 0", false},
     {"sin", 1, "sin", "sinq", "sine", "all x"},
     {"sinh", 1, "sinh", "sinhq", "hyperbolic sine", "all x"},
-    {"sqrt", 1, "sqrt", "sqrtq", "square root", "x >= 0"},
+    {"sqrt", 1, "sqrt", "sqrtq", "square root", "x >= 0", false},
     {"tan", 1, "tan", "tanq", "tangent", "x other than odd multiples of pi/2"},
     {"tanh", 1, "tanh", "tanhq", "hyperbolic tangent", "all x"},
 }};

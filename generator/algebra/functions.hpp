@@ -18,6 +18,8 @@ struct Function {
   std::string_view quad;         // in <quadmath.h>; empty for those written as a power
   std::string_view description;  // one line for `hamgen list functions`
   std::string_view domain;       // where it is defined, "all x" or a condition
+  // Has it a power series where an argument is 0?  Neither a corner, nor a pole, nor a cut.
+  bool analytic_at_zero = true;
 };
 
 // All functions in alphabetical order.

@@ -5,7 +5,9 @@
 #include <functional>
 #include <map>
 
+#include "generator/language/check_names.hpp"
 #include "generator/language/constant.hpp"
+#include "generator/mechanics/split_sums.hpp"
 #include "generator/specialise/specialisation.hpp"
 
 namespace hamgen {
@@ -40,20 +42,8 @@ NodePtr rewritten(const NodePtr& node, const Rename& renamed) {
 }
 
 void visit_nodes(const NodePtr& node, const std::function<void(const NodePtr&)>& use) {
-  if (!node) return;
   use(node);
-  if (const auto* name = std::get_if<NameNode>(&node->value)) {
-    visit_nodes(name->subscript, use);
-  } else if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
-    visit_nodes(negate->operand, use);
-  } else if (const auto* binary = std::get_if<BinaryNode>(&node->value)) {
-    visit_nodes(binary->left, use);
-    visit_nodes(binary->right, use);
-  } else if (const auto* call = std::get_if<CallNode>(&node->value)) {
-    for (const NodePtr& argument : call->arguments) visit_nodes(argument, use);
-  } else if (const auto* sum = std::get_if<SumNode>(&node->value)) {
-    visit_nodes(sum->body, use);
-  }
+  for_children(node, [&use](const NodePtr& child) { visit_nodes(child, use); });
 }
 
 // Every formula of the step: H, invariants, definitions, values beyond the ends of arrays.
@@ -106,30 +96,22 @@ class Folder {
   void say(const std::string& line) { result_.folding.left_out.push_back(line); }
 
   void find_used() {
-    visit_formulas(result_.model, [this](const NodePtr& formula) {
-      visit_nodes(formula, [this](const NodePtr& node) {
-        if (const auto* name = std::get_if<NameNode>(&node->value)) used_.insert(name->name);
-      });
-    });
+    visit_formulas(result_.model,
+                   [this](const NodePtr& formula) { used_.merge(names_in(formula)); });
   }
 
   // Names below an exponent, through definitions.
   void find_exponents() {
-    const auto add = [this](const NodePtr& exponent) {
-      visit_nodes(exponent, [this](const NodePtr& node) {
-        if (const auto* name = std::get_if<NameNode>(&node->value))
-          in_exponents_.insert(name->name);
-      });
-    };
-    visit_formulas(result_.model, [&add](const NodePtr& formula) {
-      visit_nodes(formula, [&add](const NodePtr& node) {
+    visit_formulas(result_.model, [this](const NodePtr& formula) {
+      visit_nodes(formula, [this](const NodePtr& node) {
         const auto* binary = std::get_if<BinaryNode>(&node->value);
-        if (binary != nullptr && binary->operation == BinaryOperator::power) add(binary->right);
+        if (binary != nullptr && binary->operation == BinaryOperator::power)
+          in_exponents_.merge(names_in(binary->right));
       });
     });
     for (auto each = result_.model.definitions.rbegin(); each != result_.model.definitions.rend();
          ++each) {
-      if (in_exponents_.contains(each->name)) add(each->value);
+      if (in_exponents_.contains(each->name)) in_exponents_.merge(names_in(each->value));
     }
   }
 

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/algebra/functions.hpp"
 #include "generator/specialise/specialisation.hpp"
 
 namespace hamgen {
@@ -20,10 +20,9 @@ bool is_natural(const Expression& exponent) {
   return exponent.is_number() && exponent.number() > 0 && exponent.number().get_den() == 1;
 }
 
-// Functions that have a corner, a pole or a cut at zero.
-bool is_rough_at_zero(const std::string& function) {
-  constexpr std::array rough = {"abs", "sign", "log", "atan2", "acosh"};
-  return std::ranges::find(rough, function) != rough.end();
+bool is_analytic_at_zero(const std::string& function) {
+  const Function* row = find_function(function);
+  return row != nullptr && row->analytic_at_zero;
 }
 
 // The expression where variables are zero; empty if a corner or a pole is there.
@@ -45,7 +44,7 @@ std::optional<Expression> where_zero(const Expression& e, const Substitution& ze
       if (!is_natural(operands[1]) && vanishes(operands[0])) return std::nullopt;
       return Expression::power(operands[0], operands[1]);
     case Kind::function:
-      if (is_rough_at_zero(e.name()) && std::ranges::any_of(operands, vanishes))
+      if (!is_analytic_at_zero(e.name()) && std::ranges::any_of(operands, vanishes))
         return std::nullopt;
       return Expression::apply(e.name(), std::move(operands));
     case Kind::number:

@@ -3,6 +3,7 @@ hamgen_generate(TARGET target MODEL model.ham
                 [SCHEME name] [ALPHA x] [BETA x] [GAMMA x] [ORDER n]
                 [GAUGE locally-exact or C] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
+                [SCENE name] [OBSERVE list] [KEEP name...]
                 [NAMESPACE name] [SUPPORT own or shared] [PREFIX folder])
 
 Emits the integrator of a Hamiltonian as a header when the target is built, and again whenever the
@@ -24,8 +25,8 @@ Nothing is linked, except libquadmath for SCALAR quad.  A header whose plan need
 ]]
 function(hamgen_generate)
   set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE SUPPORT
-                PREFIX)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "${one_value}" "FOLD;SIZES")
+                SCENE OBSERVE PREFIX)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "${one_value}" "FOLD;SIZES;KEEP")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hamgen_generate: unexpected ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -62,7 +63,7 @@ function(hamgen_generate)
 
   set(options)
   foreach(option SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE
-                 SUPPORT)
+                 SUPPORT SCENE OBSERVE)
     if(DEFINED arg_${option})
       string(TOLOWER ${option} flag)
       list(APPEND options --${flag}=${arg_${option}})
@@ -70,6 +71,9 @@ function(hamgen_generate)
   endforeach()
   foreach(parameter IN LISTS arg_FOLD)
     list(APPEND options --fold=${parameter})
+  endforeach()
+  foreach(kept IN LISTS arg_KEEP)
+    list(APPEND options --keep=${kept})
   endforeach()
   foreach(size IN LISTS arg_SIZES)
     list(APPEND options --set=${size})

@@ -1,84 +1,18 @@
+// What a run is given, and what it hands out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "runtime/process.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
+#include "tests/app/run_results.hpp"
 
 namespace hamgen::app_test {
 namespace {
 
 using nlohmann::json;
-
-json run_json(std::vector<std::string> arguments, int status = 0) {
-  arguments.insert(arguments.begin(), "run");
-  arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const Result result = hamgen(arguments);
-  EXPECT_EQ(result.status, status) << result.err;
-  return json::parse(result.out);
-}
-
-struct Csv {
-  std::vector<std::string> metadata;
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;
-};
-
-Csv read_csv(const std::string& text) {
-  Csv csv;
-  for (const std::string& line : lines(text)) {
-    if (line.starts_with("#")) {
-      csv.metadata.push_back(line);
-      continue;
-    }
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    }
-    if (csv.columns.empty()) {
-      csv.columns = cells;
-      continue;
-    }
-    csv.rows.emplace_back();
-    for (const std::string& cell : cells)
-      csv.rows.back().push_back(std::strtod(cell.c_str(), nullptr));
-  }
-  return csv;
-}
-
-TEST(Run, RefusesCompilersThatChangeTheArithmetic) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  for (const std::string flag : {"-ffast-math", "-Ofast", "-fassociative-math", "@flags"}) {
-    const Result option = hamgen({"run", model, "--compiler", "g++ " + flag});
-    EXPECT_EQ(option.status, 2) << option.err;
-    EXPECT_TRUE(contains(option.err, "--compiler: ") && contains(option.err, "'" + flag + "'"))
-        << option.err;
-    for (const std::string command : {"run", "bench", "stress", "tune"}) {
-      const Result variable = hamgen({command, model}, {"CXX=g++ " + flag});
-      EXPECT_EQ(variable.status, 2) << command << variable.err;
-      EXPECT_TRUE(contains(variable.err, "$CXX: ")) << variable.err;
-    }
-  }
-}
-
-TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const std::string script = scratch.write("compiler", "#!/bin/sh\nexec g++ \"$@\" -ffast-math\n");
-  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  const Result result = hamgen({"run", model, "--compiler", script});
-  EXPECT_EQ(result.status, 4);
-  EXPECT_TRUE(contains(result.err, "compile without -ffast-math")) << result.err;
-}
 
 TEST(Run, ShowsControlCharactersOfPathsInTextJsonAndCsv) {
   const Scratch scratch;
@@ -318,112 +252,6 @@ TEST(Run, NamesTheComponentThatIsNotDefinedAtTheStart) {
   EXPECT_TRUE(contains(result.err, "q = 0")) << result.err;
 }
 
-TEST(Run, StopsWhereTheStepFailsAndKeepsWhatItHas) {
-  const Scratch scratch;
-  const std::string model = scratch.write("collapse.ham", collapse);
-  const std::string output = scratch.path("out.csv");
-  const Result result = hamgen({"run", model, "--json", "-o", output});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.err, "--h 0.0025")) << result.err;
-  EXPECT_FALSE(contains(result.out, "nan"));
-  const json report = json::parse(result.out);
-  EXPECT_TRUE(report["status"] == "not converged" || report["status"] == "left the domain")
-      << report["status"];
-  EXPECT_TRUE(report["reason"].is_string());
-  const long done = report["steps_done"].get<long>();
-  // The exact solution ends at t = 0.7071, after 70 steps.
-  EXPECT_GT(done, 60);
-  EXPECT_LT(done, 1000);
-  const Csv csv = read_csv(read(output));
-  EXPECT_EQ(static_cast<long>(csv.rows.size()), done + 1);
-  const std::string status = report["status"];
-  EXPECT_TRUE(csv.metadata.back().starts_with("# status    " + status + ": step "))
-      << csv.metadata.back();
-}
-
-struct Failure {
-  std::string hamiltonian, scene;
-  std::vector<std::string> options;
-  std::string status;
-};
-
-// The state in the summary, the last row and the numbers of energy and steps are of one step, the
-// last whose end has an energy.
-TEST(Run, EndsEveryFailureWithItsNameAndTheLastGoodState) {
-  const std::string collision = "p^2/2 - 1/abs(q)";
-  const std::vector<Failure> failures = {
-      {collision, "q = 1; p = 0; h = 0.01", {"--scheme", "stormer-verlet"}, "jumped"},
-      {collision, "q = 1; p = 0; h = 0.01", {}, "not converged"},
-      {"p^2/2 + tan(q)", "q = 1.5; p = 1; h = 0.01", {}, "jumped"},
-      {"p^2/2 + log(q)", "q = 1; p = -1; h = 0.05", {}, "left the domain"},
-      {"p^2/2 + log(q)", "q = 1; p = -1; h = 0.05", {"--scheme", "rk4"}, "left the domain"},
-      {"p^2/2 + log(q)",
-       "q = 1; p = -1; h = 0.05",
-       {"--scheme", "stormer-verlet"},
-       "left the domain"},
-      {"p^2/2 + log(q)", "q = 1; p = -1; h = 0.05", {"--scalar", "quad"}, "left the domain"},
-      {"p^2/2 + sqrt(q)", "q = 1; p = -1; h = 0.05", {"--scheme", "gauss-8"}, "left the domain"},
-      {"p^2/2 + q^4", "q = 1e70; h = 1", {"--scheme", "stormer-verlet"}, "overflow"},
-      {"p^2/2 - q^4", "q = 1; p = 1; h = 1e-5", {}, "escaped"},
-      {"p^2/2 + q^2/2", "q = 1; h = 0.1", {"--scheme", "explicit-euler"}, "jumped"}};
-  const Scratch scratch;
-  for (const Failure& each : failures) {
-    const std::string model =
-        scratch.write("m.ham", "coordinate q\nmomentum p\nH = " + each.hamiltonian +
-                                   "\nscene s { " + each.scene + "; steps = 100000 }\n");
-    std::vector<std::string> arguments = {model, "-o", scratch.path("rows.csv")};
-    arguments.insert(arguments.end(), each.options.begin(), each.options.end());
-    const json report = run_json(arguments, 1);
-    const std::string name = each.hamiltonian + " " + each.status;
-    EXPECT_EQ(report["status"], each.status) << report;
-    EXPECT_TRUE(report["reason"].get<std::string>().starts_with("step ")) << name;
-    const Csv csv = read_csv(read(scratch.path("rows.csv")));
-    const long done = report["steps_done"];
-    ASSERT_EQ(static_cast<long>(csv.rows.size()), done + 1) << name;
-    EXPECT_TRUE(contains(csv.metadata.back(),
-                         "status    " + each.status + ": step " + std::to_string(done + 1) + " "))
-        << csv.metadata.back();
-    const std::vector<double>& row = csv.rows.back();
-    EXPECT_EQ(row[0], done) << name;
-    EXPECT_EQ(row[2], report["state"]["q"][0].get<double>()) << name;
-    EXPECT_EQ(row[3], report["state"]["p"][0].get<double>()) << name;
-    EXPECT_TRUE(std::isfinite(row[4])) << name;
-    EXPECT_EQ(row[4] - report["energy"]["initial"].get<double>(),
-              report["energy"]["final_error"].get<double>())
-        << name;
-    if (contains(each.hamiltonian, "log") || contains(each.hamiltonian, "sqrt")) {
-      EXPECT_GT(row[2], 0.0) << name;
-    }
-  }
-}
-
-// Large errors that are none of these: runs with absurd steps, from a saddle, from rest.
-TEST(Run, DoesNotTakeALargeErrorForAJump) {
-  const Scratch scratch;
-  const std::string model =
-      scratch.write("m.ham",
-                    "coordinate q\nmomentum p\ntime t\nH = p^2/2 - q^2/2 + q^4/4 - force*q*cos(t)\n"
-                    "parameter force = 0\nscene saddle { q = 1e-9; h = 0.1; steps = 2000 }\n"
-                    "scene rest { h = 0.1; steps = 2000 }\n");
-  for (const std::string scheme : {"implicit-midpoint", "stormer-verlet"}) {
-    EXPECT_EQ(run_json({model, "--scene", "saddle", "--scheme", scheme})["status"], "done");
-    for (const std::string h : {"0.01", "0.1"})
-      EXPECT_EQ(run_json({model, "--scene", "rest", "--set", "force=1", "--h", h, "--scheme",
-                          scheme})["status"],
-                "done")
-          << h << scheme;
-  }
-  const std::string pendulum_model = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/pendulum.ham";
-  EXPECT_EQ(run_json({pendulum_model, "--h", "10", "--steps", "10000"})["status"], "done");
-}
-
-TEST(Run, SaysInTheTrajectoryThatItIsDone) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const Result result = hamgen({"run", model, "--steps", "5", "-o", "-"});
-  EXPECT_EQ(lines(result.out).back(), "# status    done");
-}
-
 TEST(Run, RegeneratesForAnotherSize) {
   const Scratch scratch;
   const std::string model = scratch.write("chain.ham", chain);
@@ -437,75 +265,6 @@ TEST(Run, KeepsTheEmittedHeader) {
   const std::string directory = scratch.path("kept");
   EXPECT_EQ(hamgen({"run", model, "--header", directory}).status, 0);
   EXPECT_EQ(read(directory + "/pendulum.hpp"), hamgen({"generate", model, "--scene", "swing"}).out);
-}
-
-TEST(Run, NamesAMissingCompilerAndUsesNoShell) {
-  const Scratch scratch;
-  // A model of its own, so that the cache cannot help.
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const Result missing = hamgen({"run", model, "--compiler", "no-such-compiler"});
-  EXPECT_EQ(missing.status, 4);
-  EXPECT_TRUE(contains(missing.err, "no-such-compiler")) << missing.err;
-  const Result shell = hamgen({"run", model}, {"CXX=g++; touch " + scratch.path("touched")});
-  EXPECT_EQ(shell.status, 4);
-  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham"}));
-}
-
-TEST(Run, GoesOnWithoutAUsableCache) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const std::string file = scratch.write("file", "");
-  const Result result = hamgen({"run", model, "--steps", "1"}, {"HAMGEN_CACHE=" + file});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_TRUE(contains(result.err, "warning")) << result.err;
-}
-
-// A disk of its own for the cache, in a namespace of its own where the system has such.
-Result run_with_cache_of(const std::string& size, const std::string& model,
-                         const std::string& directory) {
-  runtime::ProcessRequest request;
-  request.command = {"unshare",
-                     "-Urm",
-                     "sh",
-                     "-c",
-                     "mount -t tmpfs -o mode=700,size=\"$1\" tmpfs \"$2\" || exit 99; "
-                     "HAMGEN_CACHE=\"$2\" \"$3\" run \"$4\" --steps 10",
-                     "sh",
-                     size,
-                     directory,
-                     HAMGEN_EXECUTABLE,
-                     model};
-  const runtime::ProcessResult result = runtime::run_process(request);
-  return {.status = result.code, .out = "", .err = result.output};
-}
-
-TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const std::string directory = scratch.path("disk");
-  std::filesystem::create_directory(directory);
-  if (run_with_cache_of("64m", model, directory).status != 0)
-    GTEST_SKIP() << "no disk can be mounted here";
-  int warnings = 0;
-  for (const std::string size : {"4k", "20k", "24k", "32k", "40k", "48k", "64k", "128k"}) {
-    const Result result = run_with_cache_of(size, model, directory);
-    EXPECT_EQ(result.status, 0) << size << '\n' << result.err;
-    warnings += contains(result.err, "warning: ") ? 1 : 0;
-  }
-  EXPECT_GE(warnings, 4);
-}
-
-TEST(Cache, ListsAndClears) {
-  const Scratch scratch;
-  const std::string model = scratch.write("pendulum.ham", pendulum);
-  const std::vector<std::string> own = {"HAMGEN_CACHE=" + scratch.path("cache")};
-  ASSERT_EQ(hamgen({"run", model, "--steps", "1"}, own).status, 0);
-  const Result listed = hamgen({"cache"}, own);
-  EXPECT_EQ(listed.status, 0);
-  EXPECT_TRUE(contains(listed.out, "1 compiled integrator,")) << listed.out;
-  EXPECT_EQ(hamgen({"cache", "prune"}, own).status, 0);
-  EXPECT_EQ(hamgen({"cache", "clear"}, own).status, 0);
-  EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "0 compiled integrators,"));
 }
 
 // E0 = 1/200 exactly, and as a double only to 53 bits: 1e-19 of beta, and as much of the state.

@@ -208,6 +208,13 @@ TEST(Observe, ACyclicMomentumUnderBetaStays) {
             "phi: cyclic and not observed; pphi is a parameter\n");
 }
 
+// Ht is made of all of H, whatever else is looked at.
+TEST(Observe, TheModifiedHamiltonianTakesEverything) {
+  EXPECT_EQ(left_out(kPolar + "; observe r }\n",
+                     {.request = {.watch_modified = 2, .step = Rational(1, 100)}}),
+            "");
+}
+
 TEST(Observe, ALongerListIsTakenFromTheCommandLine) {
   EXPECT_EQ(left_out(kPolar + "; observe r }\n", {.observe = "r, v = u^2"}),
             "phi: cyclic and not observed; pphi is a parameter\n");

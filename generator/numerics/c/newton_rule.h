@@ -31,7 +31,8 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
   if (!(size <= largest)) return failed;
   const Real round_off = epsilon * scale;
   if (rule->previous > 0) {
-    const Real seen = (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
+    const Real seen =
+        (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
     // It may rise at once but falls slowly: one small increment may be luck.
     const bool first = rule->contraction >= largest;
     if (first || (size > 64 * round_off && seen > rule->contraction)) {
@@ -48,8 +49,8 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
   }
   if (size <= round_off) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
-  const bool straight = bend * NewtonRule_power(rule, size) * 1024 <=
-                        round_off * NewtonRule_power(rule, rule->move);
+  const bool straight =
+      bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
   if ((rule->previous > 0 || straight) && rule->unchecked < 32 &&
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;

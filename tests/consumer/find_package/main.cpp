@@ -2,7 +2,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "orbit.hpp"
 #include "pendulum.hpp"
+
+// A scene in the plane leaves out z and pz.
+static_assert(sizeof(orbit::plane::State) == 4 * sizeof(double));
 
 int main() {
   using namespace pendulum;

@@ -1,0 +1,78 @@
+// Stages against the mathematics they come from.
+#include <algorithm>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/stages.hpp"
+#include "generator/verify/proof.hpp"
+#include "generator/verify/specialised.hpp"
+
+namespace hamgen {
+
+namespace {
+
+SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
+                         long size) {
+  request.sizes[constant] = size;
+  if (request.scene) {
+    SceneValues values = scene_values(read_request(source, request), request.scene->asked);
+    values.observe = request.scene->values.observe;
+    values.formulas = request.scene->values.formulas;
+    request.scene->values = std::move(values);
+  }
+  Stages stages = run_stages(source, request);
+  Expression hamiltonian = written_out_hamiltonian(stages);
+  return {size, std::move(stages.system.mechanics), std::move(stages.equations.scheme),
+          std::move(stages.program), std::move(hamiltonian)};
+}
+
+// Of a large system in loops: its largest size as small as loops are made of, and the next one.
+// Empty where the model has no such sizes: a list of values fits one of them only.
+std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
+                                              const Stages& stages) {
+  if (!stages.system.mechanics.keeps_sums() ||
+      stages.system.mechanics.degrees_of_freedom <= kMostLookedAt)
+    return {};
+  const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
+  constexpr long size = kMostWrittenOut + 1;
+  if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
+  const auto made_by = [&](const Request& wish) {
+    return SmallerSystems{largest->name, largest->value,
+                          sized_system(source, wish, largest->name, size),
+                          sized_system(source, wish, largest->name, size + 1)};
+  };
+  const auto routines = [](const Program& program) { return step_code(program).routines.size(); };
+  try {
+    SmallerSystems smaller = made_by(request);
+    // Where Newton's matrix is too large the larger system is left without it.
+    if (request.solver.empty() && routines(smaller.first.program) > routines(stages.program)) {
+      Request without_matrix = request;
+      without_matrix.solver = "fixed-point";
+      smaller = made_by(without_matrix);
+    }
+    const bool in_loops =
+        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
+    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
+  } catch (const ModelError&) {
+    return {};
+  } catch (const UsageError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+Proof prove(const SourceText& source, const Request& request, const Stages& stages,
+            const std::optional<SceneValues>& scene) {
+  Surroundings around = surroundings_of(stages.model);
+  if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
+  Proof proof =
+      verify(stages.system.mechanics, stages.equations.scheme, stages.program,
+             written_out_hamiltonian(stages), around, smaller_systems(source, request, stages));
+  if (request.scene && is_something_left_out(stages))
+    proof.push_back(
+        prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));
+  return proof;
+}
+
+}  // namespace hamgen

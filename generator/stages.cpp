@@ -1,0 +1,87 @@
+#include "generator/stages.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "generator/choose_scheme.hpp"
+#include "generator/formats/cpp_tangent.hpp"
+#include "generator/formats/scalar.hpp"
+#include "generator/mechanics/curvature.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/modified_terms.hpp"
+#include "generator/read_request.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// Parameters that serve a scene only, or nothing: no emitted line names them.
+void drop_unused_parameters(StepEquations& equations) {
+  Mechanics& mechanics = equations.mechanics;
+  if (mechanics.keeps_sums()) return;
+  std::set<std::string> used;
+  collect_symbols(mechanics.energy, used);
+  for (const Expression& component : mechanics.gradient) collect_symbols(component, used);
+  for (const auto& [place, value] : mechanics.hessian) collect_symbols(value, used);
+  for (const NamedExpression& invariant : mechanics.invariants) {
+    collect_symbols(invariant.value, used);
+  }
+  for (const auto& [place, value] : equations.stage_matrix) collect_symbols(value, used);
+  std::erase_if(mechanics.parameters,
+                [&](const Quantity& parameter) { return !used.contains(parameter.name); });
+}
+
+Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
+                        const Request& request, bool keep_sums) {
+  Mechanics mechanics = derive(model, keep_sums);
+  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
+  Scheme scheme = choose_scheme(model, mechanics, request);
+  return specialise(model, std::move(mechanics), std::move(scheme), scene);
+}
+
+}  // namespace
+
+Stages run_stages(const SourceText& source, const Request& request) {
+  Model model = read_request(source, request);
+  require_defaults_in_range(model, find_scalar(request.scalar));
+  FoldedModel folded = fold_for_scene(model, request);
+  const std::optional<SceneFacts> scene = scene_facts(model, request);
+  Specialised system = make_system(folded.model, scene, request, may_keep_sums(request));
+  const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
+  StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
+  SolvePlan plan = plan_solve(equations, request.solver);
+  if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
+    // Eigen does not know quad numbers: everything is written out instead.
+    system = make_system(folded.model, scene, request, false);
+    equations = discretise(system.mechanics, system.scheme, hessian);
+    plan = plan_solve(equations, request.solver);
+  }
+  drop_unused_parameters(plan.equations);
+  equations.mechanics.parameters = plan.equations.mechanics.parameters;
+  system.mechanics.parameters = plan.equations.mechanics.parameters;
+  std::vector<std::string> left_out = folded.folding.left_out;
+  left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
+  plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
+  Program program = build_program(plan);
+  if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
+  if (request.watch_modified > 0) require_solved_step(request);
+  if (request.watch_modified > 0) {
+    watch_modified(program,
+                   modified_terms(system.mechanics, system.scheme, request.watch_modified));
+  }
+  return {std::move(model),     std::move(folded), std::move(system),
+          std::move(equations), std::move(plan),   std::move(program)};
+}
+
+bool is_something_left_out(const Stages& stages) {
+  return !stages.folded.folding.left_out.empty() || !stages.system.left_out.empty();
+}
+
+Expression written_out_hamiltonian(const Stages& stages) {
+  const Specialised& system = stages.system;
+  return system.mechanics.keeps_sums()
+             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
+             : system.mechanics.energy;
+}
+
+}  // namespace hamgen

@@ -1,0 +1,109 @@
+// The compiler of a run, and the cache of what it compiled.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "runtime/process.hpp"
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+TEST(Run, RefusesCompilersThatChangeTheArithmetic) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  for (const std::string flag : {"-ffast-math", "-Ofast", "-fassociative-math", "@flags"}) {
+    const Result option = hamgen({"run", model, "--compiler", "g++ " + flag});
+    EXPECT_EQ(option.status, 2) << option.err;
+    EXPECT_TRUE(contains(option.err, "--compiler: ") && contains(option.err, "'" + flag + "'"))
+        << option.err;
+    for (const std::string command : {"run", "bench", "stress", "tune"}) {
+      const Result variable = hamgen({command, model}, {"CXX=g++ " + flag});
+      EXPECT_EQ(variable.status, 2) << command << variable.err;
+      EXPECT_TRUE(contains(variable.err, "$CXX: ")) << variable.err;
+    }
+  }
+}
+
+TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string script = scratch.write("compiler", "#!/bin/sh\nexec g++ \"$@\" -ffast-math\n");
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  const Result result = hamgen({"run", model, "--compiler", script});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_TRUE(contains(result.err, "compile without -ffast-math")) << result.err;
+}
+
+TEST(Run, NamesAMissingCompilerAndUsesNoShell) {
+  const Scratch scratch;
+  // A model of its own, so that the cache cannot help.
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result missing = hamgen({"run", model, "--compiler", "no-such-compiler"});
+  EXPECT_EQ(missing.status, 4);
+  EXPECT_TRUE(contains(missing.err, "no-such-compiler")) << missing.err;
+  const Result shell = hamgen({"run", model}, {"CXX=g++; touch " + scratch.path("touched")});
+  EXPECT_EQ(shell.status, 4);
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham"}));
+}
+
+TEST(Run, GoesOnWithoutAUsableCache) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string file = scratch.write("file", "");
+  const Result result = hamgen({"run", model, "--steps", "1"}, {"HAMGEN_CACHE=" + file});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "warning")) << result.err;
+}
+
+// A disk of its own for the cache, in a namespace of its own where the system has such.
+Result run_with_cache_of(const std::string& size, const std::string& model,
+                         const std::string& directory) {
+  runtime::ProcessRequest request;
+  request.command = {"unshare",
+                     "-Urm",
+                     "sh",
+                     "-c",
+                     "mount -t tmpfs -o mode=700,size=\"$1\" tmpfs \"$2\" || exit 99; "
+                     "HAMGEN_CACHE=\"$2\" \"$3\" run \"$4\" --steps 10",
+                     "sh",
+                     size,
+                     directory,
+                     HAMGEN_EXECUTABLE,
+                     model};
+  const runtime::ProcessResult result = runtime::run_process(request);
+  return {.status = result.code, .out = "", .err = result.output};
+}
+
+TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string directory = scratch.path("disk");
+  std::filesystem::create_directory(directory);
+  if (run_with_cache_of("64m", model, directory).status != 0)
+    GTEST_SKIP() << "no disk can be mounted here";
+  int warnings = 0;
+  for (const std::string size : {"4k", "20k", "24k", "32k", "40k", "48k", "64k", "128k"}) {
+    const Result result = run_with_cache_of(size, model, directory);
+    EXPECT_EQ(result.status, 0) << size << '\n' << result.err;
+    warnings += contains(result.err, "warning: ") ? 1 : 0;
+  }
+  EXPECT_GE(warnings, 4);
+}
+
+TEST(Cache, ListsAndClears) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::vector<std::string> own = {"HAMGEN_CACHE=" + scratch.path("cache")};
+  ASSERT_EQ(hamgen({"run", model, "--steps", "1"}, own).status, 0);
+  const Result listed = hamgen({"cache"}, own);
+  EXPECT_EQ(listed.status, 0);
+  EXPECT_TRUE(contains(listed.out, "1 compiled integrator,")) << listed.out;
+  EXPECT_EQ(hamgen({"cache", "prune"}, own).status, 0);
+  EXPECT_EQ(hamgen({"cache", "clear"}, own).status, 0);
+  EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "0 compiled integrators,"));
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
