@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/studies/initial_data.hpp"
@@ -98,6 +99,7 @@ BenchRequest read_bench(const BenchOptions& options) {
   request.compiler = options.compiler;
   request.setting = read_setting({.model = options.model}, options.scene);
   read_steps(options, request);
+  specialise(options.scene, request.scene, {}, Observing::everything, request.setting);
   request.time = run_length(options, request);
   request.methods = methods_of(options, request);
   request.rounds = integer_value("--rounds " + options.rounds, options.rounds, 1);

@@ -34,9 +34,9 @@ void check_scenes(const Model& model, const ScalarType& scalar) {
   if (!mistakes.empty()) throw ModelError(mistakes, model.source);
 }
 
-int check(const MethodOptions& options) {
+int check(const MethodOptions& options, const SceneOptions& scene) {
   const SourceText source = read_source(options.model);
-  const Request request = request_with_sizes(options, source);
+  const Request request = request_of(options, scene, source);
   const Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) print_error(render(model.warnings, source));
   check_scenes(model, find_scalar(request.scalar));
@@ -65,12 +65,12 @@ int check(const MethodOptions& options) {
 
 Command add_check(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
+  const auto scene = std::make_shared<SceneOptions>();
   CLI::App* parser = app.add_subcommand(
       "check", "says whether a model is fine: language, derivatives, scenes, plan of the step");
   add_method_options(*parser, *options);
-  add_repeated(*parser, "--set", options->set, "another value for a size of the model")
-      ->type_name("SIZE=N");
-  return {parser, [options] { return check(*options); }};
+  add_scene_choice(*parser, *scene);
+  return {parser, [options, scene] { return check(*options, *scene); }};
 }
 
 }  // namespace hamgen::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "app/output/generate_command.hpp"
 #include "app/studies/initial_data.hpp"
@@ -81,7 +82,8 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("NAME");
   command.add_option("--scalar", options.scalar, "float, double (default), long-double or quad")
       ->type_name("TYPE");
-  add_repeated(command, "--fold", options.fold, "burn a parameter's default value into the code")
+  add_repeated(command, "--fold", options.fold,
+               "put a parameter's value, the scene's or the default, in")
       ->type_name("NAME");
 }
 
@@ -92,6 +94,30 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME=VALUE");
   add_repeated(command, "--initial", options.initial, "initial state, for example q=3.1,p=0")
       ->type_name("NAME=VALUE,...");
+  command.add_flag("--whole", options.whole, "");
+  add_repeated(command, "--keep", options.keep,
+               "leave in all that the scene does not need, or these")
+      ->type_name("NAME,...");
+}
+
+void add_observe_option(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--observe", options.observe,
+                  "q, energy, r = sqrt(x^2 + y^2); default: the scene's")
+      ->type_name("LIST");
+}
+
+void add_scene_choice(CLI::App& command, SceneOptions& options) {
+  command.add_option("--scene", options.scene, "leave out what this scene does not need")
+      ->type_name("NAME");
+  add_repeated(command, "--set", options.set, "a size of the model; with --scene a parameter too")
+      ->type_name("NAME=VALUE");
+  add_repeated(command, "--initial", options.initial, "with --scene: another initial state")
+      ->type_name("NAME=VALUE,...");
+  add_observe_option(command, options);
+  command.add_flag("--whole", options.whole, "");
+  add_repeated(command, "--keep", options.keep, "with --scene: leave in all, or these")
+      ->type_name("NAME,...");
 }
 
 void add_step_option(CLI::App& command, SceneOptions& options) {
@@ -204,34 +230,83 @@ Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
   setting.scene.initial = all_assignments("--initial", scene.initial);
   setting.scene.h = scene.h;
   setting.scene.steps = scene.steps;
+  setting.scene.observe = scene.observe;
   return setting;
 }
 
 namespace {
 
 // A command that knows no run-time values sets sizes only.
-std::map<std::string, long> sizes_of(const MethodOptions& options, const SourceText& source) {
-  const SizesAndRest split = split_sizes(read_model(source), options.set);
+std::map<std::string, long> sizes_of(const std::vector<std::string>& set,
+                                     const SourceText& source) {
+  const SizesAndRest split = split_sizes(read_model(source), set);
   if (!split.rest.empty())
     throw UsageError(
         fmt::format("--set {0}={1}: {0} is not a size of {2}\nhelp: `size` constants shape the "
-                    "code and are set "
-                    "here; parameters get their values at run time, with `hamgen run --set`",
+                    "code and are set here; parameters get their values at run time, with "
+                    "`hamgen run --set`, or with a scene, --scene NAME",
                     split.rest.front().first, split.rest.front().second, source.path));
   return split.sizes;
 }
 
 }  // namespace
 
-Request request_with_sizes(const MethodOptions& options, const SourceText& source) {
+Request request_of(const MethodOptions& options, const SceneOptions& scene,
+                   const SourceText& source) {
+  if (!scene.scene.empty()) {
+    Setting setting = read_setting(options, scene);
+    const SceneValues values = scene_values(setting.model, setting.scene);
+    take_gauge_at(values, setting.model, setting.request);
+    specialise(scene, values, {}, Observing::as_the_scene, setting);
+    return setting.request;
+  }
+  if (!scene.initial.empty())
+    throw UsageError("--initial changes a scene, but none is named\nhelp: add --scene NAME");
+  if (!scene.keep.empty())
+    throw UsageError(
+        "--keep is about what a scene does not need, but none is named\nhelp: without --scene "
+        "nothing is left out");
   Request request = request_of(options);
-  if (!options.set.empty()) request.sizes = sizes_of(options, source);
+  if (!scene.set.empty()) request.sizes = sizes_of(scene.set, source);
   if (request.gauge == "locally-exact") {
     // Where a run without further options takes it.
     const Model model = read_request(source, request);
     if (!model.scenes.empty()) take_gauge_at(scene_values(model, {}), model, request);
   }
   return request;
+}
+
+void specialise(const SceneOptions& options, const SceneValues& values,
+                const std::vector<std::string>& varied, Observing observing, Setting& setting) {
+  const Model& model = setting.model;
+  std::set<std::string> known;
+  for (const auto& names : {element_names(model.coordinates), element_names(model.momenta),
+                            element_names(model.parameters)}) {
+    for (const std::string& name : names) {
+      known.insert(name);
+      known.insert(name.substr(0, name.find('[')));
+    }
+  }
+  SceneFacts facts{.asked = setting.scene,
+                   .values = values,
+                   .kept = names_computed_from(model, setting.scene, varied)};
+  if (observing == Observing::everything) {
+    facts.values.observe.clear();
+    facts.values.formulas.clear();
+  }
+  for (const std::string& list : options.keep) {
+    for (const std::string_view piece : outermost_pieces(list)) {
+      const std::string name(without_blanks(piece));
+      if (!known.contains(name)) {
+        const std::string near = nearest(name, {known.begin(), known.end()});
+        throw UsageError(fmt::format("--keep {}: {} has no such variable or parameter{}", name,
+                                     model.name,
+                                     near.empty() ? "" : "; did you mean '" + near + "'?"));
+      }
+      facts.kept.insert(name);
+    }
+  }
+  if (!options.whole) setting.request.scene = std::move(facts);
 }
 
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request) {

@@ -49,7 +49,6 @@ struct MethodOptions {
   std::string scheme, alpha, beta, gamma, gauge, order, solver, scalar;
   std::vector<std::string> reference;  // NAME=VALUE,... of the gauge
   std::vector<std::string> fold;
-  std::vector<std::string> set;  // NAME=VALUE
 };
 
 // Adds MODEL and the method options, without --set, whose help differs between commands.
@@ -65,10 +64,16 @@ struct SceneOptions {
   std::string scene;
   std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
   std::optional<std::string> h, steps;    // in place of the scene's
+  bool whole = false;                     // leave in what the scene does not need
+  std::vector<std::string> keep;          // NAME,...
+  std::optional<std::string> observe;     // in place of the scene's
 };
 
-// Adds --scene, --set and --initial.
+// Adds --scene, --set, --initial, --whole and --keep.
 void add_scene_options(CLI::App& command, SceneOptions& options);
+void add_observe_option(CLI::App& command, SceneOptions& options);
+// The same for a command that runs nothing, where --set without --scene is for sizes.
+void add_scene_choice(CLI::App& command, SceneOptions& options);
 // Adds --h of one step size.
 void add_step_option(CLI::App& command, SceneOptions& options);
 
@@ -98,8 +103,15 @@ struct SizesAndRest {
 [[nodiscard]] Request request_of(const MethodOptions& options);
 // Everything a run is read from.  Throws UsageError and ModelError, not for what the scene lacks.
 [[nodiscard]] Setting read_setting(const MethodOptions& method, const SceneOptions& scene);
-// The request of a command that knows no run-time values: --set is for sizes only.
-[[nodiscard]] Request request_with_sizes(const MethodOptions& options, const SourceText& source);
+// The request of a command that runs nothing.  With a scene by name it is for that scene; without
+// it knows no run-time values, and --set is for sizes only.
+[[nodiscard]] Request request_of(const MethodOptions& options, const SceneOptions& scene,
+                                 const SourceText& source);
+// Makes the request one for the setting's scene, unless --whole asks for more; `varied` are names
+// that get other values too, and with them all that the scene computes from them.
+enum class Observing { as_the_scene, everything };
+void specialise(const SceneOptions& options, const SceneValues& values,
+                const std::vector<std::string>& varied, Observing observing, Setting& setting);
 // The `hamgen generate` command and the digest of the model's text: what an emitted header says of
 // its origin.
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request);

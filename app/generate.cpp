@@ -15,6 +15,7 @@ namespace {
 
 struct GenerateOptions {
   MethodOptions method;
+  SceneOptions scene;
   std::string output = "-";  // a directory, or standard output
   std::string format;
   std::string name_space;
@@ -67,7 +68,7 @@ int generate_files(const GenerateOptions& options) {
   if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   const SourceText source = read_source(options.method.model);
-  Request request = request_with_sizes(options.method, source);
+  Request request = request_of(options.method, options.scene, source);
   request.format = options.format;
   request.name_space = options.name_space;
   request.support = options.support;
@@ -90,7 +91,9 @@ Command add_generate(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
-  parser->add_option("--format", options->format, "cpp-header (default), cpp-plugin, c-header, cmake-package")
+  parser
+      ->add_option("--format", options->format,
+                   "cpp-header (default), cpp-plugin, c-header, cmake-package")
       ->type_name("NAME");
   parser
       ->add_option("--namespace", options->name_space,
@@ -104,16 +107,15 @@ Command add_generate(CLI::App& app) {
       ->add_option("--require", options->require,
                    "only if proved, as symplectic,symmetric,order:2,emitted-code")
       ->type_name("LIST");
-  parser->add_flag("--tangent", options->tangent, "emit the linearised step dZ/dz too");
+  parser->add_flag("--tangent", options->tangent, "");
   parser
       ->add_option("--watch-modified", options->watch_modified,
-                   "emit K terms of the modified Hamiltonian too")
+                   "emit dZ/dz too; K terms of the modified Hamiltonian")
       ->type_name("K");
   parser->add_flag("--check", options->check,
                    "compare with the files in DIRECTORY; 1 and a diff if they differ");
   add_method_options(*parser, options->method);
-  add_repeated(*parser, "--set", options->method.set, "another value for a size of the model")
-      ->type_name("SIZE=N");
+  add_scene_choice(*parser, options->scene);
   return {parser, [options] { return generate_files(*options); }};
 }
 

@@ -104,6 +104,7 @@ int report(const ReportOptions& options) {
   Request& request = setting.request;
   const SceneValues scene = complete_scene(model, setting.scene);
   take_gauge_at(scene, model, request);
+  specialise(options.scene, scene, {}, Observing::everything, setting);
   record_origin(options.method, source, request);
   const BenchMethod method = chosen_method(options, source, request);
   // With all parameters by their names, folded ones too.

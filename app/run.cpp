@@ -36,7 +36,7 @@ struct RunOptions {
   std::string every;
   std::string watch_modified;
   std::string output;
-  std::string keep;
+  std::string header;
   bool certify = false;
   bool json = false;
   bool quiet = false;
@@ -64,16 +64,18 @@ long record_distance(const RunOptions& options, const SceneValues& scene) {
 Columns columns_of(const PluginSource& plugin, const SceneValues& scene, bool wide) {
   Columns columns;
   columns.wide = wide;
-  columns.state = element_names(plugin.model.coordinates);
-  const std::vector<std::string> momenta = element_names(plugin.model.momenta);
-  columns.state.insert(columns.state.end(), momenta.begin(), momenta.end());
-  const auto is_observed = [&scene](const std::string& name) {
-    return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
-  };
-  columns.energy = is_observed("energy");
+  const bool parts = observes_parts(plugin.model, scene);
+  std::vector<std::string> state = element_names(plugin.model.coordinates);
+  std::ranges::move(element_names(plugin.model.momenta), std::back_inserter(state));
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (parts && !observes(scene, state[i])) continue;
+    columns.state.push_back(state[i]);
+    columns.state_places.push_back(i);
+  }
+  columns.energy = observes(scene, "energy");
   columns.has_time = std::ranges::any_of(plugin.model.coordinates, &Variable::is_time);
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
-    if (!is_observed(plugin.invariant_names[i])) continue;
+    if (!observes(scene, plugin.invariant_names[i])) continue;
     columns.invariants.push_back(plugin.invariant_names[i]);
     columns.places.push_back(i);
   }
@@ -97,8 +99,8 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
 // Writes the emitted header if asked to; returns where it is, or how to see it.
 std::string keep_header(const PluginSource& plugin, const Request& request,
                         const RunOptions& options) {
-  if (options.keep.empty()) return "print it with: " + request.command;
-  const std::filesystem::path path = std::filesystem::path(options.keep) / plugin.header.path;
+  if (options.header.empty()) return "print it with: " + request.command;
+  const std::filesystem::path path = std::filesystem::path(options.header) / plugin.header.path;
   runtime::atomic_write(path, plugin.header.text);
   return path.string();
 }
@@ -154,6 +156,10 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
+  // What is certified is the step of the model as it stands.
+  SceneOptions special = options.scene;
+  special.whole = special.whole || options.certify;
+  specialise(special, scene, {}, Observing::as_the_scene, setting);
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
@@ -176,7 +182,7 @@ int run(const RunOptions& options) {
   report.scene = &scene;
   const Clock::time_point begin = Clock::now();
   const PluginSource plugin = generate_plugin(
-      source, request, options.keep.empty() ? HeaderProof::left_out : HeaderProof::included);
+      source, request, options.header.empty() ? HeaderProof::left_out : HeaderProof::included);
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
@@ -205,9 +211,17 @@ int run(const RunOptions& options) {
   runtime::IntegrateOptions integrate_options;
   integrate_options.steps = *scene.steps;
   integrate_options.every = table ? every : 0;
-  integrate_options.end_at_jump = true;
+  integrate_options.watch_energy = watches_energy(plugin, scene);
+  integrate_options.end_at_jump = integrate_options.watch_energy;
   integrate_options.stop = &interrupt_flag();
-  if (table) integrate_options.on_record = [&table](const auto& record) { table->add(record); };
+  if (table) {
+    integrate_options.on_record = [&](runtime::Record record) {
+      const std::vector<runtime::Wide> state =
+          whole_state(plugin, scene, {record.state.begin(), record.state.end()});
+      record.state = state;
+      table->add(record);
+    };
+  }
   if (!options.quiet)
     integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
   report.summary = runtime::integrate(integrator, integrate_options);
@@ -224,7 +238,7 @@ int run(const RunOptions& options) {
                                   .on_progress = progress_bars(options.quiet),
                                   .stop = &interrupt_flag()});
   }
-  report.state = integrator.state();
+  report.state = whole_state(plugin, scene, integrator.state());
   report.final_invariants = integrator.invariants();
   if (table) {
     table->publish(outcome_text(report));
@@ -241,20 +255,21 @@ Command add_run(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
-  add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "their number; default: the scene's")
-      ->type_name("N");
+  add_observe_option(*parser, options->scene);
+  parser->add_option("--h", options->scene.h, "")->type_name("H");
+  parser->add_option("--steps", options->scene.steps, "")->type_name("N");
   parser
-      ->add_option("--every", options->every, "record every K-th step; default: the scene's, or 1")
+      ->add_option("--every", options->every,
+                   "step size, their number, rows every K steps; default: the scene's")
       ->type_name("K");
   parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
       ->type_name("FILE");
   parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
   parser->add_flag("--certify", options->certify,
                    "K terms of the modified Hamiltonian; how near to the exact map");
-  parser->add_flag("--json", options->json, "the result as JSON on standard output");
-  parser->add_flag("--quiet", options->quiet, "no summary, warnings or progress");
-  parser->add_option("--keep", options->keep, "write the emitted header there")
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the result as JSON; no summary, warnings, progress");
+  parser->add_option("--header", options->header, "write the emitted header there")
       ->type_name("DIRECTORY");
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");

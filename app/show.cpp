@@ -15,12 +15,12 @@ namespace {
 constexpr std::array<std::string_view, 6> stages = {"model", "mechanics", "equations",
                                                     "plan",  "program",   "origins"};
 
-int show(const MethodOptions& options, const std::string& stage) {
+int show(const MethodOptions& options, const SceneOptions& scene, const std::string& stage) {
   if (std::ranges::find(stages, stage) == stages.end())
     throw UsageError(fmt::format("--stage {}: no such stage\nhelp: the stages are {}", stage,
                                  fmt::join(stages, ", ")));
   const SourceText source = read_source(options.model);
-  std::string text = show_stage(source, request_with_sizes(options, source), stage);
+  std::string text = show_stage(source, request_of(options, scene, source), stage);
   if (!text.ends_with('\n')) text += '\n';
   print(text);
   return done;
@@ -30,18 +30,17 @@ int show(const MethodOptions& options, const std::string& stage) {
 
 Command add_show(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
+  const auto scene = std::make_shared<SceneOptions>();
   const auto stage = std::make_shared<std::string>("plan");
   CLI::App* parser =
       app.add_subcommand("show", "prints what one stage of the pipeline makes of a model");
   parser
       ->add_option("--stage", *stage,
-                   "model, mechanics, equations, plan (default), program, or "
-                   "origins, the program with where its lines come from")
+                   "model, mechanics, equations, plan (default), program, origins")
       ->type_name("NAME");
   add_method_options(*parser, *options);
-  add_repeated(*parser, "--set", options->set, "another value for a size of the model")
-      ->type_name("SIZE=N");
-  return {parser, [options, stage] { return show(*options, *stage); }};
+  add_scene_choice(*parser, *scene);
+  return {parser, [options, scene, stage] { return show(*options, *scene, *stage); }};
 }
 
 }  // namespace hamgen::app

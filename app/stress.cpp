@@ -70,6 +70,10 @@ int run_stress(const StressOptions& options) {
   request.axes = read_axes(options.vary);
   request.setting =
       read_setting(with_run_time_members(options.method, request.axes), options.scene);
+  std::vector<std::string> varied;
+  for (const StressAxis& axis : request.axes) varied.push_back(axis.label);
+  specialise(options.scene, complete_scene(request.setting.model, request.setting.scene), varied,
+             Observing::everything, request.setting);
   const StressMap map = stress_map(request);
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
@@ -106,8 +110,8 @@ Command add_stress(CLI::App& app) {
       ->add_option("--plot", options->plot,
                    "the cells as CSV; a picture, .svg or .png, and its script .gp")
       ->type_name("FILE");
-  parser->add_flag("--json", options->json, "the cells as JSON on standard output");
-  parser->add_flag("--quiet", options->quiet, "no progress, no names of files");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the cells as JSON; no progress, no names of files");
   add_method_options(*parser, options->method);
   return {parser, [options] { return run_stress(*options); }};
 }

@@ -102,6 +102,8 @@ Setting verify_setting(const VerifyOptions& options) {
   const SceneValues scene = scene_values(setting.model, setting.scene);
   if (!scene.steps) setting.scene.steps = "1000";
   take_gauge_at(scene, setting.model, setting.request);
+  if (!options.scene.scene.empty())
+    specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
   setting.request.tangent = options.measure;  // then it is read back as well
   return setting;
 }
@@ -137,7 +139,8 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    if (finding.property == "emitted code" && is_refuted(finding)) holds = false;
+    const bool of_code = finding.property == "emitted code" || finding.property == "specialised";
+    if (of_code && is_refuted(finding)) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }
@@ -163,6 +166,7 @@ Command add_verify(CLI::App& app) {
   parser->add_option("--terms", options->terms, "print K terms of the modified Hamiltonian")
       ->type_name("K");
   add_scene_options(*parser, options->scene);
+  add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");

@@ -8,8 +8,7 @@
 //             q[i])^3/3)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
-//   proved    symplectic, symmetric, order 2
-//   tested    emitted code
+//   proved    symplectic, symmetric, order 2, emitted code
 //   solve     banded Newton of size 32; momenta torn out, in loops
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
@@ -116,11 +115,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_fa46462b::float64 {
+namespace hamgen_65f38a64::float64 {
 using Real = double;
 
-#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
-#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_65F38A64_FLOAT64_STEP_REPORT
+#define HAMGEN_65F38A64_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -130,15 +129,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_VOCABULARY
-#define HAMGEN_FA46462B_FLOAT64_VOCABULARY
+#ifndef HAMGEN_65F38A64_FLOAT64_VOCABULARY
+#define HAMGEN_65F38A64_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
-#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#ifndef HAMGEN_65F38A64_FLOAT64_TWO_SUM
+#define HAMGEN_65F38A64_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -148,8 +147,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_BAND_MATRIX
-#define HAMGEN_FA46462B_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_65F38A64_FLOAT64_BAND_MATRIX
+#define HAMGEN_65F38A64_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -214,14 +213,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_VERDICT
-#define HAMGEN_FA46462B_FLOAT64_VERDICT
+#ifndef HAMGEN_65F38A64_FLOAT64_VERDICT
+#define HAMGEN_65F38A64_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
-#define HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
+#define HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -241,6 +240,12 @@ enum class Verdict { go_on, done, failed };
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment
 // itself where it is larger than bend, and count 2^10 times: for a force that has grown since, and
 // for an increment across the motion or in unknowns that move less than others.
+//
+// Note [a prediction is followed while increments halve]
+// They do where Newton and Kantorovich's theorem promises a solution, which then is not further
+// away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
+// come to another solution of the equations than the motion's: that is a failure, and the step is
+// tried again from the state.
 struct Motion {
   Real move = 0;
   Real bend = 0;
@@ -251,12 +256,15 @@ struct NewtonRule {
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
+  bool predicted = false;
   Motion motion;
 
   static Real power(Real size) { return Power == 2 ? size * size : size; }
-  void begin() {
+  // From a prediction, or else from the state itself.
+  void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
+    predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>
@@ -289,8 +297,10 @@ struct NewtonRule {
     if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
+    const bool astray =
+        predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
     previous = size;
-    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+    return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {
@@ -300,8 +310,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_HISTORY
-#define HAMGEN_FA46462B_FLOAT64_HISTORY
+#ifndef HAMGEN_65F38A64_FLOAT64_HISTORY
+#define HAMGEN_65F38A64_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -362,8 +372,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_FORGET
-#define HAMGEN_FA46462B_FLOAT64_FORGET
+#ifndef HAMGEN_65F38A64_FLOAT64_FORGET
+#define HAMGEN_65F38A64_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -373,14 +383,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_fa46462b::float64
+}  // namespace hamgen_65f38a64::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xe023ecab
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xc143936c
 namespace fput::implicit_midpoint {
-inline namespace emitted_e023ecab {
+inline namespace emitted_c143936c {
 
-namespace numerics = ::hamgen_fa46462b::float64;
+namespace numerics = ::hamgen_65f38a64::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::BandMatrix,
     numerics::Verdict, numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -452,7 +462,7 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
     for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
   }
   // Newton's iteration on what the equations lack.
-  start.rule.begin();
+  start.rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
     for (int i = 0; i < n; ++i) {
@@ -583,9 +593,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_e023ecab
+}  // namespace emitted_c143936c
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xe023ecab
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xc143936c
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

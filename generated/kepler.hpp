@@ -92,11 +92,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_fa46462b::float64 {
+namespace hamgen_65f38a64::float64 {
 using Real = double;
 
-#ifndef HAMGEN_FA46462B_FLOAT64_STEP_REPORT
-#define HAMGEN_FA46462B_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_65F38A64_FLOAT64_STEP_REPORT
+#define HAMGEN_65F38A64_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -106,15 +106,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_VOCABULARY
-#define HAMGEN_FA46462B_FLOAT64_VOCABULARY
+#ifndef HAMGEN_65F38A64_FLOAT64_VOCABULARY
+#define HAMGEN_65F38A64_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_TWO_SUM
-#define HAMGEN_FA46462B_FLOAT64_TWO_SUM
+#ifndef HAMGEN_65F38A64_FLOAT64_TWO_SUM
+#define HAMGEN_65F38A64_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -124,14 +124,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_VERDICT
-#define HAMGEN_FA46462B_FLOAT64_VERDICT
+#ifndef HAMGEN_65F38A64_FLOAT64_VERDICT
+#define HAMGEN_65F38A64_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
-#define HAMGEN_FA46462B_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
+#define HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -151,6 +151,12 @@ enum class Verdict { go_on, done, failed };
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment
 // itself where it is larger than bend, and count 2^10 times: for a force that has grown since, and
 // for an increment across the motion or in unknowns that move less than others.
+//
+// Note [a prediction is followed while increments halve]
+// They do where Newton and Kantorovich's theorem promises a solution, which then is not further
+// away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
+// come to another solution of the equations than the motion's: that is a failure, and the step is
+// tried again from the state.
 struct Motion {
   Real move = 0;
   Real bend = 0;
@@ -161,12 +167,15 @@ struct NewtonRule {
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
+  bool predicted = false;
   Motion motion;
 
   static Real power(Real size) { return Power == 2 ? size * size : size; }
-  void begin() {
+  // From a prediction, or else from the state itself.
+  void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
+    predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>
@@ -199,8 +208,10 @@ struct NewtonRule {
     if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
+    const bool astray =
+        predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
     previous = size;
-    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+    return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {
@@ -210,8 +221,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_HISTORY
-#define HAMGEN_FA46462B_FLOAT64_HISTORY
+#ifndef HAMGEN_65F38A64_FLOAT64_HISTORY
+#define HAMGEN_65F38A64_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -272,8 +283,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_FA46462B_FLOAT64_FORGET
-#define HAMGEN_FA46462B_FLOAT64_FORGET
+#ifndef HAMGEN_65F38A64_FLOAT64_FORGET
+#define HAMGEN_65F38A64_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -283,14 +294,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_fa46462b::float64
+}  // namespace hamgen_65f38a64::float64
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x2bb3401e
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x63f55994
 namespace kepler::implicit_midpoint {
-inline namespace emitted_2bb3401e {
+inline namespace emitted_63f55994 {
 
-namespace numerics = ::hamgen_fa46462b::float64;
+namespace numerics = ::hamgen_65f38a64::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -332,7 +343,7 @@ struct Start {
   Real q1_bar = start.known ? start.value[0] : q1;
   Real q2_bar = start.known ? start.value[1] : q2;
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
-  start.rule_0.begin();
+  start.rule_0.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     const Real t1 = q1_bar * q1_bar;
     const Real t2 = q2_bar * q2_bar;
@@ -493,9 +504,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_2bb3401e
+}  // namespace emitted_63f55994
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x2bb3401e
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x63f55994
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

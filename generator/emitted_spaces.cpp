@@ -44,7 +44,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string system_space(const std::string& system, const Request& request) {
+std::string system_space(const std::string& system, const Request& request,
+                         const std::string& scene) {
   std::vector<std::string> changes;
   const ScalarType& scalar = find_scalar(request.scalar);
   if (scalar.digits != 53) changes.emplace_back(scalar.space);
@@ -52,6 +53,7 @@ std::string system_space(const std::string& system, const Request& request) {
     changes.push_back(fmt::format("{}_{}", name, value));
   }
   for (const std::string& name : request.fold) changes.push_back("folded_" + name);
+  if (!scene.empty()) changes.push_back(scene);
   const std::string space = namespace_identifier(system);
   return changes.empty() ? space : space + "::" + identifier(joined(changes));
 }
@@ -87,10 +89,11 @@ std::string method_space(const Scheme& scheme, const Request& request) {
 
 }  // namespace
 
-EmittedSpaces emitted_spaces(const StepEquations& equations, const Request& request) {
+EmittedSpaces emitted_spaces(const StepEquations& equations, const Request& request,
+                             const std::string& scene) {
   const std::string& wanted = request.name_space;
   if (wanted.empty()) {
-    return {system_space(equations.mechanics.name, request),
+    return {system_space(equations.mechanics.name, request, scene),
             method_space(equations.scheme, request)};
   }
   require_namespace(wanted);

@@ -21,7 +21,9 @@
 #include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
+#include "generator/schemes/read_gauge.hpp"
 #include "generator/solvers/solve_plan.hpp"
+#include "generator/verify/specialised.hpp"
 
 namespace hamgen {
 
@@ -112,26 +114,34 @@ bool shares_support(const Request& request) {
   throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
 }
 
-EmitOptions emit_options(const SourceText& source, const Program& program, const Request& request) {
+// The stages, in order: this is the only place that knows it.
+struct Stages {
+  Model model;  // as the request reads it
+  FoldedModel folded;
+  Specialised system;
+  StepEquations equations;
+  SolvePlan plan;
+  Program program;
+};
+
+bool is_something_left_out(const Stages& stages) {
+  return !stages.folded.folding.left_out.empty() || !stages.system.left_out.empty();
+}
+
+EmitOptions emit_options(const SourceText& source, const Stages& stages, const Request& request) {
+  const Program& program = stages.program;
+  const bool is_special = request.scene && is_something_left_out(stages);
   return {.file_name = stem(source.path),
           .command = request.command,
           .model_path = source.path,
           .model_digest = request.model_digest,
           .scalar = request.scalar,
-          .spaces = emitted_spaces(program.plan.equations, request),
+          .spaces = emitted_spaces(program.plan.equations, request,
+                                   is_special ? request.scene->values.name : ""),
           .tangent = request.tangent && !without_tangent(program),
           .shared_support = shares_support(request),
           .watched_step = request.step};
 }
-
-// The stages, in order: this is the only place that knows it.
-struct Stages {
-  Model model;
-  Mechanics mechanics;
-  StepEquations equations;
-  SolvePlan plan;
-  Program program;
-};
 
 std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme& scheme,
                                        int count) {
@@ -193,53 +203,147 @@ void drop_unused_parameters(StepEquations& equations) {
                 [&](const Quantity& parameter) { return !used.contains(parameter.name); });
 }
 
+// Names of the model that the scheme's options use: they have to keep their meaning there.
+std::set<std::string> named_by_scheme(const Model& model, const Request& request) {
+  const std::string texts =
+      request.alpha + "," + request.beta + "," + request.gamma + "," + request.gauge;
+  std::set<std::string> names;
+  for (const Parameter& parameter : model.parameters) {
+    if (mentions(texts, parameter.name)) names.insert(parameter.name);
+  }
+  if (request.gauge != "locally-exact") return names;
+  // It is exact with the parameters of its reference.
+  const Values reference = read_reference(model, request.reference);
+  const std::vector<std::string> elements = element_names(model.parameters);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const bool is_element = elements[i].find('[') != std::string::npos;
+    if (is_element || reference.at(elements[i]) != request.scene->values.parameters[i])
+      names.insert(elements[i]);
+  }
+  return names;
+}
+
+FoldedModel fold_for_scene(const Model& model, const Request& request) {
+  if (!request.scene) return {model, {}};
+  SceneFacts scene = *request.scene;
+  scene.kept.merge(named_by_scheme(model, request));
+  return fold(observed(model, scene.values), scene, request.fold);
+}
+
 // Loops know one set of parameters for all degrees of freedom.
-Mechanics derive_for(const Model& model, const Request& request) {
-  const bool keep_sums =
-      request.gauge.empty() && !request.observe_curvature &&
-      (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
-  return derive(model, keep_sums);
+bool may_keep_sums(const Request& request) {
+  return request.gauge.empty() && !request.observe_curvature &&
+         (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
+}
+
+Specialised make_system(const Model& model, const Request& request, bool keep_sums) {
+  Mechanics mechanics = derive(model, keep_sums);
+  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
+  Scheme scheme = choose_scheme(model, mechanics, request);
+  return specialise(model, std::move(mechanics), std::move(scheme), request.scene);
 }
 
 Stages run_stages(const SourceText& source, const Request& request) {
   Model model = read_request(source, request);
   require_defaults_in_range(model, find_scalar(request.scalar));
-  Mechanics mechanics = derive_for(model, request);
-  if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
-  const Scheme scheme = choose_scheme(model, mechanics, request);
+  FoldedModel folded = fold_for_scene(model, request);
+  Specialised system = make_system(folded.model, request, may_keep_sums(request));
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
-  StepEquations equations = discretise(mechanics, scheme, hessian);
+  StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
   if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
     // Eigen does not know quad numbers: everything is written out instead.
-    mechanics = derive(model, false);
-    equations = discretise(mechanics, choose_scheme(model, mechanics, request), hessian);
+    system = make_system(folded.model, request, false);
+    equations = discretise(system.mechanics, system.scheme, hessian);
     plan = plan_solve(equations, request.solver);
   }
   drop_unused_parameters(plan.equations);
   equations.mechanics.parameters = plan.equations.mechanics.parameters;
-  mechanics.parameters = plan.equations.mechanics.parameters;
+  system.mechanics.parameters = plan.equations.mechanics.parameters;
+  std::vector<std::string> left_out = folded.folding.left_out;
+  left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
+  plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
   Program program = build_program(plan);
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0) require_solved_step(request);
-  if (request.watch_modified > 0)
-    watch_modified(program, modified_terms(mechanics, scheme, request.watch_modified));
-  return {std::move(model), std::move(mechanics), std::move(equations), std::move(plan),
-          std::move(program)};
+  if (request.watch_modified > 0) {
+    watch_modified(program,
+                   modified_terms(system.mechanics, system.scheme, request.watch_modified));
+  }
+  return {std::move(model),     std::move(folded), std::move(system),
+          std::move(equations), std::move(plan),   std::move(program)};
 }
 
-Proof prove(const Stages& stages, const std::optional<SceneValues>& scene = {}) {
+Expression written_out(const Stages& stages) {
+  const Specialised& system = stages.system;
+  return system.mechanics.keeps_sums()
+             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
+             : system.mechanics.energy;
+}
+
+SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
+                         long size) {
+  request.sizes[constant] = size;
+  if (request.scene) {
+    SceneValues values = scene_values(read_request(source, request), request.scene->asked);
+    values.observe = request.scene->values.observe;
+    values.formulas = request.scene->values.formulas;
+    request.scene->values = std::move(values);
+  }
+  Stages stages = run_stages(source, request);
+  Expression hamiltonian = written_out(stages);
+  return {size, std::move(stages.system.mechanics), std::move(stages.equations.scheme),
+          std::move(stages.program), std::move(hamiltonian)};
+}
+
+// Of a large system in loops: its largest size as small as loops are made of, and the next one.
+// Empty where the model has no such sizes: a list of values fits one of them only.
+std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
+                                              const Stages& stages) {
+  if (!stages.system.mechanics.keeps_sums() ||
+      stages.system.mechanics.degrees_of_freedom <= kMostLookedAt)
+    return {};
+  const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
+  constexpr long size = kMostWrittenOut + 1;
+  if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
+  const auto made_by = [&](const Request& wish) {
+    return SmallerSystems{largest->name, largest->value,
+                          sized_system(source, wish, largest->name, size),
+                          sized_system(source, wish, largest->name, size + 1)};
+  };
+  const auto routines = [](const Program& program) { return step_code(program).routines.size(); };
+  try {
+    SmallerSystems smaller = made_by(request);
+    // Where Newton's matrix is too large the larger system is left without it.
+    if (request.solver.empty() && routines(smaller.first.program) > routines(stages.program)) {
+      Request without_matrix = request;
+      without_matrix.solver = "fixed-point";
+      smaller = made_by(without_matrix);
+    }
+    const bool in_loops =
+        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
+    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+Proof prove(const SourceText& source, const Request& request, const Stages& stages,
+            const std::optional<SceneValues>& scene = {}) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
-  const Expression hamiltonian = stages.mechanics.keeps_sums()
-                                     ? written_out_hamiltonian(stages.model)
-                                     : stages.mechanics.energy;
-  return verify(stages.mechanics, stages.equations.scheme, stages.program, hamiltonian, around);
+  Proof proof = verify(stages.system.mechanics, stages.equations.scheme, stages.program,
+                       written_out(stages), around, smaller_systems(source, request, stages));
+  if (request.scene && is_something_left_out(stages))
+    proof.push_back(
+        prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));
+  return proof;
 }
 
 // What the first lines of a header say of the step.
-void add_proof(const Stages& stages, const Request& request, EmitOptions& options) {
-  const Proof proof = prove(stages);
+void add_proof(const SourceText& source, const Stages& stages, const Request& request,
+               EmitOptions& options) {
+  const Proof proof = prove(source, request, stages);
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -282,11 +386,11 @@ Model read_request(const SourceText& source, const Request& request) {
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  EmitOptions options = emit_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages, request);
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  add_proof(stages, request, options);
+  add_proof(source, stages, request, options);
   const NamedFormat& format = find_format(request.format);
   return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
@@ -299,7 +403,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "plan") return to_text(stages.plan);
   if (stage == "program") return to_text(step_code(stages.program));
   if (stage == "origins") {
-    return text_with_origins(step_code(stages.program), stages.mechanics.terms);
+    return text_with_origins(step_code(stages.program), stages.system.mechanics.terms);
   }
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program, origins", stage));
@@ -307,7 +411,7 @@ std::string show_stage(const SourceText& source, const Request& request, const s
 
 void check_step(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  static_cast<void>(header_text(stages, emit_options(source, stages.program, request), request));
+  static_cast<void>(header_text(stages, emit_options(source, stages, request), request));
 }
 
 std::vector<Expression> modified_hamiltonian(const SourceText& source, const Request& request,
@@ -337,7 +441,7 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
 
 Proof verify_step(const SourceText& source, const Request& request,
                   const std::optional<SceneValues>& scene) {
-  return prove(run_stages(source, request), scene);
+  return prove(source, request, run_stages(source, request), scene);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
@@ -346,7 +450,7 @@ std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Reque
 
 Scheme request_scheme(const SourceText& source, const Request& request) {
   const Model model = read_request(source, request);
-  return choose_scheme(model, derive_for(model, request), request);
+  return choose_scheme(model, derive(model, may_keep_sums(request)), request);
 }
 
 StepCode make_step_code(const SourceText& source, const Request& request) {
@@ -355,10 +459,13 @@ StepCode make_step_code(const SourceText& source, const Request& request) {
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
   Stages stages = run_stages(source, request);
-  EmitOptions options = emit_options(source, stages.program, request);
+  EmitOptions options = emit_options(source, stages, request);
   PluginSource plugin;
-  plugin.text = plugin_text(stages, options, request);
-  if (proof == HeaderProof::included) add_proof(stages, request, options);
+  // What is compiled does not depend on values that are given at run time.
+  EmitOptions anonymous = options;
+  anonymous.command.clear();
+  plugin.text = plugin_text(stages, anonymous, request);
+  if (proof == HeaderProof::included) add_proof(source, stages, request, options);
   plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
@@ -368,12 +475,20 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   plugin.order = stages.equations.scheme.order;
   plugin.solver = stages.plan.solver;
   plugin.left_out = stages.plan.left_out;
-  for (const Quantity& parameter : stages.mechanics.parameters) {
+  for (const Quantity& parameter : stages.system.mechanics.parameters) {
     plugin.parameter_names.push_back(parameter.name);
   }
+  plugin.kept = stages.system.kept;
+  const Unobserved& left = stages.system.left;
+  plugin.unobserved = left.cyclic;
+  for (const int i : left.dropped)
+    plugin.unobserved.insert(plugin.unobserved.end(),
+                             {i, stages.system.whole.degrees_of_freedom + i});
+  plugin.whole_energy = left.dropped.empty();
+  plugin.for_scene = request.scene.has_value();
   plugin.needs_energy_parameter = uses_energy_parameter(stages.equations);
   if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");
-  for (const NamedExpression& invariant : stages.mechanics.invariants) {
+  for (const NamedExpression& invariant : stages.system.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);
   }
   for (const int power : stages.program.modified_powers)

@@ -14,6 +14,7 @@
 #include "generator/language/scene.hpp"
 #include "generator/program/step_code.hpp"
 #include "generator/schemes/scheme.hpp"
+#include "generator/specialise/specialisation.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
@@ -47,6 +48,8 @@ struct Request {
   // as functions of h, which a plugin adds to its invariants at this step.
   int watch_modified = 0;
   Rational step;
+  // The scene the integrator is made for: what that does not need is left out.
+  std::optional<SceneFacts> scene;
   std::string command;       // as the user typed it, for the header; may be empty
   std::string model_digest;  // SHA-256 of the model's text, for the header; may be empty
 };
@@ -103,6 +106,12 @@ struct PluginSource {
   std::vector<std::string> left_out;         // what the planner left out and why
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
+  // The degrees of freedom of the model that the step has, in their order.  Variables of the others
+  // rest where they begin, but these, by their position in the state, which nobody observes.
+  std::vector<int> kept;
+  std::vector<int> unobserved;
+  bool whole_energy = true;  // else that of the degrees of freedom that are kept
+  bool for_scene = false;    // some of the model's parameters may have the scene's values
   bool needs_energy_parameter = false;  // the last parameter is E0
   std::string without_tangent;          // why --tangent was not heeded
   std::vector<double> singular_steps;   // the scheme has poles at their multiples

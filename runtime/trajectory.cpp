@@ -50,13 +50,17 @@ class Pace {
 bool observe(const Integrator& integrator, const IntegrateOptions& options, bool due,
              RunSummary& summary) {
   const std::vector<Wide> state = integrator.state();
-  const Wide energy = integrator.energy();
-  if (!all_finite(state) || !std::isfinite(energy.hi)) return false;
-  if (!summary.energy) {
-    summary.energy =
-        EnergyStatistics{.initial = energy, .min = energy, .max = energy, .last = energy};
+  if (!all_finite(state)) return false;
+  Wide energy{.hi = std::numeric_limits<double>::quiet_NaN(), .lo = 0.0};
+  if (options.watch_energy) {
+    energy = integrator.energy();
+    if (!std::isfinite(energy.hi)) return false;
+    if (!summary.energy) {
+      summary.energy =
+          EnergyStatistics{.initial = energy, .min = energy, .max = energy, .last = energy};
+    }
+    include(*summary.energy, {.min = energy, .max = energy, .last = energy});
   }
-  include(*summary.energy, {.min = energy, .max = energy, .last = energy});
   if (!due) return true;
   ++summary.records;
   if (!options.on_record) return true;
@@ -98,14 +102,15 @@ double error_of(const EnergyRange& energy, const Wide& initial) {
 // steps are repeated one by one.
 class Steps {
  public:
-  Steps(Integrator& integrator, bool end_at_jump)
+  Steps(Integrator& integrator, const IntegrateOptions& options)
       : integrator_(integrator),
-        limit_(end_at_jump ? integrator.judge().jump_limit()
-                           : std::numeric_limits<double>::infinity()) {}
+        watches_(options.watch_energy),
+        limit_(options.end_at_jump ? integrator.judge().jump_limit()
+                                   : std::numeric_limits<double>::infinity()) {}
 
   // A step that jumps is not done; `jump` is the energy error after it.
   Report advance(long long steps, std::optional<double>& jump) {
-    const Report report = integrator_.advance(steps, true);
+    const Report report = integrator_.advance(steps, watches_);
     if (!report.energy) return report;
     if (const double error = error_of(*report.energy, judge().energy()); !(error > limit_)) {
       largest_ = std::max(largest_, error);
@@ -149,6 +154,7 @@ class Steps {
   }
 
   Integrator& integrator_;
+  bool watches_;
   double limit_;          // of the energy error
   double largest_ = 0.0;  // of the steps done
 };
@@ -192,7 +198,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   }
   RunSummary summary;
   summary.energy_scale = integrator.judge().energy_scale();
-  Steps plugin(integrator, options.end_at_jump);
+  Steps plugin(integrator, options);
   const Clock::time_point begin = Clock::now();
   Clock::time_point last_look = begin;
   double last_report = 0.0;

@@ -15,7 +15,7 @@ struct Record {
   long long step = 0;
   double time = 0.0;                 // step * h, from 0
   std::span<const Wide> state;       // 2n values: q then p; all finite
-  Wide energy;                       // H of that state; finite
+  Wide energy;                       // H of that state; finite if it is watched
   std::span<const Wide> invariants;  // as many as the model has; these may be not finite
 };
 
@@ -29,6 +29,7 @@ struct Progress {
 struct IntegrateOptions {
   long long steps = 0;
   long long every = 0;       // a record at step 0 and after each so many steps; 0 for no records
+  bool watch_energy = true;  // else H is not evaluated, and nothing jumps
   bool end_at_jump = false;  // see Note [jumps]
   std::function<void(const Record&)> on_record;
   std::function<void(const Progress&)> on_progress;  // about once an interval, and at the end
@@ -55,7 +56,7 @@ struct RunSummary {
   long long iterations = 0;
   int last_iterations = 0;  // of the step that failed, or the last one
   std::optional<double> last_increment;
-  std::optional<EnergyStatistics> energy;  // empty if H of the initial state is not finite
+  std::optional<EnergyStatistics> energy;  // empty if not watched or not finite at the start
   double energy_scale = 0.0;               // see Judge
   std::optional<double> jump;              // the energy error after the step that jumped
   long long records = 0;

@@ -34,10 +34,10 @@ struct Rule {
 
 // The stages as one, and the values that go in and come out.
 std::vector<std::string> with_generator_values(std::vector<std::string> folders) {
-  folders.insert(folders.end(),
-                 {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
-                  "generator/language/", "generator/mechanics/", "generator/schemes/",
-                  "generator/verify/", "generator/formats/scalar.hpp", "runtime/"});
+  folders.insert(folders.end(), {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
+                                 "generator/language/", "generator/mechanics/",
+                                 "generator/schemes/", "generator/specialise/", "generator/verify/",
+                                 "generator/formats/scalar.hpp", "runtime/"});
   return folders;
 }
 
@@ -61,6 +61,11 @@ const std::vector<Rule>& rules() {
       {"generator/schemes/matrix_function.cpp",
        {"generator/schemes/", "generator/mechanics/", "generator/algebra/", "generator/base/"},
        {ginac, eigen, other}},
+      // What a scene does not need, left out.
+      {"generator/specialise/",
+       {"generator/specialise/", "generator/schemes/", "generator/mechanics/",
+        "generator/language/", "generator/algebra/", "generator/base/"},
+       {fmt, ginac}},
       {"generator/equations/",
        {"generator/equations/", "generator/schemes/", "generator/mechanics/", "generator/language/",
         "generator/algebra/", "generator/base/"},
@@ -88,8 +93,9 @@ const std::vector<Rule>& rules() {
         "generator/algebra/exact.hpp", "generator/algebra/functions.hpp", "generator/base/"},
        {fmt}},
       {"generator/verify/",
-       {"generator/verify/", "generator/program/", "generator/equations/", "generator/schemes/",
-        "generator/mechanics/", "generator/language/", "generator/algebra/", "generator/base/"},
+       {"generator/specialise/", "generator/verify/", "generator/program/", "generator/equations/",
+        "generator/schemes/", "generator/mechanics/", "generator/language/", "generator/algebra/",
+        "generator/base/"},
        {fmt, ginac}},
       // Eigenvalues of the linear part.
       {"generator/verify/linear_",
@@ -214,7 +220,7 @@ std::map<std::string, std::vector<Include>> read_tree() {
 // specialisation of a template is no type of its own.
 std::vector<std::string> types_of(const std::string& text) {
   static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]+) \{|)"
-                               R"((?:struct|class|enum class|enum) (\w+)\b(?!<)[^;\n]*\{))");
+                               R"((?:struct|class|enum class|enum) (\w+)\b(?!<|::)[^;\n]*\{))");
   std::vector<std::string> found;
   std::string space;
   for (std::sregex_iterator match(text.begin(), text.end(), line), end; match != end; ++match) {
@@ -373,7 +379,8 @@ TEST(Architecture, ATypeHasOneDefinition) {
 TEST(Architecture, TypesAreReadWithTheirNamespace) {
   const std::string text =
       "namespace hamgen {\nstruct Model;\nstruct Model {  // one\n  struct Inner {};\n};\n"
-      "enum class Kind : int { a };\ntemplate <>\nstruct Many<Kind> {\n};\n}\n"
+      "enum class Kind : int { a };\ntemplate <>\nstruct Many<Kind> {\n};\nstruct Model::Later "
+      "{\n};\n}\n"
       "namespace hamgen::app {\nclass Command : public X {\n};\n";
   const std::vector<std::string> expected = {"hamgen::Model", "hamgen::Kind",
                                              "hamgen::app::Command"};

@@ -32,6 +32,14 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--scalar", request.scalar);
   for (const std::string& name : request.fold) add("--fold", name);
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
+  if (request.scene) {
+    const SceneFacts& scene = *request.scene;
+    add("--scene", scene.values.name);
+    for (const auto& [name, value] : scene.asked.set) add("--set", name + "=" + value);
+    for (const auto& [name, value] : scene.asked.initial) add("--initial", name + "=" + value);
+    add("--observe", scene.asked.observe.value_or(""));
+    for (const std::string& name : scene.kept) add("--keep", name);
+  }
   if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
   if (request.support != "own") add("--support", request.support);  // the default

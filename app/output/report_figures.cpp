@@ -22,16 +22,17 @@ runtime::InitialValues starting_values(const BenchMethod& method, const SceneVal
   return initial_values(method.plugin, scene, *method.loaded.library);
 }
 
-// The states after each of the first steps, up to a failure.
-std::vector<std::vector<double>> orbit(const BenchMethod& method,
+// The states after each of the first steps, up to a failure, of all degrees of freedom.
+std::vector<std::vector<double>> orbit(const BenchMethod& method, const SceneValues& scene,
                                        const runtime::InitialValues& start, long steps) {
   std::vector<std::vector<double>> states;
   runtime::Integrator integrator(method.loaded.library, start);
   runtime::IntegrateOptions options;
   options.steps = steps;
   options.every = 1;
-  options.on_record = [&states](const runtime::Record& record) {
-    states.push_back(rounded({record.state.begin(), record.state.end()}));
+  options.on_record = [&](const runtime::Record& record) {
+    states.push_back(
+        rounded(whole_state(method.plugin, scene, {record.state.begin(), record.state.end()})));
   };
   static_cast<void>(runtime::integrate(integrator, options));
   return states;
@@ -80,7 +81,7 @@ std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scen
   const std::vector<std::string> p = element_names(model.momenta);
   const runtime::InitialValues start = starting_values(method, scene);
   const long steps = std::min(*scene.steps, kPortraitSteps);
-  const auto states = orbit(method, start, steps);
+  const auto states = orbit(method, scene, start, steps);
   const std::size_t n = q.size();
   const std::string what =
       fmt::format("the first {} steps of h = {}", steps, runtime::number_text(to_double(*scene.h)));
@@ -90,7 +91,7 @@ std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scen
     for (const double factor : {0.25, 0.5, 0.75}) {
       runtime::InitialValues smaller = start;
       for (runtime::Wide& value : smaller.state) value = {.hi = factor * value.hi};
-      phase.series.push_back(path(orbit(method, smaller, steps), 0, 1, 6));
+      phase.series.push_back(path(orbit(method, scene, smaller, steps), 0, 1, 6));
     }
     caption += " In light blue orbits from 1/4, 1/2 and 3/4 of the initial state.";
   }
@@ -162,7 +163,7 @@ PlotSeries error_over_time(const BenchMethod& method, const SceneValues& scene, 
   for (const std::vector<runtime::Wide>& exact : track) {
     if (integrator.advance(chunk, false).status != runtime::Status::done) break;
     time += to_double(*scene.h) * static_cast<double>(chunk);
-    series.points.push_back({time, distance(integrator.state(), exact)});
+    series.points.push_back({time, distance(integrator.state(), kept_state(method.plugin, exact))});
   }
   return series;
 }

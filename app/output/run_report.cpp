@@ -67,7 +67,8 @@ std::string numbers(const RunReport& report, std::size_t begin, std::size_t end)
   const std::size_t largest = is_wide(report) ? 2 : 4;
   std::string text;
   for (std::size_t i = begin; i < std::min(end, begin + largest); ++i)
-    text += (i == begin ? "" : ", ") + wide_text(state[i], report.scalar_digits);
+    text += (i == begin ? "" : ", ") +
+            (std::isnan(state[i].hi) ? "-" : wide_text(state[i], report.scalar_digits));
   return end > begin + largest ? text + ", ..." : text;
 }
 
@@ -77,6 +78,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string energy_text(const RunReport& report) {
+  if (!watches_energy(*report.plugin, *report.scene)) return "not observed";
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
   return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, last {:.3g}",
@@ -94,6 +96,10 @@ std::string time_text(const RunReport& report) {
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
 }
 
+bool is_formula(const std::string& name, const SceneValues& scene) {
+  return std::ranges::find(scene.formulas, name, &ObservedFormula::name) != scene.formulas.end();
+}
+
 std::string invariant_text(const RunReport& report, std::size_t i) {
   const std::string& name = report.plugin->invariant_names[i];
   const runtime::Wide before = report.initial_invariants[i];
@@ -101,6 +107,7 @@ std::string invariant_text(const RunReport& report, std::size_t i) {
   if (!std::isfinite(before.hi)) return name + " is not defined at the initial state";
   const std::string text = fmt::format("{} = {}; ", name, value_text(report, before));
   if (!std::isfinite(after.hi)) return text + "not defined at the last state";
+  if (is_formula(name, *report.scene)) return text + "last " + value_text(report, after);
   return text + fmt::format("last error {:.3g}", difference(after, before));
 }
 
@@ -161,6 +168,9 @@ Json invariants_json(const RunReport& report) {
     put(values, "initial", before, is_wide(report));
     put(values, "final", after, is_wide(report));
     values["final_error"] = number(difference(after, before));
+  }
+  for (const Invariant& each : report.plugin->model.invariants) {
+    if (!result.contains(each.name)) result[each.name] = nullptr;  // not observed
   }
   return result;
 }
@@ -227,8 +237,10 @@ std::string summary_text(const RunReport& report) {
   text += entry("solver", solver);
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
   text += entry("energy", energy_text(report));
-  for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i)
-    text += entry("invariant", invariant_text(report, i));
+  for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
+    const bool formula = is_formula(plugin.invariant_names[i], *report.scene);
+    text += entry(formula ? "observed" : "invariant", invariant_text(report, i));
+  }
   const std::size_t n = report.state.size() / 2;
   text += entry("last q", numbers(report, 0, n));
   text += entry("last p", numbers(report, n, 2 * n));

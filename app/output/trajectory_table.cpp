@@ -49,7 +49,8 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
 }
 
 void TrajectoryTable::add(const runtime::Record& record) {
-  values_.assign(record.state.begin(), record.state.end());
+  values_.clear();
+  for (const std::size_t place : columns_.state_places) values_.push_back(record.state[place]);
   if (columns_.energy) values_.push_back(record.energy);
   for (const std::size_t place : columns_.places) values_.push_back(record.invariants[place]);
   ++rows_;

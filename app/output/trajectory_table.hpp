@@ -14,7 +14,8 @@ namespace hamgen::app {
 // What a row holds besides step and t.  Of a wide scalar each value is in two columns, x and,
 // behind all of these, x_lo: it is their sum.
 struct Columns {
-  std::vector<std::string> state;  // names: q then p
+  std::vector<std::string> state;         // names: q then p
+  std::vector<std::size_t> state_places;  // of these in the record's state
   bool energy = true;
   bool has_time = false;                // H stands for H + p_t
   std::vector<std::string> invariants;  // names

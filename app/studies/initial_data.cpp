@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "app/studies/domain.hpp"
@@ -76,11 +77,36 @@ std::string undefined_component(const runtime::Library& library,
   return "";
 }
 
-void require_defined(const Model& model, const SceneValues& scene, const runtime::Library& library,
-                     const runtime::InitialValues& values) {
-  std::vector<std::string> names = element_names(model.coordinates);
+// What a parameter of the step is in the scene: one of the model, an array of equal entries, or a
+// momentum that does not change.
+const Rational& parameter_of(const std::string& name, const Model& model,
+                             const SceneValues& scene) {
+  const std::vector<std::string> names = element_names(model.parameters);
+  const auto is_it = [&name](const std::string& each) {
+    return each == name || each.starts_with(name + "[");
+  };
+  if (const auto found = std::ranges::find_if(names, is_it); found != names.end())
+    return scene.parameters[static_cast<std::size_t>(found - names.begin())];
   const std::vector<std::string> momenta = element_names(model.momenta);
-  names.insert(names.end(), momenta.begin(), momenta.end());
+  const auto found = std::ranges::find(momenta, name);
+  if (found == momenta.end()) internal_error("a plugin parameter the model does not have");
+  return scene.p[static_cast<std::size_t>(found - momenta.begin())];
+}
+
+// Of the variables that the step has.
+std::vector<std::string> state_names(const PluginSource& plugin) {
+  std::vector<std::string> names;
+  for (const auto& all :
+       {element_names(plugin.model.coordinates), element_names(plugin.model.momenta)}) {
+    for (const int i : plugin.kept) names.push_back(all[static_cast<std::size_t>(i)]);
+  }
+  return names;
+}
+
+void require_defined(const PluginSource& plugin, const SceneValues& scene,
+                     const runtime::Library& library, const runtime::InitialValues& values) {
+  const Model& model = plugin.model;
+  const std::vector<std::string> names = state_names(plugin);
   const std::vector<double> state = rounded(values.state);
   const std::string component =
       undefined_component(library, names, rounded(values.parameters), state);
@@ -96,6 +122,53 @@ void require_defined(const Model& model, const SceneValues& scene, const runtime
 }
 
 }  // namespace
+
+namespace {
+
+// `whole` with these values of the kept degrees of freedom.
+template <class Number, class Values>
+std::vector<Number> with_kept(std::vector<Number> whole, const Values& values,
+                              const PluginSource& plugin) {
+  const std::size_t n = whole.size() / 2;
+  const std::size_t m = plugin.kept.size();
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto place = static_cast<std::size_t>(plugin.kept[i]);
+    whole[place] = values[i];
+    whole[n + place] = values[m + i];
+  }
+  for (const int place : plugin.unobserved)
+    whole[static_cast<std::size_t>(place)] = Number{std::numeric_limits<double>::quiet_NaN()};
+  return whole;
+}
+
+}  // namespace
+
+bool watches_energy(const PluginSource& plugin, const SceneValues& scene) {
+  if (!plugin.whole_energy) return false;
+  return !observes_parts(plugin.model, scene) || observes(scene, "energy");
+}
+
+std::vector<runtime::Wide> whole_state(const PluginSource& plugin, const SceneValues& scene,
+                                       const std::vector<runtime::Wide>& state) {
+  const bool is_wide = std::ranges::any_of(state, [](const auto& x) { return x.lo != 0.0; });
+  std::vector<runtime::Wide> whole;
+  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
+    for (const Rational& value : *half) {
+      whole.push_back(wide(value));
+      if (!is_wide) whole.back().lo = 0.0;
+    }
+  }
+  return with_kept(std::move(whole), state, plugin);
+}
+
+std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
+                                      const std::vector<runtime::Wide>& whole) {
+  std::vector<runtime::Wide> state;
+  for (const std::size_t first : {std::size_t{0}, whole.size() / 2}) {
+    for (const int i : plugin.kept) state.push_back(whole[first + static_cast<std::size_t>(i)]);
+  }
+  return state;
+}
 
 runtime::Wide wide(const Rational& value) {
   const TripleDouble parts = to_triple(value);
@@ -177,27 +250,23 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
                                       const runtime::Library& library) {
   const Model& model = plugin.model;
-  require_folded_defaults(model, scene);
+  if (!plugin.for_scene) require_folded_defaults(model, scene);
   const auto scalar =
       std::ranges::find(all_scalars(), library.plugin().scalar_digits, &ScalarType::digits);
   require_in_range(model, scene, *scalar);
   require_regular_step(plugin, *scene.h);
-  const std::vector<std::string> names = element_names(model.parameters);
   const std::size_t energy_parameters = plugin.needs_energy_parameter ? 1 : 0;
   runtime::InitialValues values;
   values.defined_everywhere = is_defined_everywhere(model);
   values.h = wide(*scene.h);
   for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const Rational& value : *half) values.state.push_back(wide(value));
+    for (const int i : plugin.kept)
+      values.state.push_back(wide((*half)[static_cast<std::size_t>(i)]));
   }
-  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i) {
-    const auto found = std::ranges::find(names, plugin.parameter_names[i]);
-    if (found == names.end()) internal_error("a plugin parameter the model does not have");
-    values.parameters.push_back(
-        wide(scene.parameters[static_cast<std::size_t>(found - names.begin())]));
-  }
+  for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i)
+    values.parameters.push_back(wide(parameter_of(plugin.parameter_names[i], model, scene)));
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
-  require_defined(model, scene, library, values);
+  require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;
   values.parameters.back() = library.energy(values.parameters, values.state);
   return values;

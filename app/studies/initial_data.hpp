@@ -1,6 +1,7 @@
 // The numbers a run starts from, in the order the plugin takes them.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,19 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 // and E0 if the step needs it.
 [[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(
     const PluginSource& plugin, const SceneValues& scene, const runtime::InitialValues& start);
+
+// Is H computed along the run?  Not where the scene names what it observes and energy is not among
+// it, nor where the step lacks degrees of freedom that H depends on.
+[[nodiscard]] bool watches_energy(const PluginSource& plugin, const SceneValues& scene);
+
+// The state of all degrees of freedom, where the step has some of them: those left out rest.  What
+// nobody observes is not a number.
+[[nodiscard]] std::vector<runtime::Wide> whole_state(const PluginSource& plugin,
+                                                     const SceneValues& scene,
+                                                     const std::vector<runtime::Wide>& state);
+// Of a state of all degrees of freedom what the step has.
+[[nodiscard]] std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
+                                                    const std::vector<runtime::Wide>& whole);
 
 // The value as hi + lo: 106 bits.
 [[nodiscard]] runtime::Wide wide(const Rational& value);

@@ -29,6 +29,7 @@ std::vector<std::size_t> ModifiedEnergy::powers() const {
 WatchedOrbit watch_orbit(const SourceText& source, Request request, const SceneValues& scene,
                          const std::vector<Expression>& terms, StopFlag stop) {
   request.scalar = "quad";
+  request.scene.reset();  // the terms are in all variables
   const Model model = read_request(source, request);
   const PluginSource plugin = generate_plugin(source, request);
   const runtime::LoadedPlugin loaded = load_integrator(plugin, "", stop);

@@ -78,7 +78,8 @@ void StressReferences::compute(std::size_t i) {
 }
 
 void StressReferences::compare(std::size_t cell, const std::vector<runtime::Wide>& start,
-                               const std::vector<runtime::Wide>& state, StressCell& result) const {
+                               const std::vector<runtime::Wide>& state, const PluginSource& plugin,
+                               StressCell& result) const {
   if (result.outcome != runtime::Status::done && result.outcome != runtime::Status::jumped) {
     result.state_missing = runtime::to_text(result.outcome);
     return;
@@ -96,7 +97,7 @@ void StressReferences::compare(std::size_t cell, const std::vector<runtime::Wide
     result.state_missing = track.missing;
     return;
   }
-  const std::vector<runtime::Wide>& exact = track.states[at];
+  const std::vector<runtime::Wide> exact = kept_state(plugin, track.states[at]);
   const double error = distance(state, exact);
   result.state_scale = std::max(length(start), length(exact));
   // A reference that is wrong in the last digit of the error, or of a double, still serves.

@@ -23,7 +23,8 @@ class StressReferences {
   void compute(std::size_t orbit);
   // Fills the cell's state error, or why there is none.
   void compare(std::size_t cell, const std::vector<runtime::Wide>& start,
-               const std::vector<runtime::Wide>& state, StressCell& result) const;
+               const std::vector<runtime::Wide>& state, const PluginSource& plugin,
+               StressCell& result) const;
   // What the references are, or why there are none.
   [[nodiscard]] const std::string& method() const { return method_; }
 

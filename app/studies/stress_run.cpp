@@ -93,7 +93,7 @@ void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest
     StressCell& cell = map.cells[i];
     if (cell.outcome == runtime::Status::undefined) return;
     const auto state = run_stress_cell(grid.library(), starts[i], limits, cell);
-    references.compare(i, starts[i].state, state, cell);
+    references.compare(i, starts[i].state, state, grid.plugin(), cell);
   });
 }
 

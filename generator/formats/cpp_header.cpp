@@ -16,6 +16,7 @@
 #include "generator/formats/emit_context.hpp"
 #include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
+#include "generator/program/records.hpp"
 
 namespace hamgen {
 
@@ -83,6 +84,12 @@ std::string system_text(EmitContext& context) {
   for (const Record* record : std::initializer_list<const Record*>{&context.system_parameters,
                                                                    context.code.record("State")}) {
     write_record(out, *record, context.scalar);
+    out.line();
+  }
+  const std::vector<Quantity>& constants = context.mechanics.constants;
+  if (!constants.empty()) {
+    out.line("// Parameters whose values are part of the code: to be read, not to be changed.");
+    write_record(out, layout("Folded", constants, Defaults::values).record, context.scalar);
     out.line();
   }
   out.lines(functions.text());

@@ -108,7 +108,7 @@ void RoutinePrinter::operator()(const Sweep& sweep) {
 void RoutinePrinter::newton(const Iterate& iterate) {
   const std::string rule = of("start") + iterate.name;
   for (const std::string& line : *remark_) out_.remark("// ", line);
-  out_.line(dialect_.call("NewtonRule", rule, "begin", "") + ";");
+  out_.line(dialect_.call("NewtonRule", rule, "begin", of("start") + "known") + ";");
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   std::vector<std::string> corrections;
@@ -130,7 +130,7 @@ void RoutinePrinter::newton(const Iterate& iterate) {
 
 void RoutinePrinter::newton(const IterateArray& iterate) {
   const std::string rule = of("start") + iterate.name;
-  out_.line(dialect_.call("NewtonRule", rule, "begin", "") + ";");
+  out_.line(dialect_.call("NewtonRule", rule, "begin", of("start") + "known") + ";");
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   out_.line(dialect_.real() + " size = 0;");

@@ -158,8 +158,13 @@ class MachineAddresses {
   Address address(const std::string& symbol) {
     const auto place = routine_.places.find(symbol);
     if (place != routine_.places.end()) return address(place->second);
+    // Symbols and objects have names of their own: a coordinate may be called z.  Only an argument
+    // that is one number is both.
     const auto argument = m_.object_index.find(symbol);
-    if (argument != m_.object_index.end()) return {argument->second, 0, {}};
+    if (argument != m_.object_index.end()) {
+      const auto& shape = m_.shapes[static_cast<std::size_t>(argument->second)];
+      if (shape.record == nullptr && shape.sizes.empty()) return {argument->second, 0, {}};
+    }
     const auto local = m_.local_index.try_emplace(symbol, static_cast<int>(m_.local_index.size()));
     return {0, local.first->second, {}};
   }

@@ -238,7 +238,7 @@ class MachineCompiler : public MachineIterations<Real> {
       for (const Compiled& u : unknowns) {
         m_.frame.at(u.target) = known ? kept[u.memory] : u.start(m_.frame);
       }
-      const bool done = newton ? run_newton(*object(start).rules.at(name), unknowns, body)
+      const bool done = newton ? run_newton(*object(start).rules.at(name), known, unknowns, body)
                                : run_fixed_point(unknowns, body);
       if (!done) return false;
       for (const Compiled& u : unknowns) {
@@ -267,7 +267,10 @@ class MachineCompiler : public MachineIterations<Real> {
           for (const Array2& u : unknowns) use(u);
         });
       };
-      if (rule == Rule::newton) return run_newton_on(*memory.rules.at(name), each, body);
+      if (rule == Rule::newton) {
+        const bool known = memory.flags.at("known") != 0;
+        return run_newton_on(*memory.rules.at(name), known, each, body);
+      }
       return run_contraction(memory, name, flag, each, body, residual);
     };
   }

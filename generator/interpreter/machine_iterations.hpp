@@ -23,8 +23,9 @@ class MachineIterations : public MachineAddresses<Real> {
   }
 
   template <class Each>
-  bool run_newton_on(AnyNewtonRule<Real>& rule, const Each& each, const Steps& body) const {
-    rule.begin();
+  bool run_newton_on(AnyNewtonRule<Real>& rule, bool predicted, const Each& each,
+                     const Steps& body) const {
+    rule.begin(predicted);
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
       Real size = 0;
@@ -79,9 +80,9 @@ class MachineIterations : public MachineAddresses<Real> {
       return answer == Answer::done;
     }
   }
-  bool run_newton(AnyNewtonRule<Real>& rule, const std::vector<Compiled>& unknowns,
+  bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const std::vector<Compiled>& unknowns,
                   const Steps& body) const {
-    rule.begin();
+    rule.begin(predicted);
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
       Real size = 0;

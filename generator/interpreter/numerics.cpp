@@ -55,7 +55,7 @@ class HistoryOf final : public AnyHistory<Real> {
 template <class Real, int Power>
 class NewtonRuleOf final : public AnyNewtonRule<Real> {
  public:
-  void begin() override { rule_.begin(); }
+  void begin(bool predicted) override { rule_.begin(predicted); }
   void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
              int count) override {
     rule_.motion.move = past.error(0, solution, first, count);

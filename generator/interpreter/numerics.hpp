@@ -61,7 +61,7 @@ struct AnyHistory {
 template <class Real>
 struct AnyNewtonRule {
   virtual ~AnyNewtonRule() = default;
-  virtual void begin() = 0;
+  virtual void begin(bool predicted) = 0;
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration) = 0;

@@ -80,6 +80,59 @@ void check_number(const NodePtr& node, Symbols& symbols) {
   if (node) check_names(node, parameter_role(std::nullopt), symbols);
 }
 
+// radius = ...
+void check_new_name(const Observed& observed, const Symbol* symbol, Symbols& symbols) {
+  const std::string meaning = reserved_meaning(observed.name);
+  if (symbol != nullptr) {
+    symbols.report(observed.span,
+                   fmt::format("'{}' is {}", observed.name, description(symbol->kind)),
+                   "what is observed gets a name of its own: observe radius = ...");
+  } else if (!meaning.empty() || observed.element) {
+    symbols.report(observed.span,
+                   meaning.empty() ? "a quantity that is observed is one number"
+                                   : fmt::format("'{}' is reserved: {}", observed.name, meaning),
+                   "choose another name, as in observe radius = sqrt(x^2 + y^2)");
+  }
+}
+
+void check_element(const Observed& observed, const Symbol& symbol, const KnownValues& known,
+                   Symbols& symbols) {
+  if (!observed.element) return;
+  if (!symbol.range) {
+    symbols.report(observed.span, fmt::format("'{}' is one number, not an array", observed.name));
+    return;
+  }
+  Role role = size_role(std::nullopt);
+  role.what = "a subscript";
+  if (!check_names(observed.element, role, symbols)) return;
+  const auto at = check_values(observed.element, known, symbols);
+  if (!at) return;
+  if (at->get_den() != 1 || *at < symbol.range->first || *at > symbol.range->last) {
+    symbols.report(observed.element->span,
+                   fmt::format("'{}[{}]' is outside {}[{}..{}]", observed.name, short_text(*at),
+                               observed.name, symbol.range->first, symbol.range->last));
+  }
+}
+
+// energy, an invariant, a coordinate or a momentum
+void check_known_name(const Observed& observed, const Symbol* symbol, const KnownValues& known,
+                      Symbols& symbols) {
+  const bool is_state =
+      symbol != nullptr && (symbol->kind == coordinate || symbol->kind == momentum);
+  if (is_state) {
+    check_element(observed, *symbol, known, symbols);
+  } else if (symbol == nullptr || symbol->kind != invariant) {
+    std::vector<std::string> candidates = symbols.names({invariant, coordinate, momentum});
+    candidates.emplace_back("energy");
+    symbols.report(observed.span,
+                   symbol == nullptr
+                       ? fmt::format("'{}' is no coordinate, momentum or invariant", observed.name)
+                       : fmt::format("'{}' is {}: nothing to observe", observed.name,
+                                     description(symbol->kind)),
+                   symbols.suggestion(observed.name, candidates));
+  }
+}
+
 }  // namespace
 
 void check_setting(Setting& setting, const KnownValues& known, Symbols& symbols) {
@@ -111,6 +164,25 @@ void check_setting(Setting& setting, const KnownValues& known, Symbols& symbols)
   for (const NodePtr& value : setting.values) check_names(value, role, symbols, indices);
 }
 
+void check_observed(const std::vector<Observed>& list, const KnownValues& known, Symbols& symbols) {
+  std::set<std::string> names;
+  for (const Observed& each : list) {
+    const Symbol* symbol = symbols.find(each.name);
+    if (symbols.is_spoiled(each.name)) continue;
+    const std::string subscript = each.element ? to_text(each.element) : "";
+    if (!names.insert(each.name + "[" + subscript).second) {
+      symbols.report(each.span, fmt::format("'{}' is observed twice", each.name));
+    } else if (each.value) {
+      check_new_name(each, symbol, symbols);
+      if (check_names(each.value, formula_role(std::nullopt), symbols)) {
+        check_values(each.value, known, symbols);
+      }
+    } else if (each.name != "energy") {
+      check_known_name(each, symbol, known, symbols);
+    }
+  }
+}
+
 Scene check_scene(const SceneStatement& statement, const KnownValues& known, Symbols& symbols) {
   Scene scene = statement.scene;
   for (Setting& setting : scene.settings) check_setting(setting, known, symbols);
@@ -118,15 +190,7 @@ Scene check_scene(const SceneStatement& statement, const KnownValues& known, Sym
   check_number(scene.h, symbols);
   check_number(scene.steps, symbols);
   check_number(scene.every, symbols);
-  for (const Name& name : statement.observed) {
-    const Symbol* symbol = symbols.find(name.text);
-    if (name.text == "energy" || symbols.is_spoiled(name.text)) continue;
-    if (symbol != nullptr && symbol->kind == invariant) continue;
-    std::vector<std::string> candidates = symbols.names({invariant});
-    candidates.emplace_back("energy");
-    symbols.report(name.span, fmt::format("'{}' is no invariant", name.text),
-                   symbols.suggestion(name.text, candidates));
-  }
+  check_observed(scene.observe, known, symbols);
   return scene;
 }
 

@@ -61,6 +61,7 @@ struct Invariant {
   std::string text;
   std::string comment;
   Span span;
+  bool only_observed = false;  // nobody says that it is conserved
 };
 
 // One line of a scene: "q = 3.1", "q[i] = sin(pi*i/(N+1))", "q[2] = 1", "q = [1, 0, 0]", "eps = 1".
@@ -73,14 +74,23 @@ struct Setting {
   Span span;
 };
 
+// What a scene looks at: "energy", an invariant, "q", "q[2]", or "radius = sqrt(x^2 + y^2)".
+struct Observed {
+  std::string name;
+  NodePtr element;        // fixed subscript, null if there is none
+  NodePtr value = {};     // of a new name, null for one of the model's
+  std::string text = {};  // that value as written
+  Span span = {};         // of the name
+};
+
 struct Scene {
   std::string name;
   std::string comment;
-  std::vector<Setting> settings;     // of coordinates, momenta and parameters, in order
-  NodePtr h;                         // null if not given
-  NodePtr steps;                     // null if not given
-  NodePtr every;                     // null if not given: record every k-th step
-  std::vector<std::string> observe;  // "energy", names of invariants; empty means all of them
+  std::vector<Setting> settings;  // of coordinates, momenta and parameters, in order
+  NodePtr h;                      // null if not given
+  NodePtr steps;                  // null if not given
+  NodePtr every;                  // null if not given: record every k-th step
+  std::vector<Observed> observe;  // empty means all there is
   Span span;
   // Why it cannot be run, of a scene written for other sizes than the ones asked for.
   std::vector<Diagnostic> mistakes = {};

@@ -294,6 +294,10 @@ Setting parse_setting(const SourceText& source) {
   return parse_alone(source, [](ExpressionParser& in) { return setting(in); });
 }
 
+std::vector<Observed> parse_observed(const SourceText& source) {
+  return parse_alone(source, [](ExpressionParser& in) { return observed_list(in); });
+}
+
 NodePtr parse_expression(const SourceText& source) {
   return parse_alone(source, [](ExpressionParser& in) { return in.expression(); });
 }

@@ -12,6 +12,8 @@ namespace hamgen {
 
 // One line of a scene, "q[1] = 0.1", from a text of its own.  Throws ModelError.
 [[nodiscard]] Setting parse_setting(const SourceText& source);
+// What a scene observes, "energy, q[2], r = sqrt(x^2)", likewise.
+[[nodiscard]] std::vector<Observed> parse_observed(const SourceText& source);
 
 // One expression that fills its text.  Throws ModelError.
 [[nodiscard]] NodePtr parse_expression(const SourceText& source);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "generator/language/check_names.hpp"
 #include "generator/language/check_scene.hpp"
 #include "generator/language/constant.hpp"
 #include "generator/language/parser.hpp"
@@ -60,6 +61,10 @@ class SceneReader {
     declare(model.coordinates, SymbolKind::coordinate);
     declare(model.momenta, SymbolKind::momentum);
     declare(model.parameters, SymbolKind::parameter);
+    for (const Definition& each : model.definitions)
+      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::definition, .span = each.span});
+    for (const Invariant& each : model.invariants)
+      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
   }
 
   SceneValues run() {
@@ -71,10 +76,8 @@ class SceneReader {
     for (const auto& [name, value] : request_.initial) add_override("--initial", name, value);
     for (const auto& [name, value] : request_.reference) add_override("--reference", name, value);
     SceneValues result;
-    if (scene_ != nullptr) {
-      result.name = scene_->name;
-      result.observe = scene_->observe;
-    }
+    if (scene_ != nullptr) result.name = scene_->name;
+    read_observed(result);
     for (const Parameter& each : model_.parameters) read_parameter(each, result.parameters);
     stop_if_wrong();  // values that need a parameter without a value would only repeat the mistake
     for (const Variable& each : model_.coordinates) read_variable(each, result.q);
@@ -110,6 +113,35 @@ class SceneReader {
     if (names.empty()) help = "it has none";
     if (!near.empty()) help = fmt::format("did you mean '{}'?", near);
     throw UsageError(fmt::format("{} has no scene '{}': {}", model_.name, request_.scene, help));
+  }
+
+  // The scene's list, or that of the command line, element by element.
+  void read_observed(SceneValues& result) {
+    std::vector<Observed> list;
+    if (scene_ != nullptr) list = scene_->observe;
+    if (request_.observe) {
+      const SourceText source = make_source("--observe", *request_.observe);
+      try {
+        list = parse_observed(source);
+      } catch (const ModelError& error) {
+        throw UsageError(error.what());
+      }
+      check_observed(list, known_, symbols_);
+      if (!mistakes_.empty()) throw UsageError(ModelError(mistakes_, source).what());
+    }
+    for (const Observed& each : list) {
+      const Symbol* symbol = symbols_.find(each.name);
+      if (each.value) result.formulas.push_back({each.name, each.value, each.text});
+      if (each.element) {
+        const Rational at = value_of(each.element, lookup_in(values_), nullptr);
+        result.observe.push_back(element_name(each.name, at.get_num().get_si()));
+      } else if (symbol != nullptr && symbol->range) {
+        for (long i = symbol->range->first; i <= symbol->range->last; ++i)
+          result.observe.push_back(element_name(each.name, i));
+      } else {
+        result.observe.push_back(each.name);
+      }
+    }
   }
 
   void add_override(const std::string& option, const std::string& name, const std::string& value) {
@@ -278,6 +310,51 @@ class SceneReader {
 
 SceneValues scene_values(const Model& model, const SceneRequest& request) {
   return SceneReader(model, request).run();
+}
+
+bool observes(const SceneValues& scene, const std::string& name) {
+  return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
+}
+
+bool observes_parts(const Model& model, const SceneValues& scene) {
+  if (!scene.formulas.empty()) return true;
+  return std::ranges::any_of(scene.observe, [&model](const std::string& name) {
+    const std::string base = name.substr(0, name.find('['));
+    return std::ranges::find(model.coordinates, base, &Variable::name) != model.coordinates.end() ||
+           std::ranges::find(model.momenta, base, &Variable::name) != model.momenta.end();
+  });
+}
+
+std::set<std::string> names_computed_from(const Model& model, const SceneRequest& request,
+                                          const std::vector<std::string>& names) {
+  std::set<std::string> found(names.begin(), names.end());
+  for (const std::string& name : names) found.insert(name.substr(0, name.find('[')));
+  std::vector<Setting> settings;
+  const auto is_chosen = [&request](const Scene& scene) {
+    return request.scene.empty() || scene.name == request.scene;
+  };
+  const auto chosen = std::ranges::find_if(model.scenes, is_chosen);
+  if (chosen != model.scenes.end()) settings = chosen->settings;
+  for (const auto* overrides : {&request.set, &request.initial}) {
+    for (const auto& [name, value] : *overrides)
+      settings.push_back(parse_setting(make_source("option", name + "=" + value)));
+  }
+  const auto add = [&found](const std::string& name, const std::vector<NodePtr>& values) {
+    for (const NodePtr& value : values) {
+      const std::set<std::string> used = names_in(value);
+      if (std::ranges::any_of(used, [&](const auto& each) { return found.contains(each); }))
+        found.insert(name);
+    }
+  };
+  // Parameters are computed in the order of their declarations, and before the state.
+  for (const Parameter& parameter : model.parameters) {
+    add(parameter.name, parameter.values);
+    for (const Setting& setting : settings) {
+      if (setting.name == parameter.name) add(setting.name, setting.values);
+    }
+  }
+  for (const Setting& setting : settings) add(setting.name, setting.values);
+  return found;
 }
 
 Rational evaluate_constant(const NodePtr& node, const SourceText& source,

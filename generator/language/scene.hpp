@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,14 @@ struct SceneRequest {
   std::vector<std::pair<std::string, std::string>> reference = {};
   std::optional<std::string> h = {};
   std::optional<std::string> steps = {};
+  std::optional<std::string> observe = {};  // --observe LIST
+};
+
+// A quantity that a scene defines to look at it.
+struct ObservedFormula {
+  std::string name;
+  NodePtr value;
+  std::string text;
 };
 
 // Initial data of a run.  q, p, parameters in state order (element_names); exact rationals, or
@@ -31,14 +40,27 @@ struct SceneValues {
   std::optional<Rational> h;
   std::optional<long> steps;
   std::optional<long> every;
-  std::vector<std::string> observe;
+  // "energy", invariants, elements of the state, names of formulas; empty: all there is.
+  std::vector<std::string> observe = {};
+  std::vector<ObservedFormula> formulas = {};
 };
+
+// Is it observed?
+[[nodiscard]] bool observes(const SceneValues& scene, const std::string& name);
+// Does the list name a part of the state or a formula?  Then what it does not name is not observed;
+// else the state is, too.
+[[nodiscard]] bool observes_parts(const Model& model, const SceneValues& scene);
 
 // Parameters first (defaults, then the scene's, then --set, each able to use those before), then
 // the state.  A variable nobody sets is 0.  Throws UsageError for a wrong option value (unknown
 // name with its nearest, nan, inf, a wrong count, h = 0, steps < 0 or > 1e15), ModelError for a
 // wrong line of the scene.
 [[nodiscard]] SceneValues scene_values(const Model& model, const SceneRequest& request);
+
+// These names, and the parameters and variables whose values the run computes from them.
+[[nodiscard]] std::set<std::string> names_computed_from(const Model& model,
+                                                        const SceneRequest& request,
+                                                        const std::vector<std::string>& names);
 
 // A constant expression over named values; throws ModelError where it is undefined or not real.
 [[nodiscard]] Rational evaluate_constant(const NodePtr& node, const SourceText& source,

@@ -17,14 +17,7 @@ bool at_setting_end(const ExpressionParser& in) {
 // observe energy, L
 void observe(ExpressionParser& in, SceneStatement& statement) {
   in.next();
-  do {
-    while (in.peek().kind == TokenKind::newline) in.next();
-    const Token& token = in.peek();
-    if (token.kind != TokenKind::name) in.expected("a name", "write observe energy, L");
-    in.next();
-    statement.scene.observe.emplace_back(token.text);
-    statement.observed.push_back({std::string(token.text), token.span});
-  } while (in.accept(","));
+  for (Observed& each : observed_list(in)) statement.scene.observe.push_back(std::move(each));
 }
 
 // h = 0.1, steps = 1000, every = 10: each once, and one number.
@@ -56,6 +49,30 @@ void read_setting(ExpressionParser& in, SceneStatement& statement) {
 }
 
 }  // namespace
+
+std::vector<Observed> observed_list(ExpressionParser& in) {
+  std::vector<Observed> list;
+  do {
+    while (in.peek().kind == TokenKind::newline) in.next();
+    const Token& token = in.peek();
+    if (token.kind != TokenKind::name) {
+      in.expected("a name", "write observe energy, q or radius = sqrt(x^2 + y^2)");
+    }
+    in.next();
+    Observed observed{.name = std::string(token.text), .element = {}};
+    if (in.accept("[")) {
+      observed.element = in.expression();
+      if (!in.accept("]")) in.expected("']'", "write q[2]");
+    }
+    observed.span = {token.span.begin, in.previous().span.end};
+    if (in.accept("=")) {
+      observed.value = in.expression();
+      observed.text = to_text(observed.value);
+    }
+    list.push_back(std::move(observed));
+  } while (in.accept(","));
+  return list;
+}
 
 std::vector<NodePtr> value_list(ExpressionParser& in) {
   const Token& opener = in.next();

@@ -58,7 +58,6 @@ struct Formula {  // let, H, invariant, size
 
 struct SceneStatement {
   Scene scene;
-  std::vector<Name> observed;
 };
 
 // Statements of a kind in source order.

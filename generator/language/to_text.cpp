@@ -148,6 +148,12 @@ std::string setting_text(const Setting& setting) {
                      setting.is_list ? list_text(setting.values) : to_text(setting.values.front()));
 }
 
+std::string observed_text(const Observed& observed) {
+  if (observed.value) return fmt::format("{} = {}", observed.name, to_text(observed.value));
+  if (!observed.element) return observed.name;
+  return fmt::format("{}[{}]", observed.name, to_text(observed.element));
+}
+
 std::string scene_text(const Scene& scene) {
   std::string text = fmt::format("scene {} {{{}\n", scene.name, comment_text(scene.comment));
   for (const Setting& setting : scene.settings) text += setting_text(setting);
@@ -155,7 +161,9 @@ std::string scene_text(const Scene& scene) {
   if (scene.steps) text += fmt::format("  steps = {}\n", to_text(scene.steps));
   if (scene.every) text += fmt::format("  every = {}\n", to_text(scene.every));
   if (!scene.observe.empty()) {
-    text += fmt::format("  observe {}\n", fmt::join(scene.observe, ", "));
+    std::vector<std::string> items;
+    for (const Observed& each : scene.observe) items.push_back(observed_text(each));
+    text += fmt::format("  observe {}\n", fmt::join(items, ", "));
   }
   return text + "}\n";
 }

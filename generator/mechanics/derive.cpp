@@ -44,8 +44,8 @@ std::vector<Quantity> quantities(const std::vector<Variable>& variables) {
   return result;
 }
 
-// Parameters that are not folded, with their default values.
-std::vector<Quantity> run_time_parameters(const Model& model) {
+// Parameters that are folded, or those that are not, with their default values.
+std::vector<Quantity> parameters_of(const Model& model, bool folded) {
   std::vector<Quantity> result;
   std::map<std::string, Rational> values;
   for (const Parameter& parameter : model.parameters) {
@@ -53,7 +53,7 @@ std::vector<Quantity> run_time_parameters(const Model& model) {
     for (const std::string& name : element_names(std::vector{parameter})) {
       const NodePtr& node = parameter.values[std::min(k++, parameter.values.size() - 1)];
       values[name] = evaluate_constant(node, model.source, values);
-      if (parameter.folded) continue;
+      if (parameter.folded != folded) continue;
       result.push_back({name, parameter.unit, parameter.comment, values[name]});
     }
   }
@@ -95,7 +95,8 @@ Mechanics derived(const Model& model, bool keep_sums) {
   for (Quantity& momentum : quantities(model.momenta)) {
     mechanics.variables.push_back(std::move(momentum));
   }
-  mechanics.parameters = run_time_parameters(model);
+  mechanics.parameters = parameters_of(model, false);
+  mechanics.constants = parameters_of(model, true);
 
   const int size = 2 * mechanics.degrees_of_freedom;
   std::vector<const GiNaC::symbol*> symbols;
@@ -152,9 +153,10 @@ Mechanics derive(const Model& model, bool keep_sums) {
   SymbolTable table;
   TreeConverter converter(model, table);
   for (const Invariant& invariant : model.invariants) {
-    mechanics.invariants.push_back({invariant.name, with_place(model, invariant.value->span, [&] {
-                                      return from_ginac(converter.convert(invariant.value), table);
-                                    })});
+    const Expression value = with_place(model, invariant.value->span, [&] {
+      return from_ginac(converter.convert(invariant.value), table);
+    });
+    mechanics.invariants.push_back({invariant.name, value, invariant.only_observed});
   }
   return mechanics;
 }

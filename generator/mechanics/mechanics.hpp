@@ -26,6 +26,7 @@ struct Quantity {
 struct NamedExpression {
   std::string name;
   Expression value;
+  bool only_observed = false;  // an "invariant" that need not be conserved
 };
 
 // A summand of H as it was written.
@@ -43,6 +44,7 @@ struct Mechanics {
   std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
   std::vector<EnergyTerm> terms;     // of H, numbered from 0
   std::vector<Quantity> parameters;  // run-time parameters, in declaration order
+  std::vector<Quantity> constants;   // parameters whose values have been put in
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
   // written-out expressions below are empty.
   std::vector<Kernel> kernels;

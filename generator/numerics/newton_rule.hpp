@@ -17,6 +17,12 @@
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment
 // itself where it is larger than bend, and count 2^10 times: for a force that has grown since, and
 // for an increment across the motion or in unknowns that move less than others.
+//
+// Note [a prediction is followed while increments halve]
+// They do where Newton and Kantorovich's theorem promises a solution, which then is not further
+// away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
+// come to another solution of the equations than the motion's: that is a failure, and the step is
+// tried again from the state.
 struct Motion {
   Real move = 0;
   Real bend = 0;
@@ -27,12 +33,15 @@ struct NewtonRule {
   int unchecked = 0;
   Real previous = 0;
   int grown = 0;
+  bool predicted = false;
   Motion motion;
 
   static Real power(Real size) { return Power == 2 ? size * size : size; }
-  void begin() {
+  // From a prediction, or else from the state itself.
+  void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
+    predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>
@@ -65,8 +74,10 @@ struct NewtonRule {
     if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
+    const bool astray =
+        predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
     previous = size;
-    return iterations < 60 ? Verdict::go_on : Verdict::failed;
+    return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {

@@ -1,33 +1,61 @@
-// The parts of the proof that the emitted code is the mathematics.
+// The parts of the proof that the emitted code is the mathematics: claims about its routines, as
+// they are printed and interpreted.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
-#include "generator/verify/expected_step.hpp"
+#include "generator/verify/derivatives.hpp"
 #include "generator/verify/identities.hpp"
+#include "generator/verify/step_under_proof.hpp"
 
 namespace hamgen {
 
-// Results of a function of the state are these expressions.
-[[nodiscard]] Identities identities_of(const Evaluation& evaluation, const std::string& what,
-                                       const std::vector<Expression>& expected);
+// What a routine that is a function of the state computes.
+class FunctionValues {
+ public:
+  FunctionValues(const StepUnderProof& step, const std::string& routine);
+  [[nodiscard]] const std::optional<Expression>& result() const { return result_; }
+  [[nodiscard]] Expression element(const std::string& array, long i);
+  [[nodiscard]] std::vector<Statement> definitions() const { return machine_.definitions(); }
 
-// A system whose sums stay loops: every loop's summand and its derivatives, and that the loops sum
-// up to H.
+ private:
+  SymbolicMachine machine_;
+  std::optional<Expression> result_;
+};
+
+// The elements of an array of the routine, or what it returns, are these expressions.
+[[nodiscard]] Identities values_identities(const StepUnderProof& step, const std::string& routine,
+                                           const std::string& array, const std::string& what,
+                                           const std::vector<Expression>& expected);
+
+// solve of a member that is written out; `derivatives` are those of K at a higher order.
+[[nodiscard]] Identities member_identities(const StepUnderProof& step,
+                                           const Derivatives& derivatives, const Member& member,
+                                           std::optional<int> sweeps);
+// All routines of a member whose sums are loops but the energy and its tangent map.
+[[nodiscard]] std::vector<Identities> loop_member_identities(const StepUnderProof& step,
+                                                             const Derivatives& derivatives,
+                                                             const Member& member,
+                                                             std::optional<int> sweeps);
+
+// solve of a splitting and of a Runge-Kutta method, with the gradients it calls as functions of
+// which nothing is known; the substeps of a composition.
+[[nodiscard]] std::vector<Identities> method_identities(const StepUnderProof& step,
+                                                        const Derivatives& derivatives);
+[[nodiscard]] std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
+                                                             const RungeKutta& tableau);
+
+// Of sums that are loops: that they sum up to H, and the derivatives of their summands.
 [[nodiscard]] std::vector<Identities> kernel_identities(const Mechanics& mechanics,
                                                         const Expression& hamiltonian);
 
-// The substeps of a splitting or composition and the coefficients of a Runge-Kutta method, as they
-// are written.
-[[nodiscard]] Identities sequence_identities(const Scheme& scheme, const Sequence& sequence);
-
-// The linearised step of a member, if it is written too.
-[[nodiscard]] Identities tangent_identities(const Mechanics& mechanics,
-                                            const Derivatives& derivatives, const Member& member,
-                                            const Linearisation& linearisation);
+// The linearised step of a member that is written out.
+[[nodiscard]] Identities tangent_identities(const StepUnderProof& step,
+                                            const Derivatives& derivatives, const Member& member);
 
 // grad K and the Hessian that Newton's iteration takes: a gradient, and one whose step follows the
 // flow of H to its order, at random points.

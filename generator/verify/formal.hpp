@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "generator/verify/expected_step.hpp"
+#include "generator/schemes/scheme.hpp"
+#include "generator/verify/derivatives.hpp"
 #include "generator/verify/power_series.hpp"
 #include "generator/verify/sample_points.hpp"
 

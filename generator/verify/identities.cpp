@@ -199,7 +199,7 @@ class Decider {
   // Matched symbols are spelled out again before the answer is no: first those that one side only
   // has, then the others.
   bool equal(Expression a, Expression b) const {
-    for (int depth = 0; depth < 3; ++depth) {
+    for (int depth = 0; depth < 5; ++depth) {
       if (a == b || is_zero_by_algebra(a - b)) return true;
       const std::set<std::string> of_a = symbols(a);
       const std::set<std::string> of_b = symbols(b);
@@ -255,9 +255,12 @@ class Decider {
   std::optional<bool> compare(const std::map<std::string, Precise>& free,
                               const Substitution& definitions, Decision& decision) const {
     PreciseValues values(free, definitions);
+    for (const Statement& s : identities_.expected) {
+      if (!values(Expression::symbol(s.name))) return std::nullopt;
+    }
     for (const Claim& claim : identities_.claims) {
       if (!values(claim.expected)) return std::nullopt;
-      if (!of_program_ && !values(claim.emitted)) return std::nullopt;
+      if ((!of_program_ || claim.where_regular) && !values(claim.emitted)) return std::nullopt;
     }
     for (const Claim& claim : identities_.claims) {
       const auto emitted = values.scaled(claim.emitted);

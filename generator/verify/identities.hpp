@@ -17,6 +17,8 @@ struct Claim {
   std::string what;  // "increment of q"
   Expression emitted;
   Expression expected;
+  // Of points where a matrix that is solved is regular: there only is the emitted side defined.
+  bool where_regular = false;
 };
 
 // Symbols without a definition are free: the claims hold for all their values.  A definition of the

@@ -201,6 +201,7 @@ Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian
                        const Surroundings& around) {
   Proof proof;
   for (const NamedExpression& invariant : mechanics.invariants) {
+    if (invariant.only_observed) continue;
     const std::string name = invariant.name + " invariant";
     if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostFreedom) {
       proof.push_back({name, Verdict::not_decided,

@@ -7,6 +7,7 @@
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
+#include "generator/program/step_code.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/sample_points.hpp"
@@ -14,11 +15,29 @@
 
 namespace hamgen {
 
+// The same model and method with another value of its size.
+struct SizedSystem {
+  long size = 0;
+  Mechanics mechanics;
+  Scheme scheme;
+  Program program;
+  Expression hamiltonian;  // written out
+};
+// Of a large system, what it is a longer one of.
+struct SmallerSystems {
+  std::string constant;  // "N"
+  long size = 0;         // of the large one
+  SizedSystem first, second;
+};
+// Up to so many degrees of freedom every element of a system in loops is looked at.
+inline constexpr int kMostLookedAt = 32;
+
 // Everything that can be decided by algebra about the scheme's step for this system, and about the
 // program that computes it.  `hamiltonian` is H with its sums written out.
 // Claims are tried `around` the places where the model is used.
 [[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                           const Expression& hamiltonian, const Surroundings& around = {});
+                           const Expression& hamiltonian, const Surroundings& around = {},
+                           const std::optional<SmallerSystems>& smaller = {});
 
 inline constexpr const char* kGauge = "gauge in sp(2n)";
 
@@ -47,12 +66,14 @@ inline constexpr const char* kGauge = "gauge in sp(2n)";
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
                                      const Scheme& scheme, bool solved, Verdict symplectic,
                                      const Surroundings& around = {});
-// The instructions of the program, substituted back into expressions, are the step's equations,
-// their derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
-// stands in for H, which is asked here if it is left out.
+// The routines of the program, as they are printed and interpreted, are the step's equations, their
+// derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
+// stands in for H, which is asked here if it is left out.  Of a system in loops of more than
+// kMostLookedAt degrees of freedom the claims are made about the `smaller` ones.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
-                                    const Program& program, const Expression& hamiltonian,
-                                    const Surroundings& around = {},
-                                    std::optional<Decision> of_k = {});
+                                    const Program& program, const StepCode& code,
+                                    const Expression& hamiltonian, const Surroundings& around = {},
+                                    std::optional<Decision> of_k = {},
+                                    const std::optional<SmallerSystems>& smaller = {});
 
 }  // namespace hamgen

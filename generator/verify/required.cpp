@@ -74,10 +74,12 @@ void require(const Proof& proof, const std::string& list) {
 }
 
 void require_emitted(const Proof& proof) {
-  const Finding* finding = find(proof, "emitted code");
-  if (finding == nullptr || finding->verdict != Verdict::refuted) return;
-  throw ProofError("the emitted code is not the step of this model, a fault of hamgen: " +
-                   finding->detail);
+  for (const char* property : {"emitted code", "specialised"}) {
+    const Finding* finding = find(proof, property);
+    if (finding == nullptr || finding->verdict != Verdict::refuted) continue;
+    throw ProofError("the emitted code is not the step of this model, a fault of hamgen: " +
+                     finding->detail);
+  }
 }
 
 std::string properties_with(const Proof& proof, Verdict verdict) {

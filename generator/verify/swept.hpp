@@ -3,7 +3,7 @@
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
-#include "generator/verify/expected_step.hpp"
+#include "generator/verify/derivatives.hpp"
 
 namespace hamgen {
 

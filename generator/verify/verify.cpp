@@ -89,7 +89,8 @@ bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const Program& 
 }  // namespace
 
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-             const Expression& hamiltonian, const Surroundings& around) {
+             const Expression& hamiltonian, const Surroundings& around,
+             const std::optional<SmallerSystems>& smaller) {
   std::optional<Decision> of_k;
   if (const GeneratingFunction* function = raised_function(scheme, program))
     of_k = decide_function(mechanics, Derivatives(mechanics), scheme.member(), *function, around);
@@ -106,7 +107,8 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
       prove_invariants(mechanics, hamiltonian, scheme, is_solved(mechanics, scheme, program),
                        verdict_of(proof, "symplectic"), around),
       std::back_inserter(proof));
-  proof.push_back(prove_emitted(mechanics, scheme, program, hamiltonian, around, of_k));
+  proof.push_back(prove_emitted(mechanics, scheme, program, step_code(program), hamiltonian, around,
+                                of_k, smaller));
   return proof;
 }
 

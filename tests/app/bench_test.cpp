@@ -81,7 +81,7 @@ TEST(Bench, AnswersWhichStepReachesATarget) {
   EXPECT_EQ(result["answer"]["row"], 2);
   EXPECT_LE(result["rows"][2]["state_error"].get<double>(), 1e-7);
   EXPECT_EQ(result["answer"]["command"],
-            "hamgen generate " + model + " --scheme implicit-midpoint");
+            "hamgen generate " + model + " --scheme implicit-midpoint --scene swing");
 }
 
 TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {

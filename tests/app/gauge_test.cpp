@@ -130,12 +130,13 @@ std::string command_in(const std::string& text) {
 
 TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
   const Scratch scratch;
-  for (const std::string& model : {kStiff, kKepler}) {
+  for (const auto& [model, scene] : {std::pair{kStiff, "w50"}, std::pair{kKepler, "e06"}}) {
     const Result result = hamgen({"run", model, "--gauge", "locally-exact", "--steps", "1",
-                                  "--quiet", "--keep", scratch.path("k")});
+                                  "--quiet", "--header", scratch.path("k")});
     EXPECT_EQ(result.status, 0) << result.err;
     const std::string stem = std::filesystem::path(model).stem().string();
-    const std::string header = hamgen({"generate", model, "--gauge", "locally-exact"}).out;
+    const std::string header =
+        hamgen({"generate", model, "--gauge", "locally-exact", "--scene", scene}).out;
     EXPECT_NE(command_in(header), "");
     EXPECT_EQ(command_in(read(scratch.path("k") + "/" + stem + ".hpp")), command_in(header));
     EXPECT_EQ(hamgen({"check", model, "--gauge", "locally-exact"}).status, 0);

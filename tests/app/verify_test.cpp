@@ -178,7 +178,7 @@ TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
   const Scratch scratch;
   const Result result =
       hamgen({"run", (models / "pendulum.ham").string(), "--watch-modified", "3", "--steps", "2000",
-              "--json", "--quiet", "--keep", scratch.path("k")});
+              "--json", "--quiet", "--header", scratch.path("k")});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json invariants = Json::parse(result.out).at("invariants");
   // In double the h^2 truncation still shows its h^4 error, at most 1.74e-11; that to h^4 is at

@@ -292,8 +292,10 @@ class Watch {
       }
     }
     Quad off = 0;
-    for (std::size_t k = 0; k < size; ++k)
+    // Where the stage is had from the end, its lack says all.
+    for (std::size_t k = 0; k < size && e.back.empty(); ++k) {
       off = larger(off, magnitude(exact.end[k] - lack_of_end[k]));
+    }
     Vector bound;
     for (std::size_t k = 0; k < size; ++k) {
       Quad here = rounding(exact.end[k]);

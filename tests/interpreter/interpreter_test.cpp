@@ -3,6 +3,7 @@
 // every scene, is tests/contract.
 #include "generator/interpreter/interpreter.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,6 +90,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"fput", {.solver = "fixed-point"}}, Case{"fput", {.scheme = "gauss-4"}},
                     Case{"fput", {.scheme = "yoshida-4"}}, Case{"fput", {.solver = "sweeps:3"}},
                     Case{"outer_solar_system", {}}, Case{"morse", {.order = 4}}));
+
+// Variables that are called like the objects of the routines: z, k, par, carry.
+TEST(Names, OfVariablesAreNotThoseOfObjects) {
+  const auto last = [](const std::vector<std::string>& q) {
+    std::string text;
+    for (const char* kind : {"coordinate", "momentum"}) {
+      text += kind;
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        text += (i == 0 ? " " : ", ") + (*kind == 'm' ? "p" + std::to_string(i) : q[i]);
+      }
+      text += "\n";
+    }
+    text += fmt::format("H = (p0^2 + p1^2 + p2^2)/2 + {0}^4/4 + {1}^2/2 + {2}^2/3 + {0}*{1}*{2}\n",
+                        q[0], q[1], q[2]);
+    const StepCode code = make_step_code(make_source("m.ham", text), {});
+    Interpreter<double> run(code, {}, 0.1, {1, 0.5, 0.25, 0, 0, 0});
+    for (int step = 0; step < 20; ++step) EXPECT_TRUE(run.step().converged);
+    return run.state();
+  };
+  const std::vector<double> wanted = last({"a", "b", "c"});
+  EXPECT_EQ(last({"k", "par", "z"}), wanted);
+  EXPECT_EQ(last({"carry", "dz", "start"}), wanted);
+}
 
 }  // namespace
 }  // namespace hamgen

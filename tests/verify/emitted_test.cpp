@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
+#include "tests/verify/evaluator.hpp"
 #include "tests/verify/mutants.hpp"
 
 namespace hamgen {
 namespace {
 
 using verify_test::computes_the_same;
+using verify_test::mutants_of;
+using verify_test::mutants_of_structure;
 using verify_test::program_of;
 
 struct Case {
@@ -51,6 +58,14 @@ const std::string kRing =
     "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
 
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+              const StepCode& code) {
+  return prove_emitted(mechanics, scheme, program, code, mechanics.energy);
+}
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program) {
+  return prove(mechanics, scheme, program, step_code(program));
+}
+
 std::vector<Case> cases() {
   const Expression h = Expression::symbol("h", kRankOfStep);
   const Expression zero(0);
@@ -77,7 +92,7 @@ TEST(EmittedCode, IsTheMathematicsForEverySolver) {
     const Mechanics mechanics = mechanics_of(c);
     const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
     const Program program = program_of(mechanics, scheme, c.solver);
-    const Finding finding = prove_emitted(mechanics, scheme, program, mechanics.energy);
+    const Finding finding = prove(mechanics, scheme, program);
     EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << finding.detail;
   }
 }
@@ -93,7 +108,7 @@ TEST(EmittedCode, MayHoldAProductBothRoundedAndExact) {
   const Mechanics mechanics = mechanics_of(c);
   const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
   const Program program = program_of(mechanics, scheme, c.solver);
-  const Finding finding = prove_emitted(mechanics, scheme, program, mechanics.energy);
+  const Finding finding = prove(mechanics, scheme, program);
   EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
 }
 
@@ -103,16 +118,22 @@ TEST(EmittedCode, MayHoldAProductBothRoundedAndExact) {
 TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
   int mutants = 0;
   int equivalent = 0;
+  std::size_t first = 0;
   std::map<std::string, int> by_kind;
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
     const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
     const Program original = program_of(mechanics, scheme, c.solver);
     int of_case = 0;
-    for (const verify_test::Mutant& mutant : verify_test::mutants_of(original)) {
-      const Finding finding = prove_emitted(mechanics, scheme, mutant.program, mechanics.energy);
-      if (computes_the_same(original, mutant.program)) {
-        EXPECT_NE(finding.verdict, Verdict::refuted) << c.name << ": " << mutant.description;
+    const StepCode code = step_code(original);
+    std::vector<verify_test::Mutant> list = mutants_of(code, {3, first});
+    std::ranges::move(mutants_of_structure(code, {3, first++}), std::back_inserter(list));
+    for (const verify_test::Mutant& mutant : list) {
+      const Finding finding = prove(mechanics, scheme, original, mutant.code);
+      if (computes_the_same(code, mutant.code)) {
+        EXPECT_NE(finding.verdict, Verdict::refuted)
+            << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+            << finding.detail;
         ++equivalent;
         continue;
       }
@@ -123,14 +144,14 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
       ++of_case;
       ++by_kind[mutant.kind];
     }
-    EXPECT_GE(of_case, 8) << c.name;
+    EXPECT_GE(of_case, 3) << c.name;
   }
   RecordProperty("mutants", mutants);
   std::string counts;
   for (const auto& [name, count] : by_kind) counts += fmt::format(", {} {}", count, name);
   fmt::print("{} mutants{}; {} others compute the same\n", mutants, counts, equivalent);
-  EXPECT_GE(mutants, 300);
-  EXPECT_EQ(by_kind.size(), 6U);
+  EXPECT_GE(mutants, 150);
+  EXPECT_GE(by_kind.size(), 6U);
 }
 
 TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
@@ -141,11 +162,8 @@ TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
     Case swapped = straight;
     std::swap(swapped.beta, swapped.gamma);
     const Program program = program_of(mechanics, scheme_of(swapped, n), c.solver);
-    EXPECT_EQ(prove_emitted(mechanics, scheme_of(swapped, n), program, mechanics.energy).verdict,
-              Verdict::proved)
-        << c.name;
-    EXPECT_EQ(prove_emitted(mechanics, scheme_of(straight, n), program, mechanics.energy).verdict,
-              Verdict::refuted)
+    EXPECT_EQ(prove(mechanics, scheme_of(swapped, n), program).verdict, Verdict::proved) << c.name;
+    EXPECT_EQ(prove(mechanics, scheme_of(straight, n), program).verdict, Verdict::refuted)
         << c.name;
   }
 }
@@ -157,37 +175,121 @@ TEST(EmittedCode, WrongDerivativesOfTheMechanicsAreRefuted) {
     wrong.gradient[0] = wrong.gradient[0] * Expression(2);
     const Scheme scheme = scheme_of(c, wrong.degrees_of_freedom);
     const Program first = program_of(wrong, scheme, c.solver);
-    EXPECT_EQ(prove_emitted(wrong, scheme, first, wrong.energy).verdict, Verdict::refuted)
-        << c.name;
+    EXPECT_EQ(prove(wrong, scheme, first).verdict, Verdict::refuted) << c.name;
     if (c.solver != "" || c.alpha.is_zero() || c.alpha.is_one()) continue;  // no Hessian in them
     wrong = mechanics_of(c);
     Expression& entry = wrong.hessian.begin()->second;
     entry = entry * Expression(2);
     const Program second = program_of(wrong, scheme, c.solver);
-    EXPECT_EQ(prove_emitted(wrong, scheme, second, wrong.energy).verdict, Verdict::refuted)
-        << c.name;
+    EXPECT_EQ(prove(wrong, scheme, second).verdict, Verdict::refuted) << c.name;
   }
 }
 
-TEST(EmittedCode, LoopsOverSumsAreReadToo) {
-  const std::string text =
-      "size N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter k = "
-      "1\n"
-      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k*(q[i+1] - q[i])^4/4)\n";
-  const Model model = read_model(make_source("chain.ham", "system chain\n" + text));
-  Mechanics mechanics = derive(model);
-  ASSERT_TRUE(mechanics.keeps_sums());
-  const Expression hamiltonian = written_out_hamiltonian(model);
-  const Scheme scheme = family_member(40, {{half()}}, {{Expression(0)}}, {{Expression(0)}});
-  const Program program = program_of(mechanics, scheme, "");
-  // Tested, not proved: the solver around the loops is not read.
-  EXPECT_EQ(prove_emitted(mechanics, scheme, program, hamiltonian).verdict, Verdict::tested);
+// A system whose sums stay loops, by every method.
+struct Loops {
+  std::string name;
+  std::string solver;
+  std::optional<Scheme> scheme;
+};
+
+const std::string kChain =
+    "size N = 26\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+    "parameter k = 1\nparameter m[1..N] = 2\n"
+    "H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, k*(q[i+1] - q[i])^4/4)\n";
+const std::string kCoupledRing =
+    "size N = 25\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+    "H = sum(i = 1..N, p[i]^2/2 + p[i]*q[i]*q[i+1] + (q[i+1] - q[i])^4/4)\n";
+
+Scheme uniform(int n, const Expression& alpha, const Expression& beta, const Expression& gamma) {
+  return family_member(n, {{alpha}}, {{beta}}, {{gamma}});
+}
+
+std::vector<Loops> loops(const Mechanics& mechanics) {
+  const int n = mechanics.degrees_of_freedom;
+  const Expression zero(0);
+  const auto named = [&](const char* name) { return for_system(*find_scheme(name), mechanics); };
+  std::vector<Loops> all = {
+      {"Newton", "", uniform(n, half(), zero, zero)},
+      {"Newton, full gauge", "", uniform(n, number(1, 3), number(1, 5), number(1, 7))},
+      {"fixed point", "fixed-point", uniform(n, half(), zero, zero)},
+      {"sweeps", "sweeps:2", uniform(n, number(2, 5), number(1, 9), zero)},
+      {"rk4", "", named("rk4")},
+      {"gauss-2", "fixed-point", named("gauss-2")},
+  };
+  if (!mechanics.is_separable()) return all;
+  all.push_back({"explicit", "", uniform(n, zero, zero, zero)});
+  all.push_back({"explicit, the other way", "", uniform(n, Expression(1), zero, zero)});
+  all.push_back({"splitting", "", named("stormer-verlet")});
+  all.push_back(
+      {"composition", "", compose(*find_scheme("yoshida-4"), uniform(n, half(), zero, zero))});
+  return all;
+}
+
+struct LoopsUnderTest {
+  Mechanics mechanics;
+  Expression hamiltonian;
+};
+LoopsUnderTest loops_of(const std::string& text) {
+  const Model model = read_model(make_source("loops.ham", "system loops\n" + text));
+  return {derive(model), written_out_hamiltonian(model)};
+}
+
+TEST(EmittedLoops, AreTheMathematics) {
+  for (const std::string& text : {kChain, kCoupledRing}) {
+    const auto [mechanics, hamiltonian] = loops_of(text);
+    ASSERT_TRUE(mechanics.keeps_sums());
+    for (const Loops& c : loops(mechanics)) {
+      const Program program = program_of(mechanics, *c.scheme, c.solver);
+      const Finding finding =
+          prove_emitted(mechanics, *c.scheme, program, step_code(program), hamiltonian);
+      EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << finding.detail;
+    }
+  }
+}
+
+TEST(EmittedLoops, EveryMutationIsRefuted) {
+  int mutants = 0;
+  std::size_t first = 0;
+  for (const std::string& text : {kChain, kCoupledRing}) {
+    const auto [mechanics, hamiltonian] = loops_of(text);
+    for (const Loops& c : loops(mechanics)) {
+      const Program program = program_of(mechanics, *c.scheme, c.solver);
+      const StepCode code = step_code(program);
+      // Some of each, for a proof takes long here.
+      std::vector<verify_test::Mutant> list = mutants_of_structure(code, {13, first});
+      std::ranges::move(mutants_of(code, {67, first++}), std::back_inserter(list));
+      for (const verify_test::Mutant& mutant : list) {
+        if (computes_the_same(code, mutant.code)) continue;
+        const Finding finding =
+            prove_emitted(mechanics, *c.scheme, program, mutant.code, hamiltonian);
+        EXPECT_EQ(finding.verdict, Verdict::refuted)
+            << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+            << finding.detail;
+        ++mutants;
+      }
+    }
+  }
+  fmt::print("{} mutants of loops\n", mutants);
+  EXPECT_GE(mutants, 20);
+}
+
+// The derivatives are derived anew from H, for loops too.
+TEST(EmittedLoops, WrongKernelsAreRefuted) {
+  const auto [mechanics, hamiltonian] = loops_of(kChain);
+  const Scheme scheme = uniform(mechanics.degrees_of_freedom, half(), Expression(0), Expression(0));
+  const auto verdict = [&](const Mechanics& wrong) {
+    const Program program = program_of(wrong, scheme, "");
+    return prove_emitted(wrong, scheme, program, step_code(program), hamiltonian).verdict;
+  };
   Mechanics slope = mechanics;
   slope.kernels.back().gradient.front() += Expression(1);
-  EXPECT_EQ(prove_emitted(slope, scheme, program, hamiltonian).verdict, Verdict::refuted);
+  EXPECT_EQ(verdict(slope), Verdict::refuted);
+  Mechanics second = mechanics;
+  second.kernels.back().hessian.begin()->second += Expression(1);
+  EXPECT_EQ(verdict(second), Verdict::refuted);
   Mechanics shifted = mechanics;
   shifted.kernels.back().slots.front().position.constant += 1;
-  EXPECT_EQ(prove_emitted(shifted, scheme, program, hamiltonian).verdict, Verdict::refuted);
+  EXPECT_EQ(verdict(shifted), Verdict::refuted);
 }
 
 }  // namespace

@@ -22,49 +22,59 @@ Program program_of(const Mechanics& mechanics, const Scheme& scheme, const std::
   return build_program(plan_solve(discretise(mechanics, scheme), solver));
 }
 
-void for_each_expression(Program& program, const std::function<void(Expression&)>& visit) {
-  auto statements = [&](std::vector<Statement>& list) {
-    for (Statement& s : list) visit(s.value);
-  };
-  auto expressions = [&](std::vector<Expression>& list) {
-    for (Expression& e : list) visit(e);
-  };
-  statements(program.coefficients);
-  for (Stage& stage : program.stages) {
-    statements(stage.before);
-    if (stage.solve) {
-      statements(stage.solve->body);
-      expressions(stage.solve->residual);
-      for (auto& row : stage.solve->matrix) expressions(row);
-      for (LoopVariable& v : stage.solve->variables) {
-        for (Expression* e : {&v.cold, &v.next, &v.correction}) visit(*e);
-      }
-      expressions(stage.solve->gradient);
+namespace {
+
+using Visit = std::function<void(Expression&)>;
+
+struct Visitor {
+  const Visit& visit;
+
+  void body(Body& body) const {
+    for (Instruction& instruction : body) std::visit(*this, instruction.value);
+  }
+  void unknowns(std::vector<Unknown>& list) const {
+    for (Unknown& unknown : list) {
+      visit(unknown.start);
+      visit(unknown.correction);
     }
-    statements(stage.after);
   }
-  expressions(program.increments);
-  expressions(program.rests);
-  for (Evaluation* evaluation :
-       {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-        &program.kinetic_gradient, &program.vector_field, &program.hessian,
-        &program.modified_energies}) {
-    statements(evaluation->statements);
-    expressions(evaluation->results);
+  void operator()(Let& let) const { visit(let.value); }
+  void operator()(Array& array) const {
+    for (Expression& e : array.values) visit(e);
   }
-  if (program.linearisation) {
-    statements(program.linearisation->once);
-    for (Linearisation::Stage& stage : program.linearisation->stages) {
-      statements(stage.before);
-      if (!stage.solve) continue;
-      for (auto& row : stage.solve->matrix) expressions(row);
-      expressions(stage.solve->right_side);
-    }
-    expressions(program.linearisation->results);
+  void operator()(Assign& assign) const { visit(assign.value); }
+  void operator()(Collect& sum) const { visit(sum.value); }
+  void operator()(Accumulate& sum) const { visit(sum.value); }
+  void operator()(Put& put) const { visit(put.value); }
+  void operator()(For& loop) const { body(loop.body); }
+  void operator()(Scope& scope) const { body(scope.body); }
+  void operator()(If& branch) const { body(branch.then); }
+  void operator()(Alternate& alternate) const { body(alternate.between); }
+  void operator()(Iterate& iterate) const {
+    unknowns(iterate.unknowns);
+    body(iterate.body);
   }
-  for (Substep& substep : program.sequence.substeps) visit(substep.length);
-  for (auto& row : program.sequence.stages.coupling) expressions(row);
-  expressions(program.sequence.stages.weight);
+  void operator()(IterateArray& iterate) const { body(iterate.body); }
+  // What it evaluates is what the iteration before it evaluates.
+  void operator()(Refine& refine) const {
+    for (Expression& e : refine.gradient) visit(e);
+  }
+  void operator()(RefineArray&) const {}
+  void operator()(Sweep& sweep) const {
+    unknowns(sweep.unknowns);
+    body(sweep.body);
+  }
+  void operator()(Return& end) const {
+    if (end.value) visit(*end.value);
+  }
+  template <class Other>
+  void operator()(Other&) const {}
+};
+
+}  // namespace
+
+void for_each_expression(StepCode& code, const std::function<void(Expression&)>& visit) {
+  for (Routine& routine : code.routines) Visitor{visit}.body(routine.body);
 }
 
 namespace {
@@ -162,139 +172,20 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
   };
 }
 
-// The program's results in double at one point: an oracle that shares nothing with the proof. Empty
-// if a value is used before it is computed.
-class Interpreter {
- public:
-  std::optional<std::vector<double>> operator()(Program program) {
-    try {
-      run(program.coefficients);
-      for (const Stage& stage : program.stages) {
-        run(stage.before);
-        if (stage.solve) {
-          run(stage.solve->body);
-          for (const Expression& e : stage.solve->residual) results_.push_back(value(e));
-          for (const auto& row : stage.solve->matrix) {
-            for (const Expression& e : row) results_.push_back(value(e));
-          }
-          for (const LoopVariable& v : stage.solve->variables) {
-            for (const Expression& e : {v.cold, v.next, v.correction}) results_.push_back(value(e));
-          }
-          for (const Expression& e : stage.solve->gradient) results_.push_back(value(e));
-        }
-        run(stage.after);
-      }
-      // What is large and what is small make one increment.
-      for (std::size_t i = 0; i < program.increments.size(); ++i) {
-        const double rest = program.rests.empty() ? 0.0 : value(program.rests[i]);
-        results_.push_back(value(program.increments[i]) + rest);
-      }
-      for (const Evaluation* e :
-           {&program.energy, &program.gradient, &program.invariants, &program.potential_gradient,
-            &program.kinetic_gradient, &program.vector_field, &program.hessian,
-            &program.modified_energies}) {
-        run(e->statements);
-        for (const Expression& result : e->results) results_.push_back(value(result));
-      }
-      if (program.linearisation) run(*program.linearisation);
-      for (const Substep& substep : program.sequence.substeps) {
-        results_.push_back(static_cast<double>(substep.kind));
-        results_.push_back(value(substep.length));
-      }
-      for (const auto& row : program.sequence.stages.coupling) {
-        for (const Expression& e : row) results_.push_back(value(e));
-      }
-      for (const Expression& e : program.sequence.stages.weight) results_.push_back(value(e));
-    } catch (const std::out_of_range&) {
-      return std::nullopt;
-    }
-    return results_;
-  }
-
- private:
-  void run(const Linearisation& linearisation) {
-    run(linearisation.once);
-    for (const Linearisation::Stage& stage : linearisation.stages) {
-      run(stage.before);
-      if (!stage.solve) continue;
-      for (const auto& row : stage.solve->matrix) {
-        for (const Expression& e : row) results_.push_back(value(e));
-      }
-      for (const Expression& e : stage.solve->right_side) results_.push_back(value(e));
-    }
-    for (const Expression& e : linearisation.results) results_.push_back(value(e));
-  }
-  void run(const std::vector<Statement>& statements) {
-    std::set<std::string> rounded;
-    for (std::size_t i = 0; i < statements.size(); ++i) {
-      pending_.insert(statements[i].name);
-      const Expression& error = statements[i].value;
-      if (error.kind() != Kind::function || error.name() != kProductError) continue;
-      const Expression product = error.operands()[0] * error.operands()[1];
-      for (std::size_t j = i; j-- > 0;) {
-        if (statements[j].value != product) continue;
-        rounded.insert(statements[j].name);
-        break;
-      }
-    }
-    for (const Statement& s : statements) {
-      values_[s.name] = value(s.value) * (rounded.contains(s.name) ? 1 - kLost : 1);
-      pending_.erase(s.name);
-    }
-  }
-  double symbol(const std::string& name) {
-    if (pending_.contains(name)) throw std::out_of_range(name);
-    // Free symbols: some number from 1/2 to 3/2 that depends on the name.
-    const double spread = static_cast<double>(std::hash<std::string>{}(name) % 1000) / 1000;
-    return values_.try_emplace(name, name == "h" ? 0.1 : 0.5 + spread).first->second;
-  }
-  double value(const Expression& e) {
-    std::vector<double> x;
-    for (const Expression& operand : e.operands()) x.push_back(value(operand));
-    switch (e.kind()) {
-      case Kind::number:
-        return e.number().get_d();
-      case Kind::symbol:
-        return symbol(e.name());
-      case Kind::sum:
-        return std::accumulate(x.begin(), x.end(), 0.0);
-      case Kind::product:
-        return std::accumulate(x.begin(), x.end(), 1.0, std::multiplies<>());
-      case Kind::power:
-        return std::pow(x[0], x[1]);
-      case Kind::function:
-        if (e.name() == kProductError) return kLost * x[0] * x[1];
-        return e.name() == "sin" ? std::sin(x[0]) : std::cos(x[0]);
-    }
-    return 0;
-  }
-  // Of a product that comes with its error, a part: the two of them are the product.
-  static constexpr double kLost = 0.1;
-  std::map<std::string, double> values_;
-  std::set<std::string> pending_;
-  std::vector<double> results_;
-};
-
 }  // namespace
 
-bool computes_the_same(const Program& a, const Program& b) {
-  const auto of_a = Interpreter()(a);
-  const auto of_b = Interpreter()(b);
-  if (!of_a || !of_b || of_a->size() != of_b->size()) return false;
-  for (std::size_t i = 0; i < of_a->size(); ++i) {
-    // Rounding errors stay below 1e-12; a mutation moves a value by at least 1e-3 of one of its
-    // terms.
-    if (!(std::abs((*of_a)[i] - (*of_b)[i]) <= 1e-12 * (1 + std::abs((*of_a)[i])))) return false;
-  }
-  return true;
-}
-
-std::vector<Mutant> mutants_of(const Program& original) {
+std::vector<Mutant> mutants_of(const StepCode& original, Some some,
+                               const std::set<std::string>& routines) {
   std::vector<Mutant> mutants;
   std::set<std::string> known;
   std::vector<Expression> all;
-  Program copy = original;
-  for_each_expression(copy, [&](Expression& e) {
+  const auto for_each = [&](StepCode& code, const std::function<void(Expression&)>& visit) {
+    for (Routine& routine : code.routines) {
+      if (routines.empty() || routines.contains(routine.name)) Visitor{visit}.body(routine.body);
+    }
+  };
+  StepCode copy = original;
+  for_each(copy, [&](Expression& e) {
     collect_symbols(e, known);
     all.push_back(e);
   });
@@ -306,10 +197,10 @@ std::vector<Mutant> mutants_of(const Program& original) {
       if ((place + kind) % (1 + places / 12) != 0) continue;
       const std::vector<Expression> variants = changed_somewhere(all[place], mutation.change);
       for (std::size_t v = 0; v < variants.size(); v += 1 + variants.size() / 2) {
-        if (variants[v] == all[place]) continue;
-        Program mutant = original;
+        if (variants[v] == all[place] || some.first++ % some.every != 0) continue;
+        StepCode mutant = original;
         std::size_t now = 0;
-        for_each_expression(mutant, [&](Expression& e) {
+        for_each(mutant, [&](Expression& e) {
           if (now++ == place) e = variants[v];
         });
         mutants.push_back({mutation.name, to_text(all[place]) + " -> " + to_text(variants[v]),
@@ -320,39 +211,92 @@ std::vector<Mutant> mutants_of(const Program& original) {
   return mutants;
 }
 
-std::vector<Mutant> mutants_of_sequence(const Program& original) {
-  std::vector<Mutant> mutants;
-  auto change = [&](const std::string& kind, auto alter) {
-    Program mutant = original;
-    alter(mutant.sequence);
-    mutants.push_back({kind, "", std::move(mutant)});
+namespace {
+
+// Every body, with the routine it belongs to.
+void for_each_body(StepCode& code, const std::function<void(const Routine&, Body&)>& use) {
+  const std::function<void(const Routine&, Body&)> visit = [&](const Routine& routine, Body& body) {
+    use(routine, body);
+    for (Instruction& instruction : body) {
+      for (const Body* inner : inner_bodies(instruction)) {
+        // A refinement evaluates what the iteration before it does.
+        const bool again = std::holds_alternative<Refine>(instruction.value) ||
+                           std::holds_alternative<RefineArray>(instruction.value);
+        if (!again) visit(routine, const_cast<Body&>(*inner));
+      }
+    }
   };
-  const std::vector<Substep>& substeps = original.sequence.substeps;
-  for (std::size_t i = 0; i < substeps.size(); ++i) {
-    change("substep left out", [i](Sequence& s) {
-      s.substeps.erase(s.substeps.begin() + static_cast<std::ptrdiff_t>(i));
+  for (Routine& routine : code.routines) visit(routine, routine.body);
+}
+
+bool computes(const Instruction& instruction) {
+  const auto& node = instruction.value;
+  return std::holds_alternative<Assign>(node) || std::holds_alternative<Accumulate>(node) ||
+         std::holds_alternative<Collect>(node) || std::holds_alternative<Put>(node) ||
+         std::holds_alternative<For>(node) || std::holds_alternative<Call>(node) ||
+         std::holds_alternative<Clear>(node);
+}
+
+}  // namespace
+
+std::vector<Mutant> mutants_of_structure(const StepCode& original, Some some) {
+  std::vector<Mutant> mutants;
+  const auto change = [&](const std::string& kind, const auto& alter) {
+    if (some.first++ % some.every != 0) return;
+    StepCode mutant = original;
+    const std::string what = alter(mutant);
+    if (!what.empty()) mutants.push_back({kind, what, std::move(mutant)});
+  };
+  const std::size_t substeps = original.substeps.size();
+  for (std::size_t i = 0; substeps > 1 && i < substeps; ++i) {
+    change("substep left out", [i](StepCode& code) {
+      code.substeps.erase(code.substeps.begin() + static_cast<std::ptrdiff_t>(i));
+      return std::to_string(i);
     });
-    change("substep repeated", [i](Sequence& s) {
-      const Substep again = s.substeps[i];
-      s.substeps.insert(s.substeps.begin() + static_cast<std::ptrdiff_t>(i), again);
-    });
-    change("substeps exchanged",
-           [i](Sequence& s) { std::swap(s.substeps[i], s.substeps[(i + 1) % s.substeps.size()]); });
-    change("kick for drift", [i](Sequence& s) {
-      SubstepKind& kind = s.substeps[i].kind;
-      kind = kind == SubstepKind::kick ? SubstepKind::drift : SubstepKind::kick;
+    change("substeps exchanged", [i, substeps](StepCode& code) {
+      std::swap(code.substeps[i], code.substeps[(i + 1) % substeps]);
+      return std::to_string(i);
     });
   }
-  const std::size_t stages = original.sequence.stages.weight.size();
-  for (std::size_t i = 0; i < stages; ++i) {
-    change("stage left out", [i](Sequence& s) {
-      s.stages.weight.erase(s.stages.weight.begin() + static_cast<std::ptrdiff_t>(i));
+  std::size_t bodies = 0;
+  StepCode copy = original;
+  for_each_body(copy, [&](const Routine&, Body& body) { bodies += body.size(); });
+  for (std::size_t place = 0; place < bodies; place += 1 + bodies / 24) {
+    const auto at_place = [&](const std::string& kind, const auto& alter) {
+      change(kind, [&](StepCode& code) {
+        std::size_t now = 0;
+        std::string what;
+        for_each_body(code, [&](const Routine& routine, Body& body) {
+          const std::size_t first = now;
+          now += body.size();
+          if (place < first || place >= now || !what.empty()) return;
+          if (alter(body, place - first)) what = routine.name + " " + std::to_string(place - first);
+        });
+        return what;
+      });
+    };
+    at_place("instruction left out", [](Body& body, std::size_t i) {
+      if (!computes(body[i])) return false;
+      body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
+      return true;
     });
-    change("rows exchanged", [i, stages](Sequence& s) {
-      std::swap(s.stages.coupling[i], s.stages.coupling[(i + 1) % stages]);
+    at_place("range too short", [](Body& body, std::size_t i) {
+      auto* loop = std::get_if<For>(&body[i].value);
+      if (loop == nullptr) return false;
+      loop->range.upper.constant -= 1;
+      return true;
     });
-    change("tableau transposed", [i, stages](Sequence& s) {
-      std::swap(s.stages.coupling[i][(i + 1) % stages], s.stages.coupling[(i + 1) % stages][i]);
+    at_place("range begins late", [](Body& body, std::size_t i) {
+      auto* loop = std::get_if<For>(&body[i].value);
+      if (loop == nullptr) return false;
+      loop->range.lower.constant += 1;
+      return true;
+    });
+    at_place("neighbour in the matrix", [](Body& body, std::size_t i) {
+      auto* put = std::get_if<Put>(&body[i].value);
+      if (put == nullptr) return false;
+      put->column.constant += 1;
+      return true;
     });
   }
   return mutants;

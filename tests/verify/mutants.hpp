@@ -1,4 +1,4 @@
-// Programs with one thing changed, and an oracle that says if they still compute the same.
+// Routines with one thing changed.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/mechanics/mechanics.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/step_code.hpp"
 
 namespace hamgen::verify_test {
 
@@ -16,22 +16,26 @@ namespace hamgen::verify_test {
 [[nodiscard]] Program program_of(const Mechanics& mechanics, const Scheme& scheme,
                                  const std::string& solver);
 
-// Every expression the program holds.
-void for_each_expression(Program& program, const std::function<void(Expression&)>& visit);
+// Every value that a routine computes.
+void for_each_expression(StepCode& code, const std::function<void(Expression&)>& visit);
 
 struct Mutant {
   std::string kind;         // "sign"
   std::string description;  // "cos(q) -> sin(q)"
-  Program program;
+  StepCode code;
+};
+
+// Of all of them every so many, from `first` on, which differs from case to case: all take minutes.
+struct Some {
+  std::size_t every = 1;
+  std::size_t first = 0;
 };
 
 // A sign, a coefficient, an operand, a power, a variable, a function changed in a handful of places
-// that are spread over the program.
-[[nodiscard]] std::vector<Mutant> mutants_of(const Program& original);
-// Substeps exchanged, left out, repeated; entries of the tableau exchanged.
-[[nodiscard]] std::vector<Mutant> mutants_of_sequence(const Program& original);
-
-// By evaluating both in double, which shares nothing with the proof.
-[[nodiscard]] bool computes_the_same(const Program& a, const Program& b);
+// that are spread over the routines, or over those of these names.
+[[nodiscard]] std::vector<Mutant> mutants_of(const StepCode& original, Some some = {},
+                                             const std::set<std::string>& routines = {});
+// Substeps exchanged and left out; instructions left out, loops that run too far or not far enough.
+[[nodiscard]] std::vector<Mutant> mutants_of_structure(const StepCode& original, Some some = {});
 
 }  // namespace hamgen::verify_test

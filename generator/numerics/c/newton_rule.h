@@ -10,18 +10,21 @@ typedef struct {
   int unchecked;
   Real previous;
   int grown;
+  bool predicted;
   Real move, bend;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 0, 0, 0, 0, 0};
+  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
   return rule->power == 2 ? size * size : size;
 }
-static inline void NewtonRule_begin(NewtonRule* rule) {
+// From a prediction, or else from the state itself.
+static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
   rule->previous = 0;
   rule->grown = 0;
+  rule->predicted = predicted;
 }
 // size, scale: sums over the unknowns, of their increments and of their values.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
@@ -51,6 +54,8 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;
   }
+  const bool astray =
+      rule->predicted && iterations > 1 && 2 * size > rule->previous && size > 4096 * round_off;
   rule->previous = size;
-  return iterations < 60 ? go_on : failed;
+  return iterations < 60 && !astray ? go_on : failed;
 }

@@ -1,35 +1,14 @@
+// Of a sum that is kept as loops, without its routines: that the loops sum up to H, and what the
+// generator takes for the derivatives of their summands.
 #include <fmt/format.h>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/mechanics/to_ginac.hpp"
 #include "generator/verify/emitted.hpp"
 
 namespace hamgen {
 
 namespace {
-
-using Indices = std::map<std::string, long>;
-
-long at(const AffineIndex& index, const Indices& indices) {
-  long value = index.constant;
-  for (const auto& [name, factor] : index.factors) value += factor * indices.at(name);
-  return value;
-}
-
-// Calls `use` with the indices of every instance.
-template <class Use>
-void for_instances(const Kernel& kernel, std::size_t depth, Indices& indices, const Use& use) {
-  if (depth == kernel.ranges.size()) {
-    use(indices);
-    return;
-  }
-  const KernelRange& range = kernel.ranges[depth];
-  const long last = at(range.upper, indices);
-  for (long i = at(range.lower, indices); i <= last; ++i) {
-    indices[range.index] = i;
-    for_instances(kernel, depth + 1, indices, use);
-  }
-  indices.erase(range.index);
-}
 
 // The sum over all instances, in the symbols of the state and of the parameters.
 Expression written_out(const Mechanics& mechanics) {
@@ -41,17 +20,19 @@ Expression written_out(const Mechanics& mechanics) {
         Expression::symbol(name, kRankOfParameter + static_cast<int>(i)));
   }
   for (const Kernel& kernel : mechanics.kernels) {
-    Indices indices;
-    for_instances(kernel, 0, indices, [&](const Indices& now) {
+    for_each_instance(kernel.ranges, [&](const std::vector<long>& now) {
       Substitution element;
       for (const Slot& slot : kernel.slots) {
-        element.emplace(slot.symbol, mechanics.variable(static_cast<int>(at(slot.position, now))));
+        element.emplace(
+            slot.symbol,
+            mechanics.variable(static_cast<int>(value_at(slot.position, kernel.ranges, now))));
       }
       for (const ParameterSlot& slot : kernel.parameters) {
-        const auto position = static_cast<std::size_t>(at(slot.position, now));
+        const auto position = static_cast<std::size_t>(value_at(slot.position, kernel.ranges, now));
         element.emplace(slot.symbol, parameters.at(slot.parameter).at(position));
       }
-      for (const auto& [index, value] : now) element.emplace(index, Expression(value));
+      for (std::size_t i = 0; i < now.size(); ++i)
+        element.emplace(kernel.ranges[i].index, Expression(now[i]));
       terms.push_back(substitute(kernel.value, element));
     });
   }
@@ -80,11 +61,15 @@ void add_kernel(const Kernel& kernel, std::vector<Identities>& parts) {
       expected_hessian.push_back(from_ginac(slope.diff(slots[j]), table));
     }
   }
-  parts.push_back(identities_of(evaluate_together({kernel.value}), "a summand", {kernel.value}));
-  parts.push_back(
-      identities_of(evaluate_together(gradient), "slope of a summand", expected_gradient));
-  parts.push_back(identities_of(evaluate_together(hessian), "second derivative of a summand",
-                                expected_hessian));
+  const auto add = [&](const char* what, const std::vector<Expression>& values,
+                       const std::vector<Expression>& expected) {
+    Identities identities;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      identities.claims.push_back({fmt::format("{} {}", what, i + 1), values[i], expected[i]});
+    parts.push_back(std::move(identities));
+  };
+  add("slope of a summand", gradient, expected_gradient);
+  add("second derivative of a summand", hessian, expected_hessian);
 }
 
 }  // namespace

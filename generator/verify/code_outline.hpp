@@ -1,0 +1,38 @@
+// A step's routines, or a sum's loops, as a list of events in which numbers that tell places apart
+// stand by themselves: two sizes of one system are compared by it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/program/step_code.hpp"
+
+namespace hamgen {
+
+struct CodeEvent {
+  enum class Kind {
+    word,     // anything that has to be the same
+    routine,  // begins: its name
+    call,     // of a routine: its name
+    shared,   // its arguments: one that it changes is a part of one that it reads
+    loop,     // begins: its index; numbers of its two ends
+    end,      // of a loop
+    local,    // is declared
+    get,      // an object or a local is read, and elements of it follow
+    set,      // ... is assigned
+    add,      // ... is added to
+    element,  // in one dimension: the names of the indices; their factors and the constant
+    index,    // an index itself is the number
+  };
+  Kind kind = Kind::word;
+  std::string text = {};
+  std::vector<std::string> names = {};
+  std::vector<long> numbers = {};
+};
+
+// All but `left_out`.
+[[nodiscard]] std::vector<CodeEvent> outline(const StepCode& code, const std::string& left_out);
+[[nodiscard]] std::vector<CodeEvent> outline(const std::vector<Kernel>& kernels);
+
+}  // namespace hamgen

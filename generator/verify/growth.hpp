@@ -1,0 +1,28 @@
+// From the claims about two small systems to those about a longer one of the same kind.
+//
+// Where the routines of size N are those of size M but for ends of loops and places that grow with
+// the size, and each instance of a growing loop knows its neighbours only, an element of the longer
+// system has the neighbours of some element of the shorter ones: its claim is the claim there, with
+// other names.  A sum over all elements is the right one, too: its slope by each variable is, by
+// the same argument, so that it can be wrong by a constant only, which is affine in N, and vanishes
+// at M and M + 1.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/verify/code_outline.hpp"
+
+namespace hamgen {
+
+struct SizedOutline {
+  long size = 0;  // the constant of the model
+  std::vector<CodeEvent> events;
+};
+
+// Why the third is not the first two, longer; empty if it is.  The sizes of the first two differ.
+[[nodiscard]] std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes);
+
+}  // namespace hamgen

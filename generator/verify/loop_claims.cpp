@@ -1,0 +1,350 @@
+// A member of a system whose sums are loops, one and the same alpha, beta, gamma everywhere.  The
+// loops run over all their instances, and the claims are made of every element: growth.hpp says
+// what they are for systems that are too large for that.
+//
+// In solve the gradient is a function of which nothing is known: what it returns is free, and where
+// it is called is compared.  What the functions return, and the entries of Newton's matrix, are
+// claims of their own, against H written out and differentiated anew.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "generator/equations/step_equations.hpp"
+#include "generator/verify/emitted.hpp"
+
+namespace hamgen {
+
+namespace {
+
+class LoopMemberClaims {
+ public:
+  LoopMemberClaims(const StepUnderProof& step, const Derivatives& derivatives,
+                   const FamilyParameters& member, std::optional<int> sweeps)
+      : step_(step),
+        derivatives_(derivatives),
+        member_(member),
+        sweeps_(sweeps),
+        n_(step.mechanics.degrees_of_freedom),
+        reduced_(step.code.routine("evaluate") != nullptr),
+        linear_(reduced_ && !member.beta.is_zero()) {}
+
+  std::vector<Identities> run() {
+    std::vector<Identities> parts;
+    if (step_.code.routine("differentiate") != nullptr) parts.push_back(matrix_identities());
+    parts.push_back(solve_identities());
+    return parts;
+  }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] bool has(const char* routine) const {
+    return step_.code.routine(routine) != nullptr;
+  }
+  void claim(std::string what, const Expression& emitted, const Expression& expected) {
+    identities_.claims.push_back({std::move(what), emitted, expected});
+  }
+  Expression mass(int i) const { return derivatives_.second(n_ + i, n_ + i); }
+
+  // --- Newton's matrix ------------------------------------------------------------------------
+
+  // With the momenta torn out, pbar = (p - h (1 - alpha) V_q - h beta d)/(1 + h beta m), that of
+  //   qbar - q - h alpha T_p(pbar) - h gamma V_q(qbar);
+  // else I - h (I/2 + C) J H''.
+  Expression expected_entry(int i, int j) {
+    const auto& [alpha, beta, gamma] = member_;
+    const Expression h = step_size();
+    const Expression unit(i == j ? 1 : 0);
+    if (reduced_) {
+      const Expression own = mass(i);
+      const Expression slope = -(h * (Expression(1) - alpha)) / (Expression(1) + h * beta * own);
+      return unit - (h * alpha * own * slope + h * gamma) * derivatives_.second(i, j);
+    }
+    if (i < n_) {
+      return unit - h * alpha * derivatives_.second(n_ + i, j) -
+             h * gamma * derivatives_.second(i, j);
+    }
+    return unit + h * (Expression(1) - alpha) * derivatives_.second(i - n_, j) +
+           h * beta * derivatives_.second(i, j);
+  }
+
+  Identities matrix_identities() {
+    SymbolicMachine machine = step_.machine();
+    const int size = reduced_ ? n_ : 2 * n_;
+    for (int i = 0; i < 2 * n_; ++i)
+      machine.set({"at", "", {{i, {}}}}, step_.mechanics.variable(i));
+    if (has("prepare")) machine.run("prepare");
+    machine.matrix("matrix")[{0, 0}] = Expression::symbol("left from before");
+    machine.run("differentiate");
+    const MatrixEntries entries = machine.matrix("matrix");
+    identities_ = {};
+    std::set<std::pair<long, long>> places;
+    for (const auto& [place, value] : entries) places.insert(place);
+    for (int i = 0; i < size; ++i) places.insert({i, i});
+    for (const auto& [place, value] : derivatives_.hessian()) {
+      const auto add = [&](int i, int j) {
+        if (i < size && j < size) places.insert({i, j});
+      };
+      for (const auto& [i, j] : {place, std::pair(place.second, place.first)}) {
+        if (reduced_ && (i >= n_ || j >= n_)) continue;
+        add(i, j);
+        add(i < n_ ? i + n_ : i - n_, j);
+      }
+    }
+    for (const auto& [i, j] : places) {
+      const auto it = entries.find({i, j});
+      claim(fmt::format("entry {}, {} of Newton's matrix", i + 1, j + 1),
+            it == entries.end() ? Expression(0) : it->second,
+            expected_entry(static_cast<int>(i), static_cast<int>(j)));
+    }
+    identities_.emitted = machine.definitions();
+    return std::move(identities_);
+  }
+
+  // --- the step -------------------------------------------------------------------------------
+
+  // grad H as it was called at these points; a symbol that nobody knows if it was not.
+  Expression slope(const SymbolicMachine& machine, const std::vector<Expression>& point, int k) {
+    if (linear_ && k >= n_) return velocity(k, point);
+    const auto first = point.begin();
+    const std::vector<Expression> q(first, first + n_);
+    const std::vector<Expression> p(first + n_, first + 2 * n_);
+    for (const CallTrace& call : machine.calls) {
+      if (call.routine == "gradient" && call.input == point) return call.output[at(k)];
+      if (call.routine == "potential_gradient" && k < n_ && call.input == q)
+        return call.output[at(k)];
+      if (call.routine == "kinetic_gradient" && k >= n_ && call.input == p)
+        return call.output[at(k - n_)];
+    }
+    return Expression::symbol("not evaluated: dH/d" + step_.name(k));
+  }
+
+  // dT/dp = d + m p
+  Expression velocity(int k, const std::vector<Expression>& point) const {
+    return substitute(derivatives_.first(k), {{step_.name(k), point[at(k)]}});
+  }
+  // The momentum whose row holds, where it depends on itself.
+  Expression solved_momentum(int i, const Expression& force) const {
+    const auto& [alpha, beta, gamma] = member_;
+    const Expression h = step_size();
+    const Expression drift = substitute(derivatives_.first(i), {{step_.name(i), Expression(0)}});
+    return (step_.mechanics.variable(i) + step_.carry(i) - h * (Expression(1) - alpha) * force -
+            h * beta * drift) /
+           (Expression(1) + h * beta * mass(i - n_));
+  }
+
+  // z_i + carry_i + h (B g)_i
+  Expression row(int i, const std::function<Expression(int)>& g) {
+    const auto& [alpha, beta, gamma] = member_;
+    const Expression h = step_size();
+    Expression sum = step_.mechanics.variable(i) + step_.carry(i);
+    if (i < n_) {
+      if (!alpha.is_zero()) sum += h * alpha * g(n_ + i);
+      if (!gamma.is_zero()) sum += h * gamma * g(i);
+      return moves(i) ? sum : step_.mechanics.variable(i);
+    }
+    if (!alpha.is_one()) sum += -(h * (Expression(1) - alpha)) * g(i - n_);
+    if (!beta.is_zero()) sum += -(h * beta) * g(i);
+    return moves(i) ? sum : step_.mechanics.variable(i);
+  }
+  // Has the row any weight?
+  [[nodiscard]] bool moves(int i) const {
+    return i < n_ ? !member_.alpha.is_zero() || !member_.gamma.is_zero()
+                  : !member_.alpha.is_one() || !member_.beta.is_zero();
+  }
+
+  Identities solve_identities() {
+    identities_ = {};
+    std::set<std::string> opaque = {"gradient", "potential_gradient", "differentiate"};
+    if (!linear_) opaque.insert("kinetic_gradient");
+    SymbolicMachine machine = step_.machine(std::move(opaque));
+    for (int i = 0; i < n_; ++i) machine.name({"start", "value", {{i, {}}}}, bar(i));
+    for (int i = 0; i < n_; ++i) {
+      machine.name(reduced_ ? Place{"start", "momentum", {{i, {}}}}
+                            : Place{"start", "value", {{n_ + i, {}}}},
+                   bar(n_ + i));
+    }
+    if (has("prepare")) machine.run("prepare");
+    machine.run("solve");
+    if (sweeps_) {
+      claim_sweeps(machine);
+    } else if (machine.iterations.empty()) {
+      claim_explicit(machine);
+    } else {
+      claim_solved(machine);
+    }
+    identities_.emitted = machine.definitions();
+    return std::move(identities_);
+  }
+  [[nodiscard]] std::string bar(int i) const { return "bar(" + step_.name(i) + ")"; }
+
+  // The stage of an explicit method: half of it is z, and half follows from the gradient there.
+  void claim_explicit(SymbolicMachine& machine) {
+    const bool kick_first = member_.alpha.is_zero();
+    std::vector<Expression> point;
+    for (int i = 0; i < 2 * n_; ++i) {
+      const bool follows = (i >= n_) == kick_first;
+      point.push_back(follows ? machine.value({"start", "value", {{i % n_, {}}}})
+                              : step_.mechanics.variable(i));
+    }
+    const auto g = [&](int k) { return slope(machine, point, k); };
+    for (int i = 0; i < 2 * n_; ++i) {
+      claim("the stage value of " + step_.name(i), point[at(i)], row(i, g));
+    }
+    claim_increments(machine, g);
+  }
+
+  void claim_increments(SymbolicMachine& machine, const std::function<Expression(int)>& g) {
+    for (int i = 0; i < 2 * n_; ++i) {
+      const Expression flow = i < n_ ? step_size() * g(n_ + i) : -(step_size() * g(i - n_));
+      claim("the increment of " + step_.name(i), step_.increment(machine, i),
+            step_.carry(i) + flow);
+    }
+  }
+
+  // First grad H(z), then K times grad H(zbar(g)): the points of the calls in their order.
+  void claim_sweeps(SymbolicMachine& machine) {
+    const std::size_t per_sweep = has("potential_gradient") ? 2 : 1;
+    const auto expected = static_cast<std::size_t>(*sweeps_ + 1) * per_sweep;
+    claim("the number of evaluations", Expression(std::ssize(machine.calls)),
+          Expression(static_cast<long>(expected)));
+    if (machine.calls.size() != expected) return;
+    std::vector<Expression> values;
+    for (int i = 0; i < 2 * n_; ++i) values.push_back(step_.mechanics.variable(i));
+    for (std::size_t s = 0; s <= static_cast<std::size_t>(*sweeps_); ++s) {
+      std::vector<Expression> point;
+      std::vector<Expression> g;
+      for (std::size_t c = s * per_sweep; c < (s + 1) * per_sweep; ++c) {
+        const CallTrace& call = machine.calls[c];
+        point.insert(point.end(), call.input.begin(), call.input.end());
+        g.insert(g.end(), call.output.begin(), call.output.end());
+      }
+      for (int i = 0; i < 2 * n_; ++i) {
+        claim(fmt::format("where sweep {} evaluates, {}", s, step_.name(i)), point.at(at(i)),
+              values[at(i)]);
+      }
+      const auto of_sweep = [&](int k) { return g.at(at(k)); };
+      for (int i = 0; i < 2 * n_; ++i) values[at(i)] = row(i, of_sweep);
+      if (s == static_cast<std::size_t>(*sweeps_)) claim_increments(machine, of_sweep);
+    }
+  }
+
+  // zbar of an iteration whose unknowns are these: with the momenta torn out these follow from the
+  // coordinates, and satisfy their rows.
+  std::vector<Expression> stage_of(SymbolicMachine& machine,
+                                   const std::vector<Expression>& unknowns, const char* where) {
+    if (!reduced_) return unknowns;
+    std::vector<Expression> point = unknowns;
+    const auto force = std::ranges::find_if(machine.calls, [&](const CallTrace& call) {
+      return call.routine == "potential_gradient" && call.input == unknowns;
+    });
+    const bool evaluated = force != machine.calls.end();
+    const bool has_momenta = evaluated && (linear_ || std::next(force) != machine.calls.end());
+    claim(fmt::format("the gradient is evaluated {}", where), Expression(has_momenta ? 1 : 0),
+          Expression(1));
+    for (int i = 0; i < n_; ++i) {
+      point.push_back(!has_momenta ? step_.mechanics.variable(n_ + i)
+                      : linear_    ? solved_momentum(n_ + i, force->output[at(i)])
+                                   : std::next(force)->input.at(at(i)));
+    }
+    if (linear_ || !has_momenta) return point;
+    for (int i = n_; i < 2 * n_; ++i) {
+      claim(fmt::format("the stage value of {} {}", step_.name(i), where), point[at(i)],
+            row(i, [&](int k) { return slope(machine, point, k); }));
+    }
+    return point;
+  }
+
+  void claim_solved(SymbolicMachine& machine) {
+    const IterationTrace& trace = machine.iterations.front();
+    const int m = reduced_ ? n_ : 2 * n_;
+    claim("the number of unknowns", Expression(std::ssize(trace.unknowns)), Expression(m));
+    if (std::ssize(trace.unknowns) != m) return;
+    // The order in which the iteration lists them is no matter.
+    std::vector<Expression> unknowns;
+    for (int i = 0; i < m; ++i) unknowns.push_back(Expression::symbol(bar(i), kRankOfTemporary));
+    const std::vector<Expression> point = stage_of(machine, unknowns, "in the iteration");
+    const auto g = [&](int k) { return slope(machine, point, k); };
+    std::vector<Expression> increments;
+    for (int i = 0; i < m; ++i) {
+      const auto place = std::ranges::find(trace.unknowns, unknowns[at(i)]);
+      const bool known = place != trace.unknowns.end();
+      claim(step_.name(i) + " is an unknown", Expression(known ? 1 : 0), Expression(1));
+      if (!known) return;
+      const auto j = static_cast<std::size_t>(place - trace.unknowns.begin());
+      increments.push_back(trace.corrections[j]);
+      claim("the start of " + step_.name(i), trace.starts[j], step_.mechanics.variable(i));
+    }
+    if (trace.rule == Rule::fixed_point) {
+      for (int i = 0; i < m; ++i) {
+        claim("what the equations lack for " + step_.name(i), increments[at(i)],
+              row(i, g) - unknowns[at(i)]);
+      }
+      claim_refined(machine, trace, g);
+      return;
+    }
+    claim_newton(machine, unknowns, increments, g);
+  }
+
+  // The matrix is what `differentiate` makes of the unknowns; the last increment is made, and
+  // everything evaluated there.
+  void claim_newton(SymbolicMachine& machine, const std::vector<Expression>& unknowns,
+                    const std::vector<Expression>& increments,
+                    const std::function<Expression(int)>& g) {
+    const auto m = static_cast<int>(unknowns.size());
+    const bool solved = machine.systems.size() == 1;
+    claim("the number of linear systems", Expression(std::ssize(machine.systems)), Expression(1));
+    if (!solved) return;
+    const EliminatedSystem& system = machine.systems.front();
+    const auto call = std::ranges::find(machine.calls, "differentiate", &CallTrace::routine);
+    const bool at_unknowns =
+        call != machine.calls.end() &&
+        std::equal(unknowns.begin(), unknowns.end(), call->input.begin(), call->input.end());
+    claim("the matrix is taken at the unknowns", Expression(at_unknowns ? 1 : 0), Expression(1));
+    std::vector<Expression> moved;
+    for (int i = 0; i < m; ++i) {
+      claim("what the equations lack for " + step_.name(i), system.right_side.at(at(i)),
+            row(i, g) - unknowns[at(i)]);
+      claim("the increment of the stage value of " + step_.name(i), increments[at(i)],
+            system.solution.at(at(i)));
+      moved.push_back(machine.value({"start", "value", {{i, {}}}}));
+      claim("the last stage value of " + step_.name(i), moved.back(),
+            unknowns[at(i)] + increments[at(i)]);
+    }
+    const std::vector<Expression> point = stage_of(machine, moved, "at the end");
+    const auto last = [&](int k) { return slope(machine, point, k); };
+    claim_increments(machine, last);
+  }
+
+  void claim_refined(SymbolicMachine& machine, const IterationTrace& trace,
+                     const std::function<Expression(int)>& g) {
+    const bool all = std::ssize(trace.changes) == 2 * n_;
+    claim("the number of components refined", Expression(std::ssize(trace.changes)),
+          Expression(2 * n_));
+    if (!all) return;
+    for (int k = 0; k < 2 * n_; ++k) {
+      claim("dH/d" + step_.name(k) + " at the fixed point", trace.gradient[at(k)], g(k));
+    }
+    claim_increments(machine, [&](int k) { return g(k) + trace.changes[at(k)]; });
+  }
+
+  const StepUnderProof& step_;
+  const Derivatives& derivatives_;
+  const FamilyParameters member_;
+  std::optional<int> sweeps_;
+  int n_;
+  bool reduced_;  // the momenta are torn out
+  // They depend on dT/dp, which is linear in them then, and is looked into.
+  bool linear_;
+  Identities identities_;
+};
+
+}  // namespace
+
+std::vector<Identities> loop_member_identities(const StepUnderProof& step,
+                                               const Derivatives& derivatives, const Member& member,
+                                               std::optional<int> sweeps) {
+  return LoopMemberClaims(step, derivatives, uniform_parameters(member).value(), sweeps).run();
+}
+
+}  // namespace hamgen

@@ -1,0 +1,205 @@
+#include "generator/verify/specialised.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/algebra/from_ginac.hpp"
+#include "generator/language/constant.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/verify/identities.hpp"
+
+namespace hamgen {
+
+namespace {
+
+std::size_t position(int i) { return static_cast<std::size_t>(i); }
+
+// H as a thing to differentiate.
+class Slopes {
+ public:
+  explicit Slopes(const Expression& hamiltonian) : value_(to_ginac(hamiltonian, table_)) {}
+  Expression by(const std::string& variable) {
+    const GiNaC::ex symbol = table_.symbol(variable, kRankOfVariable);
+    return from_ginac(value_.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)), table_);
+  }
+
+ private:
+  SymbolTable table_;
+  GiNaC::ex value_;
+};
+
+Model with_free_parameters(Model model) {
+  for (Parameter& parameter : model.parameters) parameter.folded = false;
+  return model;
+}
+
+class SpecialisedClaims {
+ public:
+  SpecialisedClaims(const Model& model, const FoldedModel& folded, const Specialised& system,
+                    const SceneFacts& scene)
+      : model_(with_free_parameters(model)),
+        folded_(folded),
+        system_(system),
+        scene_(scene),
+        n_(system.whole.degrees_of_freedom),
+        hamiltonian_(written_out_hamiltonian(folded.model)),
+        slopes_(hamiltonian_) {
+    for (const int i : system.resting) {
+      zeros_.emplace(name(i), Expression(0));
+      zeros_.emplace(name(n_ + i), Expression(0));
+    }
+  }
+
+  // A value of the scene that is not what it is taken for.
+  [[nodiscard]] std::string wrong_value() const {
+    const std::vector<std::string> names = element_names(model_.parameters);
+    const auto value = [&](const std::string& of) {
+      const auto found = std::ranges::find_if(
+          names, [&](const std::string& each) { return each == of || each.starts_with(of + "["); });
+      return found == names.end()
+                 ? Rational(0)
+                 : scene_.values.parameters[position(static_cast<int>(found - names.begin()))];
+    };
+    for (const FoldedParameter& each : folded_.folding.values) {
+      if (value(each.name) != each.value)
+        return fmt::format("{} is {} in the scene, not {}", each.name, short_text(value(each.name)),
+                           short_text(each.value));
+    }
+    for (const auto& [each, other] : folded_.folding.same) {
+      if (value(each) != value(other))
+        return fmt::format("{} and {} are not equal in the scene", each, other);
+    }
+    for (const int i : system_.resting) {
+      if (scene_.values.q[position(i)] != 0) return name(i) + " does not start at 0";
+      if (scene_.values.p[position(i)] != 0) return name(n_ + i) + " does not start at 0";
+    }
+    return "";
+  }
+
+  Identities run() {
+    claim_values();
+    claim_motion();
+    claim_system();
+    if (system_.whole_scheme.has_member()) claim_matrix();
+    return std::move(identities_);
+  }
+
+ private:
+  [[nodiscard]] const std::string& name(int i) const {
+    return system_.whole.variables[position(i)].name;
+  }
+  void claim(std::string what, const Expression& is, const Expression& should_be) {
+    identities_.claims.push_back({std::move(what), is, should_be});
+  }
+  // dH/dz_i where the resting variables are zero.
+  Expression slope(int i) { return substitute(slopes_.by(name(i)), zeros_); }
+  // (J grad H)_i there.
+  Expression flow(int i) { return i < n_ ? slope(i + n_) : -slope(i - n_); }
+
+  // H with the scene's values is the H that was made of it.
+  void claim_values() {
+    Substitution values;
+    for (const FoldedParameter& each : folded_.folding.values)
+      values.emplace(each.name, each.value);
+    for (const auto& [each, other] : folded_.folding.same) {
+      const auto known = values.find(other);
+      values.insert_or_assign(each,
+                              known == values.end() ? Expression::symbol(other) : known->second);
+    }
+    if (values.empty()) return;
+    claim("H with the scene's values", hamiltonian_,
+          substitute(written_out_hamiltonian(model_), values));
+  }
+
+  // What rests is not moved, and a cyclic coordinate does not occur.
+  void claim_motion() {
+    for (const int i : system_.resting) {
+      claim("what moves " + name(i), flow(i), Expression(0));
+      claim("what moves " + name(n_ + i), flow(n_ + i), Expression(0));
+    }
+    for (const int i : system_.left.cyclic)
+      claim("what moves " + name(n_ + i), flow(n_ + i), Expression(0));
+  }
+
+  // What is kept moves as in the whole.  Loops are held against H on their own.
+  void claim_system() {
+    if (system_.mechanics.keeps_sums()) return;
+    const Expression& left = system_.mechanics.energy;
+    if (system_.left.dropped.empty())
+      claim("H of what is left", left, substitute(hamiltonian_, zeros_));
+    Slopes slopes(left);
+    for (const int i : system_.kept) {
+      for (const int v : {i, n_ + i}) claim("dH/d" + name(v), slopes.by(name(v)), slope(v));
+    }
+  }
+
+  void claim_matrix() {
+    const SparseMatrix& c = system_.whole_scheme.member().c;
+    const std::set<int> kept(system_.kept.begin(), system_.kept.end());
+    const std::set<int> resting(system_.resting.begin(), system_.resting.end());
+    const std::set<int> cyclic(system_.left.cyclic.begin(), system_.left.cyclic.end());
+    SparseMatrix left;
+    for (const auto& [place, entry] : c) {
+      const auto& [row, column] = place;
+      const int of = row % n_;
+      const int by = column % n_;
+      const std::string what = fmt::format("C moves {} by {}", name(row), name(column));
+      const bool constant_row = cyclic.contains(of) && row >= n_;
+      if (resting.contains(of) && !resting.contains(by)) claim(what, entry, Expression(0));
+      if ((kept.contains(of) && !kept.contains(by)) || constant_row)
+        claim(what, entry * flow(column), Expression(0));
+      if (kept.contains(of) && kept.contains(by)) left.emplace(place, entry);
+    }
+    claim_block(left);
+  }
+
+  // The C that is left is the block of the whole one.
+  void claim_block(const SparseMatrix& block) {
+    const int m = static_cast<int>(system_.kept.size());
+    const SparseMatrix& c = system_.scheme.member().c;
+    const auto entry = [](const SparseMatrix& matrix, int row, int column) {
+      const auto it = matrix.find({row, column});
+      return it == matrix.end() ? Expression(0) : it->second;
+    };
+    const auto in_whole = [&](int i) {
+      return i < m ? system_.kept[position(i)] : n_ + system_.kept[position(i - m)];
+    };
+    std::set<std::pair<int, int>> places;
+    for (int i = 0; i < 2 * m; ++i) {
+      for (int j = 0; j < 2 * m; ++j) {
+        const bool somewhere = c.contains({i, j}) || block.contains({in_whole(i), in_whole(j)});
+        if (somewhere)
+          claim("an entry of C", entry(c, i, j), entry(block, in_whole(i), in_whole(j)));
+      }
+    }
+  }
+
+  Model model_;
+  const FoldedModel& folded_;
+  const Specialised& system_;
+  const SceneFacts& scene_;
+  int n_;
+  Expression hamiltonian_;  // with the values that were put in
+  Slopes slopes_;
+  Substitution zeros_;
+  Identities identities_;
+};
+
+}  // namespace
+
+Finding prove_specialised(const Model& model, const FoldedModel& folded, const Specialised& system,
+                          const SceneFacts& scene, const Surroundings& around) {
+  const std::string property = "specialised";
+  SpecialisedClaims claims(model, folded, system, scene);
+  if (const std::string wrong = claims.wrong_value(); !wrong.empty())
+    return {property, Verdict::refuted, wrong};
+  const Decision decision = decide(claims.run(), around);
+  if (!holds(decision.verdict)) return {property, decision.verdict, decision.witness};
+  const std::string of = scene.values.name.empty() ? "this run" : "scene " + scene.values.name;
+  return {property, decision.verdict,
+          fmt::format("{}: from {} the whole system moves these variables as this one does",
+                      to_text(decision), of)};
+}
+
+}  // namespace hamgen

@@ -1,0 +1,38 @@
+// A step whose routines are compared with the mathematics.
+#pragma once
+
+#include "generator/program/environment.hpp"
+#include "generator/program/step_code.hpp"
+#include "generator/verify/symbolic_machine.hpp"
+
+namespace hamgen {
+
+struct StepUnderProof {
+  StepUnderProof(const Mechanics& of, const Scheme& by, const StepEquations& equations,
+                 const StepCode& routines)
+      : mechanics(of),
+        scheme(by),
+        code(routines),
+        environment(environment_of(equations, of.keeps_sums())) {}
+
+  const Mechanics& mechanics;
+  const Scheme& scheme;
+  const StepCode& code;
+  Environment environment;
+
+  [[nodiscard]] int size() const { return 2 * mechanics.degrees_of_freedom; }
+  [[nodiscard]] const std::string& name(int i) const {
+    return mechanics.variables[static_cast<std::size_t>(i)].name;
+  }
+  [[nodiscard]] Expression carry(int i) const {
+    return Expression::symbol("carry(" + name(i) + ")", kRankOfVariable + i);
+  }
+  // With z, the carry and the parameters where the routines look for them, and no step yet.
+  [[nodiscard]] SymbolicMachine machine(std::set<std::string> opaque = {}) const;
+  // Component i of what a routine is given: of a state, or of an array that begins at `first`.
+  [[nodiscard]] Expression component(const std::vector<Expression>& input, int i, int first) const;
+  // dz + rest, what is small of it included.
+  [[nodiscard]] Expression increment(SymbolicMachine& machine, int i) const;
+};
+
+}  // namespace hamgen

@@ -1,0 +1,137 @@
+// What is proved of short chains holds for long ones that continue them, and for no others.
+#include "generator/verify/growth.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "generator/language/read_model.hpp"
+#include "generator/mechanics/derive.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "generator/verify/proof.hpp"
+#include "tests/verify/evaluator.hpp"
+#include "tests/verify/mutants.hpp"
+
+namespace hamgen {
+namespace {
+
+using verify_test::computes_the_same;
+using verify_test::program_of;
+
+// The system of a text at a size.
+SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name) {
+  const Model model = read_model(
+      make_source("chain.ham", fmt::format("system chain\nsize N = {}\n{}", size, text)));
+  Mechanics mechanics = derive(model);
+  EXPECT_TRUE(mechanics.keeps_sums()) << text;
+  Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
+  Program program =
+      program_of(mechanics, scheme, scheme_name == "stormer-verlet" ? "" : "fixed-point");
+  return {size, std::move(mechanics), std::move(scheme), std::move(program),
+          written_out_hamiltonian(model)};
+}
+
+SizedOutline routines(const SizedSystem& system) {
+  return {system.size, outline(step_code(system.program), "invariants")};
+}
+SizedOutline kernels(const SizedSystem& system) {
+  return {system.size, outline(system.mechanics.kernels)};
+}
+
+// By its kernels or by its routines.
+std::string why_not(const std::string& text) {
+  const SizedSystem a = system_of(text, 25, "implicit-midpoint");
+  const SizedSystem b = system_of(text, 26, "implicit-midpoint");
+  const SizedSystem c = system_of(text, 40, "implicit-midpoint");
+  const auto of_kernels = why_not_longer({{kernels(a), kernels(b), kernels(c)}});
+  return of_kernels ? *of_kernels
+                    : why_not_longer({{routines(a), routines(b), routines(c)}}).value_or("");
+}
+
+const std::string kVariables = "coordinate q[1..N] periodic\nmomentum p[1..N]\n";
+const std::string kKinetic = "H = sum(i = 1..N, p[i]^2/2) + ";
+const std::string kChain =
+    "coordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter m[1..N] = 2\n"
+    "H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, (q[i+1] - q[i])^4/4)\n";
+
+TEST(Growth, ContinuesChainsAndRings) {
+  EXPECT_EQ(why_not(kChain), "");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, (q[i+1] - q[i])^4/4)\n"), "");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, q[i]*q[i+2] + q[i]^4/4)\n"), "");
+}
+
+TEST(Growth, DoesNotReachBeyondNeighbours) {
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, i*q[i]^2)\n"),
+            "its instances depend on their index");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, q[i]^2/N)\n"),
+            "its routines have other instructions");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 2..N, (q[i] - q[1])^2)\n"),
+            "all elements meet in one");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, sum(j = 1..i - 1, (q[i] - q[j])^4))\n"),
+            "the ends of a loop move with another one's index");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, sum(j = 1..N, (q[i] - q[j])^4))\n"),
+            "all elements meet in one");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..12, q[2*i]^4) + sum(i = 1..N, q[i]^2)\n"),
+            "its loops reach 27 elements far");
+}
+
+// The large system has the claims of the small ones; a mutant of it is not what they continue.
+TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
+  for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-2"}) {
+    const SizedSystem a = system_of(kChain, 25, scheme);
+    const SizedSystem b = system_of(kChain, 26, scheme);
+    const SizedSystem c = system_of(kChain, 60, scheme);
+    const StepCode code = step_code(c.program);
+    const Finding finding = prove_emitted(c.mechanics, c.scheme, c.program, code, c.hamiltonian, {},
+                                          {}, SmallerSystems{"N", 60, a, b});
+    EXPECT_EQ(finding.verdict, Verdict::proved) << scheme << ": " << finding.detail;
+    const SizedOutline first = routines(a);
+    const SizedOutline second = routines(b);
+    int mutants = 0;
+    const auto refuse = [&](const std::vector<verify_test::Mutant>& list) {
+      for (const verify_test::Mutant& mutant : list) {
+        const auto why =
+            why_not_longer({{first, second, {60, outline(mutant.code, "invariants")}}});
+        EXPECT_TRUE(why || computes_the_same(code, mutant.code))
+            << scheme << ", " << mutant.kind << ": " << mutant.description;
+        ++mutants;
+      }
+    };
+    refuse(verify_test::mutants_of(code));
+    refuse(verify_test::mutants_of_structure(code));
+    EXPECT_GE(mutants, 20) << scheme;
+  }
+}
+
+// A mistake that all sizes share is found at the small ones.
+TEST(Growth, AMistakeOfAllSizesIsRefuted) {
+  const auto wrong = [](SizedSystem system) {
+    for (Kernel& kernel : system.mechanics.kernels) {
+      kernel.gradient.front() = kernel.gradient.front() * Expression(2);
+    }
+    system.program = program_of(system.mechanics, system.scheme, "fixed-point");
+    return system;
+  };
+  const SizedSystem large = system_of(kChain, 60, "implicit-midpoint");
+  const SmallerSystems smaller{"N", 60, wrong(system_of(kChain, 25, "implicit-midpoint")),
+                               wrong(system_of(kChain, 26, "implicit-midpoint"))};
+  const Finding finding =
+      prove_emitted(large.mechanics, large.scheme, large.program, step_code(large.program),
+                    large.hamiltonian, {}, {}, smaller);
+  EXPECT_EQ(finding.verdict, Verdict::refuted);
+  EXPECT_NE(finding.detail.find("at N = 25: "), std::string::npos) << finding.detail;
+}
+
+// Without smaller ones it is no proof.
+TEST(Growth, ALargeSystemAloneIsTested) {
+  const SizedSystem large = system_of(kChain, 60, "implicit-midpoint");
+  const Finding finding = prove_emitted(large.mechanics, large.scheme, large.program,
+                                        step_code(large.program), large.hamiltonian);
+  EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;
+  EXPECT_NE(finding.detail.find("the routines are not looked at"), std::string::npos)
+      << finding.detail;
+}
+
+}  // namespace
+}  // namespace hamgen
