@@ -60,8 +60,7 @@ class ModelReader {
   void throw_if_wrong() {
     if (diagnostics_.empty()) return;
     std::ranges::stable_sort(diagnostics_, {}, [](const Diagnostic& d) { return d.span.begin; });
-    const auto [rest, end] = std::ranges::unique(diagnostics_);
-    diagnostics_.erase(rest, end);
+    diagnostics_.erase(std::unique(diagnostics_.begin(), diagnostics_.end()), diagnostics_.end());
     throw ModelError(diagnostics_, model_.source);
   }
 
