@@ -89,7 +89,7 @@ Differences measure(const RandomCase& c, const std::string& judge) {
 }
 
 // All of them by `ctest -C full`.
-constexpr int kModels = 400;
+constexpr int kModels = 200;
 constexpr int kAllModels = 2000;
 
 TEST(RandomModels, AreInterpretedAsTheyAreWritten) {
