@@ -324,16 +324,17 @@ class StageRoutines {
         if (!is_array()) return b.at(environment_.place(state, c));
         return b.at(state, c == 0 ? "q" : "p", {affine("j")});
       };
-      Expression dz(0);
-      Expression rest = component("carry");
-      for (int m = 0; m < stages_; ++m) {
-        dz += of_start(b, "refinement.slope", index(m));
-        rest += of_start(b, "refinement.change", index(m));
-      }
-      each.push_back({Assign{component("dz").name(), dz}});
-      each.push_back({Assign{component("rest").name(), rest}});
-      end.finite.push_back(component("dz").name());
-      end.finite.push_back(component("rest").name());
+      const std::string dz = component("dz").name();
+      const std::string rest = component("rest").name();
+      Expression changes = component("carry");
+      for (int m = 0; m < stages_; ++m) changes += of_start(b, "refinement.change", index(m));
+      each.push_back({Assign{dz, of_start(b, "refinement.slope", index(0))}});
+      each.push_back({Assign{rest, changes}});
+      // Slopes are products with constants: what is rounded off their sum is a bias.
+      for (int m = 1; m < stages_; ++m)
+        each.push_back({Collect{dz, rest, of_start(b, "refinement.slope", index(m))}});
+      end.finite.push_back(dz);
+      end.finite.push_back(rest);
     }
     if (is_array()) {
       end.ranges = {counting("j", n_)};
