@@ -1,16 +1,12 @@
 #include "app/studies/domain.hpp"
 
-#include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 
+#include "generator/algebra/functions.hpp"
+
 namespace hamgen::app {
 namespace {
-
-// Those of the language's functions that are smooth on all of the real line.
-constexpr std::array<std::string_view, 8> kSmooth = {"asinh", "atan", "cos",  "cosh",
-                                                     "exp",   "sin",  "sinh", "tanh"};
 
 class Walk {
  public:
@@ -53,7 +49,8 @@ class Walk {
   [[nodiscard]] Part part_of(const CallNode& node) const {
     Part part;
     for (const NodePtr& argument : node.arguments) part = both(part, visit(argument));
-    if (part.of_state) part.defined &= std::ranges::find(kSmooth, node.function) != kSmooth.end();
+    const Function* row = find_function(node.function);
+    if (part.of_state) part.defined &= row != nullptr && row->is_smooth;
     return part;
   }
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -114,13 +115,11 @@ Expression Expression::apply(std::string function, std::vector<Expression> argum
   // sqrt and powers are one thing.
   if (function == "sqrt") return power(arguments.at(0), Rational(1, 2));
   // sin(-x) and sin(x) share one evaluation.
-  const bool odd = function == "sin" || function == "tan" || function == "sinh" ||
-                   function == "tanh" || function == "asin" || function == "atan" ||
-                   function == "asinh" || function == "atanh";
-  const bool even = function == "cos" || function == "cosh" || function == "abs";
-  if ((odd || even) && arguments.at(0).split_coefficient().first < 0) {
+  const Function* row = find_function(function);
+  const Parity parity = row == nullptr ? Parity::none : row->parity;
+  if (parity != Parity::none && arguments.at(0).split_coefficient().first < 0) {
     const Expression positive = apply(function, {-arguments[0]});
-    return odd ? -positive : positive;
+    return parity == Parity::odd ? -positive : positive;
   }
   return make(Kind::function, 0, std::move(function), 0, std::move(arguments));
 }

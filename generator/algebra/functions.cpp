@@ -1,135 +1,203 @@
 #include "generator/algebra/functions.hpp"
 
-#include <ginac/ginac.h>
+#include <quadmath.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <sstream>
-#include <stdexcept>
+
+#include "generator/algebra/expression.hpp"
 
 namespace hamgen {
 namespace {
 
-constexpr std::array<Function, 17> table = {{
-    // name, arity, cpp, quad, description, domain, analytic at 0
-    {"abs", 1, "fabs", "fabsq", "absolute value, derivative x/abs(x)", "all x", false},
-    {"acos", 1, "acos", "acosq", "arc cosine", "-1 <= x <= 1"},
-    {"acosh", 1, "acosh", "acoshq", "inverse hyperbolic cosine", "x >= 1", false},
-    {"asin", 1, "asin", "asinq", "arc sine", "-1 <= x <= 1"},
-    {"asinh", 1, "asinh", "asinhq", "inverse hyperbolic sine", "all x"},
-    {"atan", 1, "atan", "atanq", "arc tangent", "all x"},
-    {"atan2", 2, "atan2", "atan2q", "angle of the point (x, y), written atan2(y, x)",
-     "(x, y) other than (0, 0)", false},
-    {"atanh", 1, "atanh", "atanhq", "inverse hyperbolic tangent", "-1 < x < 1"},
-    {"cos", 1, "cos", "cosq", "cosine", "all x"},
-    {"cosh", 1, "cosh", "coshq", "hyperbolic cosine", "all x"},
-    {"exp", 1, "exp", "expq", "exponential", "all x"},
-    {"log", 1, "log", "logq", "natural logarithm", "x > 0", false},
-    {"sin", 1, "sin", "sinq", "sine", "all x"},
-    {"sinh", 1, "sinh", "sinhq", "hyperbolic sine", "all x"},
-    {"sqrt", 1, "sqrt", "sqrtq", "square root", "x >= 0", false},
-    {"tan", 1, "tan", "tanq", "tangent", "x other than odd multiples of pi/2"},
-    {"tanh", 1, "tanh", "tanhq", "hyperbolic tangent", "all x"},
+using X = std::span<const Expression>;
+using Quad = NumericValues::Quad;
+
+Expression call(const char* function, X x) { return Expression::apply(function, {x[0]}); }
+Expression square(const Expression& x) { return Expression::power(x, 2); }
+Expression inverse_root(const Expression& x) { return Expression::power(x, Rational(-1, 2)); }
+Expression inverse(const Expression& x) { return Expression::power(x, -1); }
+
+// The function of <cmath> and <quadmath.h> of that name.
+#define HAMGEN_LIBRARY(function)                                           \
+  .cpp = #function, .quad = #function "q",                                 \
+  .numbers = {[](float x, float) -> float { return std::function(x); },    \
+              [](double x, double) { return std::function(x); },           \
+              [](long double x, long double) { return std::function(x); }, \
+              [](Quad x, Quad) -> Quad { return function##q(x); }}
+#define HAMGEN_LIBRARY_OF_TWO(function)                                         \
+  .cpp = #function, .quad = #function "q",                                      \
+  .numbers = {[](float x, float y) -> float { return std::function(x, y); },    \
+              [](double x, double y) { return std::function(x, y); },           \
+              [](long double x, long double y) { return std::function(x, y); }, \
+              [](Quad x, Quad y) -> Quad { return function##q(x, y); }}
+
+const std::array<Function, 17> table = {{
+    {.name = "abs",
+     HAMGEN_LIBRARY(fabs),
+     .description = "absolute value, derivative x/abs(x)",
+     .domain = "all x",
+     .analytic_at_zero = false,
+     .corner = "{0} = 0",
+     .parity = Parity::even,
+     .shape = Shape::valley_at_zero,
+     .slopes = {[](X x) { return x[0] * inverse(call("abs", x)); }}},
+    {.name = "acos",
+     HAMGEN_LIBRARY(acos),
+     .description = "arc cosine",
+     .domain = "-1 <= x <= 1",
+     .shape = Shape::descending,
+     .exact_at = 1,
+     .slopes = {[](X x) { return -inverse_root(1 - square(x[0])); }}},
+    {.name = "acosh",
+     HAMGEN_LIBRARY(acosh),
+     .description = "inverse hyperbolic cosine",
+     .domain = "x >= 1",
+     .analytic_at_zero = false,
+     .shape = Shape::ascending,
+     .exact_at = 1,
+     .slopes = {[](X x) { return inverse_root(square(x[0]) - 1); }}},
+    {.name = "asin",
+     HAMGEN_LIBRARY(asin),
+     .description = "arc sine",
+     .domain = "-1 <= x <= 1",
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .slopes = {[](X x) { return inverse_root(1 - square(x[0])); }}},
+    {.name = "asinh",
+     HAMGEN_LIBRARY(asinh),
+     .description = "inverse hyperbolic sine",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .slopes = {[](X x) { return inverse_root(1 + square(x[0])); }}},
+    {.name = "atan",
+     HAMGEN_LIBRARY(atan),
+     .description = "arc tangent",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .slopes = {[](X x) { return inverse(1 + square(x[0])); }}},
+    {.name = "atan2",
+     .arity = 2,
+     HAMGEN_LIBRARY_OF_TWO(atan2),
+     .description = "angle of the point (x, y), written atan2(y, x)",
+     .domain = "(x, y) other than (0, 0)",
+     .is_undefined_at_zero = true,
+     .analytic_at_zero = false,
+     .corner = "{0} = 0 and {1} < 0",
+     .slopes = {[](X yx) { return yx[1] * inverse(square(yx[0]) + square(yx[1])); },
+                [](X yx) { return -yx[0] * inverse(square(yx[0]) + square(yx[1])); }}},
+    {.name = "atanh",
+     HAMGEN_LIBRARY(atanh),
+     .description = "inverse hyperbolic tangent",
+     .domain = "-1 < x < 1",
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .slopes = {[](X x) { return inverse(1 - square(x[0])); }}},
+    {.name = "cos",
+     HAMGEN_LIBRARY(cos),
+     .description = "cosine",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::even,
+     .shape = Shape::cosine,
+     .exact_at = 0,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return -call("sin", x); }}},
+    {.name = "cosh",
+     HAMGEN_LIBRARY(cosh),
+     .description = "hyperbolic cosine",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::even,
+     .shape = Shape::valley_at_zero,
+     .exact_at = 0,
+     .is_exponential = true,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return call("sinh", x); }}},
+    {.name = "exp",
+     HAMGEN_LIBRARY(exp),
+     .description = "exponential",
+     .domain = "all x",
+     .is_smooth = true,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .is_exponential = true,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return call("exp", x); }}},
+    {.name = "log",
+     HAMGEN_LIBRARY(log),
+     .description = "natural logarithm",
+     .domain = "x > 0",
+     .analytic_at_zero = false,
+     .shape = Shape::ascending,
+     .exact_at = 1,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return inverse(x[0]); }}},
+    {.name = "sin",
+     HAMGEN_LIBRARY(sin),
+     .description = "sine",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::odd,
+     .shape = Shape::sine,
+     .exact_at = 0,
+     .square_partner = "cos",
+     .has_latex_name = true,
+     .slopes = {[](X x) { return call("cos", x); }}},
+    {.name = "sinh",
+     HAMGEN_LIBRARY(sinh),
+     .description = "hyperbolic sine",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .is_exponential = true,
+     .square_partner = "cosh",
+     .square_sign = -1,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return call("cosh", x); }}},
+    {.name = "sqrt",
+     HAMGEN_LIBRARY(sqrt),
+     .description = "square root",
+     .domain = "x >= 0",
+     .analytic_at_zero = false,
+     .shape = Shape::ascending,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return Rational(1, 2) * inverse_root(x[0]); }}},
+    {.name = "tan",
+     HAMGEN_LIBRARY(tan),
+     .description = "tangent",
+     .domain = "x other than odd multiples of pi/2",
+     .parity = Parity::odd,
+     .shape = Shape::tangent,
+     .exact_at = 0,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return 1 + square(call("tan", x)); }}},
+    {.name = "tanh",
+     HAMGEN_LIBRARY(tanh),
+     .description = "hyperbolic tangent",
+     .domain = "all x",
+     .is_smooth = true,
+     .parity = Parity::odd,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .is_exponential = true,
+     .has_latex_name = true,
+     .slopes = {[](X x) { return 1 - square(call("tanh", x)); }}},
 }};
 
-// Beyond this the exponential leaves every floating-point scalar but is still quick to compute.
-constexpr long largest_argument_of_exp = 20000;
-
-// Sets GiNaC's global precision for as long as it lives: enough digits to keep 60 after the
-// argument of a periodic function has lost its multiples of 2 pi.
-class Precision {
- public:
-  explicit Precision(std::span<const Rational> arguments) : before_(GiNaC::Digits) {
-    std::size_t digits = 60;
-    for (const Rational& x : arguments) {
-      if (abs(x) > 1) digits = std::max(digits, 60 + Integer(x).get_str().size());
-    }
-    set(static_cast<long>(digits));
-  }
-  ~Precision() { set(before_); }
-  Precision(const Precision&) = delete;
-  Precision& operator=(const Precision&) = delete;
-
- private:
-  static void set(long digits) {
-    if (static_cast<long>(GiNaC::Digits) != digits) GiNaC::Digits = digits;
-  }
-  long before_;
-};
-
-GiNaC::numeric to_numeric(const Rational& value) {
-  return GiNaC::numeric(value.get_num().get_str().c_str()) /
-         GiNaC::numeric(value.get_den().get_str().c_str());
-}
-
-// CLN prints a float as 1.25E-3 (or 1.25L-3), whatever the locale.
-std::optional<Rational> from_numeric(const GiNaC::numeric& value) {
-  if (!value.is_real()) return std::nullopt;
-  std::ostringstream out;
-  value.print(GiNaC::print_dflt(out));
-  std::string text = out.str();
-  if (value.is_rational()) {
-    Rational exact(text);
-    exact.canonicalize();
-    return exact;
-  }
-  const bool negative = text.starts_with('-');
-  if (negative) text.erase(0, 1);
-  long exponent = 0;
-  if (const std::size_t mark = text.find_first_not_of("0123456789."); mark != std::string::npos) {
-    exponent = std::strtol(text.c_str() + mark + 1, nullptr, 10);
-    text.erase(mark);
-  }
-  if (std::abs(exponent) > largest_argument_of_exp) return std::nullopt;
-  std::optional<Rational> result = parse_decimal(text);
-  if (!result) return std::nullopt;
-  Integer scale;
-  mpz_ui_pow_ui(scale.get_mpz_t(), 10, static_cast<unsigned long>(std::abs(exponent)));
-  if (exponent >= 0) {
-    *result *= scale;
-  } else {
-    *result /= scale;
-  }
-  if (negative) *result = -*result;
-  return result;
-}
-
-std::optional<Rational> exact_square_root(const Rational& x) {
-  if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0) return std::nullopt;
-  if (mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return std::nullopt;
-  return Rational(sqrt(x.get_num()), sqrt(x.get_den()));
-}
-
-// Where the function has a real value; tan has no pole at a rational.
-bool is_defined(std::string_view name, std::span<const Rational> arguments) {
-  const Rational& x = arguments.front();
-  if (name == "acos" || name == "asin") return abs(x) <= 1;
-  if (name == "atanh") return abs(x) < 1;
-  if (name == "acosh") return x >= 1;
-  if (name == "log") return x > 0;
-  if (name == "sqrt") return x >= 0;
-  if (name == "atan2") return sgn(x) != 0 || sgn(arguments.back()) != 0;
-  return true;
-}
-
-// The table names its functions as GiNaC does, so GiNaC finds the function by its name.
-GiNaC::ex call(std::string_view name, std::span<const Rational> arguments) {
-  const GiNaC::numeric x = to_numeric(arguments.front());
-  if (name == "sqrt") return GiNaC::sqrt(x);
-  const auto arity = static_cast<unsigned>(arguments.size());
-  const unsigned serial = GiNaC::function::find_function(std::string(name), arity);
-  GiNaC::exvector values;
-  for (const Rational& argument : arguments) values.emplace_back(to_numeric(argument));
-  return GiNaC::function(serial, values).evalf();
-}
-
-std::optional<Rational> real_value(const GiNaC::ex& value) {
-  const GiNaC::ex number = value.evalf();
-  if (!GiNaC::is_a<GiNaC::numeric>(number)) return std::nullopt;
-  return from_numeric(GiNaC::ex_to<GiNaC::numeric>(number));
-}
+#undef HAMGEN_LIBRARY
+#undef HAMGEN_LIBRARY_OF_TWO
 
 }  // namespace
 
@@ -138,51 +206,6 @@ std::span<const Function> all_functions() { return table; }
 const Function* find_function(std::string_view name) {
   const auto* row = std::ranges::find(table, name, &Function::name);
   return row == table.end() ? nullptr : row;
-}
-
-std::optional<Rational> evaluate_function(std::string_view name,
-                                          std::span<const Rational> arguments) {
-  const Precision precision(arguments);
-  if (name == "pi" && arguments.empty()) return real_value(GiNaC::Pi);
-  const Function* function = find_function(name);
-  if (function == nullptr || arguments.size() != static_cast<std::size_t>(function->arity)) {
-    return std::nullopt;
-  }
-  if (!is_defined(name, arguments)) return std::nullopt;
-  const Rational& x = arguments.front();
-  if (name == "abs") return Rational(abs(x));
-  if (name == "sqrt") {
-    if (const auto exact = exact_square_root(x)) return exact;
-  }
-  const bool exponential = name == "exp" || name == "sinh" || name == "cosh";
-  if (exponential && abs(x) > largest_argument_of_exp) return std::nullopt;
-  if (name == "tanh" && abs(x) > largest_argument_of_exp) return Rational(sgn(x));
-  try {
-    return real_value(call(name, arguments));
-  } catch (const std::exception&) {  // a pole or an overflow GiNaC or CLN reports
-    return std::nullopt;
-  }
-}
-
-std::optional<Rational> evaluate_power(const Rational& base, const Rational& exponent) {
-  if (sgn(base) == 0) {
-    if (sgn(exponent) <= 0) return std::nullopt;
-    return Rational(0);
-  }
-  const bool integral = exponent.get_den() == 1;
-  if (integral && exponent.get_num().fits_slong_p()) {
-    if (const auto exact = integer_power(base, exponent.get_num().get_si())) return exact;
-  }
-  if (base < 0 && !integral) return std::nullopt;
-  if (exponent == Rational(1, 2)) return evaluate_function("sqrt", std::span(&base, 1));
-  const Rational magnitude = abs(base);
-  const std::array<Rational, 1> argument = {magnitude};
-  const std::optional<Rational> logarithm = evaluate_function("log", argument);
-  if (!logarithm) return std::nullopt;
-  const std::array<Rational, 1> product = {*logarithm * exponent};
-  std::optional<Rational> result = evaluate_function("exp", product);
-  if (result && base < 0 && mpz_odd_p(exponent.get_num_mpz_t()) != 0) *result = -*result;
-  return result;
 }
 
 }  // namespace hamgen

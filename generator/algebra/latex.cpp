@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "generator/algebra/functions.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -76,9 +78,8 @@ std::string product(const Expression& e) {
 }
 
 std::string function(const Expression& e) {
-  constexpr std::array<std::string_view, 9> kNamed = {"cos",  "cosh", "exp",  "log", "sin",
-                                                      "sinh", "tan",  "tanh", "sqrt"};
-  const bool named = std::ranges::find(kNamed, e.name()) != kNamed.end();
+  const Function* row = find_function(e.name());
+  const bool named = row != nullptr && row->has_latex_name;
   std::string arguments;
   for (const Expression& x : e.operands()) arguments += (arguments.empty() ? "" : ", ") + print(x);
   return (named ? "\\" + e.name() : "\\operatorname{" + e.name() + "}") + "\\left(" + arguments +

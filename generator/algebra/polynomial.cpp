@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/algebra/derivative.hpp"
+#include "generator/algebra/functions.hpp"
 
 namespace hamgen {
 
@@ -39,10 +40,12 @@ std::size_t PolynomialRing::find_atom(const Expression& value) {
   atoms_.push_back(value);
   places_.emplace(value, place);
   if (value.kind() == Kind::function) {
-    const std::string& name = value.name();
-    const Expression& x = value.operands()[0];
-    if (name == "sin") squares_[place] = {find_atom(Expression::apply("cos", {x})), 1};
-    if (name == "sinh") squares_[place] = {find_atom(Expression::apply("cosh", {x})), -1};
+    const Function* row = find_function(value.name());
+    if (row != nullptr && !row->square_partner.empty()) {
+      const std::string partner(row->square_partner);
+      squares_[place] = {find_atom(Expression::apply(partner, {value.operands()[0]})),
+                         row->square_sign};
+    }
   }
   return place;
 }

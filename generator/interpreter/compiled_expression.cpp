@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/interpreter/numerics.hpp"
 
@@ -13,58 +14,29 @@ namespace hamgen {
 
 namespace {
 
-template <class Real>
-struct Row {
-  const char* name;
-  NumericFunction<Real> function;
-};
+using Quad = NumericValues::Quad;
 
-// One row a function of the language, sqrt, pow and product_error.
 template <class Real>
-constexpr Row<Real> kRows[] = {
-    {"abs", [](Real x, Real) { return Real(std::fabs(x)); }},
-    {"acos", [](Real x, Real) { return Real(std::acos(x)); }},
-    {"acosh", [](Real x, Real) { return Real(std::acosh(x)); }},
-    {"asin", [](Real x, Real) { return Real(std::asin(x)); }},
-    {"asinh", [](Real x, Real) { return Real(std::asinh(x)); }},
-    {"atan", [](Real x, Real) { return Real(std::atan(x)); }},
-    {"atan2", [](Real y, Real x) { return Real(std::atan2(y, x)); }},
-    {"atanh", [](Real x, Real) { return Real(std::atanh(x)); }},
-    {"cos", [](Real x, Real) { return Real(std::cos(x)); }},
-    {"cosh", [](Real x, Real) { return Real(std::cosh(x)); }},
-    {"exp", [](Real x, Real) { return Real(std::exp(x)); }},
-    {"log", [](Real x, Real) { return Real(std::log(x)); }},
-    {"pow", [](Real x, Real y) { return Real(std::pow(x, y)); }},
-    {kProductError, NumericsOf<Real>::lost_of_product},
-    {"sin", [](Real x, Real) { return Real(std::sin(x)); }},
-    {"sinh", [](Real x, Real) { return Real(std::sinh(x)); }},
-    {"sqrt", [](Real x, Real) { return Real(std::sqrt(x)); }},
-    {"tan", [](Real x, Real) { return Real(std::tan(x)); }},
-    {"tanh", [](Real x, Real) { return Real(std::tanh(x)); }},
-};
-
-using Quad = __float128;
+struct OfScalar;
 template <>
-constexpr Row<Quad> kRows<Quad>[] = {
-    {"abs", [](Quad x, Quad) { return fabsq(x); }},
-    {"acos", [](Quad x, Quad) { return acosq(x); }},
-    {"acosh", [](Quad x, Quad) { return acoshq(x); }},
-    {"asin", [](Quad x, Quad) { return asinq(x); }},
-    {"asinh", [](Quad x, Quad) { return asinhq(x); }},
-    {"atan", [](Quad x, Quad) { return atanq(x); }},
-    {"atan2", [](Quad y, Quad x) { return atan2q(y, x); }},
-    {"atanh", [](Quad x, Quad) { return atanhq(x); }},
-    {"cos", [](Quad x, Quad) { return cosq(x); }},
-    {"cosh", [](Quad x, Quad) { return coshq(x); }},
-    {"exp", [](Quad x, Quad) { return expq(x); }},
-    {"log", [](Quad x, Quad) { return logq(x); }},
-    {"pow", [](Quad x, Quad y) { return powq(x, y); }},
-    {kProductError, NumericsOf<Quad>::lost_of_product},
-    {"sin", [](Quad x, Quad) { return sinq(x); }},
-    {"sinh", [](Quad x, Quad) { return sinhq(x); }},
-    {"sqrt", [](Quad x, Quad) { return sqrtq(x); }},
-    {"tan", [](Quad x, Quad) { return tanq(x); }},
-    {"tanh", [](Quad x, Quad) { return tanhq(x); }},
+struct OfScalar<float> {
+  static NumericFunction<float> function(const NumericValues& all) { return all.single; }
+  static float power(float x, float y) { return std::pow(x, y); }
+};
+template <>
+struct OfScalar<double> {
+  static NumericFunction<double> function(const NumericValues& all) { return all.real; }
+  static double power(double x, double y) { return std::pow(x, y); }
+};
+template <>
+struct OfScalar<long double> {
+  static NumericFunction<long double> function(const NumericValues& all) { return all.extended; }
+  static long double power(long double x, long double y) { return std::pow(x, y); }
+};
+template <>
+struct OfScalar<Quad> {
+  static NumericFunction<Quad> function(const NumericValues& all) { return all.quad; }
+  static Quad power(Quad x, Quad y) { return powq(x, y); }
 };
 
 template <class Real>
@@ -76,9 +48,9 @@ constexpr int kDigits<Quad> = FLT128_MANT_DIG;
 
 template <class Real>
 NumericFunction<Real> numeric_function(const std::string& name) {
-  for (const Row<Real>& row : kRows<Real>) {
-    if (name == row.name) return row.function;
-  }
+  if (name == "pow") return OfScalar<Real>::power;
+  if (name == kProductError) return NumericsOf<Real>::lost_of_product;
+  if (const Function* row = find_function(name)) return OfScalar<Real>::function(row->numbers);
   internal_error("no number for the function " + name);
 }
 

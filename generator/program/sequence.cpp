@@ -33,24 +33,6 @@ StageTable table_of(const RungeKutta& tableau) {
   return table;
 }
 
-std::string joined(const std::vector<Expression>& values) {
-  std::string text;
-  for (const Expression& e : values) text += (text.empty() ? "" : ", ") + to_text(e);
-  return text;
-}
-
-const char* to_text(SubstepKind kind) {
-  switch (kind) {
-    case SubstepKind::kick:
-      return "kick";
-    case SubstepKind::drift:
-      return "drift";
-    case SubstepKind::member:
-      return "step";
-  }
-  return "";
-}
-
 }  // namespace
 
 Sequence sequence_of(const Scheme& scheme) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/algebra/functions.hpp"
 
 namespace hamgen {
 
@@ -68,10 +69,9 @@ class Search {
   void of_function(const Expression& e) {
     const Expression& x = e.operands()[0];
     if (!has_symbols(e)) return;
-    if (e.name() == "abs") add(e, to_text(x) + " = 0");
-    if (e.name() == "sqrt") of_root(e, x, Expression(Rational(1, 2)));
-    if (e.name() == "atan2")
-      add(e, fmt::format("{} = 0 and {} < 0", to_text(x), to_text(e.operands()[1])));
+    const Function* row = find_function(e.name());
+    if (row == nullptr || row->corner.empty()) return;
+    add(e, fmt::format(fmt::runtime(row->corner), to_text(x), to_text(e.operands().back())));
   }
 
   // (f^m)^r is |f|^(m r) for an even m: smooth where m r is even again.

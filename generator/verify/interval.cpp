@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "generator/algebra/functions.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -23,9 +25,10 @@ Interval outwards(double low, double high, int units = 1) {
 
 constexpr int kUnitsOfFunctions = 4;
 
-template <class Function>
-Interval ascending(const Interval& x, Function f) {
-  return outwards(f(x.low), f(x.high), kUnitsOfFunctions);
+// Empty where the function is not defined.
+std::optional<Interval> between(double low, double high) {
+  if (std::isnan(low) || std::isnan(high)) return std::nullopt;
+  return outwards(low, high, kUnitsOfFunctions);
 }
 
 // A cosine is monotone between multiples of pi, of which these are within x.
@@ -41,23 +44,31 @@ Interval cosine(const Interval& x) {
 }
 
 std::optional<Interval> function_of(const std::string& name, const Interval& x) {
+  const Function* row = find_function(name);
+  if (row == nullptr) return std::nullopt;
+  const auto value = [row](double t) { return row->numbers.real(t, 0.0); };
   const Interval half_pi = outwards(std::numbers::pi / 2, std::numbers::pi / 2);
-  if (name == "sin") return cosine(x - half_pi);
-  if (name == "cos") return cosine(x);
-  if (name == "tan") return cosine(x - half_pi) / cosine(x);
-  if (name == "exp") return ascending(x, [](double t) { return std::exp(t); });
-  if (name == "sinh") return ascending(x, [](double t) { return std::sinh(t); });
-  if (name == "tanh") return ascending(x, [](double t) { return std::tanh(t); });
-  if (name == "atan") return ascending(x, [](double t) { return std::atan(t); });
-  if (name == "asinh") return ascending(x, [](double t) { return std::asinh(t); });
-  if (name == "cosh" || name == "abs") {
-    const double least = x.holds(0.0) ? 0.0 : std::min(std::abs(x.low), std::abs(x.high));
-    const Interval size{least, std::max(std::abs(x.low), std::abs(x.high))};
-    if (name == "abs") return size;
-    return ascending(size, [](double t) { return std::cosh(t); });
+  switch (row->shape) {
+    case Shape::unknown:
+      return std::nullopt;
+    case Shape::ascending:
+      return between(value(x.low), value(x.high));
+    case Shape::descending:
+      return between(value(x.high), value(x.low));
+    case Shape::valley_at_zero: {
+      const double least = x.holds(0.0) ? 0.0 : std::min(std::abs(x.low), std::abs(x.high));
+      const double most = std::max(std::abs(x.low), std::abs(x.high));
+      Interval result = outwards(value(least), value(most), kUnitsOfFunctions);
+      result.low = std::max(result.low, value(0.0));
+      return result;
+    }
+    case Shape::cosine:
+      return cosine(x);
+    case Shape::sine:
+      return cosine(x - half_pi);
+    case Shape::tangent:
+      return cosine(x - half_pi) / cosine(x);
   }
-  if (name == "sqrt" && x.low >= 0.0) return ascending(x, [](double t) { return std::sqrt(t); });
-  if (name == "log" && x.low > 0.0) return ascending(x, [](double t) { return std::log(t); });
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "generator/algebra/evaluate.hpp"
+#include "generator/algebra/functions.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/rational_step.hpp"
 
@@ -18,11 +19,11 @@ using Point = std::map<std::string, Rational>;
 // Is the value of a function at a rational point rational by itself?
 bool is_exact_value(const std::string& name, const Rational& x) {
   if (name == "abs") return true;
-  if (name == "log") return x == 1;
   if (name == "sqrt")
     return mpz_perfect_square_p(x.get_num_mpz_t()) != 0 &&
            mpz_perfect_square_p(x.get_den_mpz_t()) != 0;
-  return x == 0 && name != "acos" && name != "acosh" && name != "atan2";
+  const Function* row = find_function(name);
+  return row != nullptr && row->exact_at && x == *row->exact_at;
 }
 
 // Is the value of the expression there an exact one, or its first 50 digits?

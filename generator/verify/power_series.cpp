@@ -1,8 +1,10 @@
 #include "generator/verify/power_series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -72,12 +74,6 @@ PowerSeries integer_power(const PowerSeries& u, long n, std::size_t length) {
   return result;
 }
 
-PowerSeries reciprocal(const PowerSeries& u, std::size_t length) {
-  const Precise first = coefficient(u, 0);
-  if (cln::zerop(first)) throw std::domain_error("a pole");
-  return power(u, precise(-1), cln::recip(first), length);
-}
-
 // start + the integral of u' g.
 PowerSeries integral(const Precise& start, const PowerSeries& u, const PowerSeries& g,
                      std::size_t length) {
@@ -92,75 +88,29 @@ PowerSeries integral(const Precise& start, const PowerSeries& u, const PowerSeri
   return w;
 }
 
-// e' = u' e of the exponential function, and of two functions that are each other's derivative, the
-// second's with a sign.
-std::pair<PowerSeries, PowerSeries> coupled(const PowerSeries& u, const Precise& first,
-                                            const Precise& second, int sign, std::size_t length) {
-  PowerSeries a{first};
-  PowerSeries b{second};
-  for (std::size_t k = 1; k < extent({u}, length); ++k) {
-    Precise of_a = precise(0);
-    Precise of_b = precise(0);
-    for (std::size_t j = 1; j <= std::min(k, u.size() - 1); ++j) {
-      const Precise slope = whole(j) * u[j];
-      of_a = of_a + slope * b[k - j];
-      of_b = of_b + slope * a[k - j];
-    }
-    a.push_back(of_a / whole(k));
-    b.push_back((sign < 0 ? -of_b : of_b) / whole(k));
-  }
-  return {a, b};
-}
-
+// f(x) = f(x_0) + the integral of x' f'(x), for which f'(x) is wanted up to one term less: that may
+// contain f itself.
 PowerSeries apply(const std::string& name, const std::vector<PowerSeries>& x, std::size_t length) {
   std::vector<Precise> first;
   for (const PowerSeries& a : x) first.push_back(coefficient(a, 0));
-  auto at = [&](const char* function) { return precise_function(function, first); };
-  const PowerSeries& u = x[0];
-  const PowerSeries one{precise(1)};
-  auto square = [&](const PowerSeries& a) { return product(a, a, length); };
-  // The integral of u' (a + b u^2)^c.
-  auto arc = [&](int a, int b, const Rational& c) {
-    const PowerSeries base = precise(a) * one + precise(b) * square(u);
-    const Precise exponent = precise(c);
-    const Precise start =
-        c == -1 ? cln::recip(base[0]) : cln::recip(precise_function("sqrt", {base[0]}));
-    return integral(at(name.c_str()), u, power(base, exponent, start, length), length);
-  };
-  if (name == "exp") return coupled(u, at("exp"), at("exp"), 1, length).first;
-  if (name == "sin") return coupled(u, at("sin"), at("cos"), -1, length).first;
-  if (name == "cos") return coupled(u, at("sin"), at("cos"), -1, length).second;
-  if (name == "sinh") return coupled(u, at("sinh"), at("cosh"), 1, length).first;
-  if (name == "cosh") return coupled(u, at("sinh"), at("cosh"), 1, length).second;
-  if (name == "tan" || name == "tanh") {
-    const bool circular = name == "tan";
-    const auto [over, under] = coupled(u, at(circular ? "sin" : "sinh"),
-                                       at(circular ? "cos" : "cosh"), circular ? -1 : 1, length);
-    return product(over, reciprocal(under, length), length);
+  PowerSeries result{precise_function(name, first)};
+  const std::size_t terms = extent(x, length);
+  if (terms <= 1) return result;
+  const std::array<Expression, 2> arguments = {Expression::symbol("x", 0),
+                                               Expression::symbol("y", 1)};
+  std::map<std::string, PowerSeries> shorter;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    PowerSeries head(x[i].begin(), x[i].begin() + std::min(x[i].size(), terms - 1));
+    shorter[arguments.at(i).name()] = std::move(head);
   }
-  if (name == "log") return integral(at("log"), u, reciprocal(u, length), length);
-  if (name == "sqrt") return power(u, precise(Rational(1, 2)), at("sqrt"), length);
-  if (name == "abs") return cln::minusp(first[0]) ? -u : u;
-  if (name == "atan") return arc(1, 1, -1);
-  if (name == "atanh") return arc(1, -1, -1);
-  if (name == "asin") return arc(1, -1, Rational(-1, 2));
-  if (name == "asinh") return arc(1, 1, Rational(-1, 2));
-  if (name == "acosh") return arc(-1, 1, Rational(-1, 2));
-  if (name == "acos") {
-    return integral(
-        at("acos"), -u,
-        power(one - square(u), precise(Rational(-1, 2)),
-              cln::recip(precise_function("sqrt", {precise(1) - first[0] * first[0]})), length),
-        length);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Expression slope = find_function(name)->slopes.at(i)(arguments);
+    SeriesValues values(shorter, terms - 1);
+    const auto along = values(slope);
+    if (!along) throw std::domain_error("no power series of " + name);
+    result = result + integral(precise(0), x[i], *along, terms);
   }
-  if (name == "atan2") {
-    // (x y' - y x')/(x^2 + y^2)
-    const PowerSeries over_square = reciprocal(square(x[0]) + square(x[1]), length);
-    const PowerSeries of_y =
-        integral(at("atan2"), x[0], product(x[1], over_square, length), length);
-    return of_y - integral(precise(0), x[1], product(x[0], over_square, length), length);
-  }
-  internal_error("no power series of the function " + name);
+  return result;
 }
 
 }  // namespace

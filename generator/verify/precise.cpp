@@ -2,10 +2,13 @@
 
 #include <cln/integer.h>
 #include <cln/rational.h>
+#include <ginac/ginac.h>
 
+#include <array>
 #include <stdexcept>
 #include <vector>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -13,7 +16,8 @@ namespace hamgen {
 namespace {
 
 // 60 digits, of which rounding takes a few.
-const cln::float_format_t kFormat = cln::float_format(60);
+constexpr long kPreciseDigits = 60;
+const cln::float_format_t kFormat = cln::float_format(kPreciseDigits);
 
 Precise to_float(const cln::cl_R& value) { return cln::cl_float(value, kFormat); }
 
@@ -42,42 +46,23 @@ Precise power_of(const Precise& base, const Precise& exponent) {
 
 Precise precise_function(const std::string& name, const std::vector<Precise>& x) {
   if (name == "pi") return cln::pi(kFormat);
-  const Precise& a = x.front();
-  const Precise one = precise(1);
-  auto arc_tangent = [](const Precise& over, const Precise& under) {
-    require(!cln::zerop(over) || !cln::zerop(under));
-    return to_float(cln::atan(under, over));  // CLN has the abscissa first
-  };
-  if (name == "abs") return cln::abs(a);
-  if (name == "sin") return cln::sin(a);
-  if (name == "cos") return cln::cos(a);
-  if (name == "tan") return cln::tan(a);
-  if (name == "exp") return cln::exp(a);
-  if (name == "sinh") return cln::sinh(a);
-  if (name == "cosh") return cln::cosh(a);
-  if (name == "tanh") return cln::tanh(a);
-  if (name == "sqrt") return square_root_of(a);
-  if (name == "log") {
-    require(cln::plusp(a));
-    return to_float(cln::ln(a));
-  }
-  if (name == "atan") return arc_tangent(a, one);
-  if (name == "atan2") return arc_tangent(a, x.at(1));
-  if (name == "asin") return arc_tangent(a, square_root_of(one - a * a));
-  if (name == "acos") return arc_tangent(square_root_of(one - a * a), a);
-  if (name == "asinh") {  // odd, and without cancellation for a > 0
-    const Precise size = to_float(cln::ln(cln::abs(a) + cln::sqrt(a * a + one)));
-    return cln::minusp(a) ? -size : size;
-  }
-  if (name == "acosh") {
-    require(a >= one);
-    return to_float(cln::ln(a + square_root_of(a * a - one)));
-  }
-  if (name == "atanh") {
-    require(cln::abs(a) < one);
-    return to_float(cln::ln((one + a) / (one - a))) / precise(2);
-  }
-  internal_error("no precise value of the function " + name);
+  const Function* row = find_function(name);
+  if (row == nullptr || x.size() != static_cast<std::size_t>(row->arity))
+    internal_error("no precise value of the function " + name);
+  if (name == "sqrt") return square_root_of(x[0]);
+  require(!row->is_undefined_at_zero ||
+          !std::ranges::all_of(x, [](const Precise& a) { return cln::zerop(a); }));
+  // GiNaC rounds what it evaluates to this many digits; evaluate_function asks for more for a
+  // while.
+  if (static_cast<long>(GiNaC::Digits) != kPreciseDigits) GiNaC::Digits = kPreciseDigits;
+  GiNaC::exvector arguments;
+  for (const Precise& a : x) arguments.emplace_back(GiNaC::numeric(a));
+  const unsigned serial = GiNaC::function::find_function(name, static_cast<unsigned>(x.size()));
+  const GiNaC::ex value = GiNaC::function(serial, arguments).evalf();
+  require(GiNaC::is_a<GiNaC::numeric>(value));
+  const auto& number = GiNaC::ex_to<GiNaC::numeric>(value);
+  require(number.is_real());
+  return to_float(cln::realpart(number.to_cl_N()));
 }
 
 Precise precise(const Rational& value) {
@@ -126,19 +111,57 @@ ScaledValue general_power(const ScaledValue& base, const ScaledValue& exponent) 
   return {value, cln::abs(value) * (precise(1) + of_base + of_exponent)};
 }
 
-// |f'(x)| of a function with one argument, or a bound of it; y = f(x).
-Precise slope_of(const std::string& name, const Precise& x, const Precise& y) {
-  const Precise one = precise(1);
-  const auto reciprocal = [](const Precise& d) { return cln::zerop(d) ? zero() : cln::recip(d); };
-  if (name == "tan") return one + y * y;
-  if (name == "exp") return cln::abs(y);
-  if (name == "sinh" || name == "cosh") return one + cln::abs(y);
-  if (name == "sqrt") return reciprocal(y + y);
-  if (name == "log") return cln::abs(reciprocal(x));
-  if (name == "asin" || name == "acos") return reciprocal(square_root_of(cln::abs(one - x * x)));
-  if (name == "acosh") return reciprocal(square_root_of(cln::abs(x * x - one)));
-  if (name == "atanh") return cln::abs(reciprocal(one - x * x));
-  return one;  // abs, sin, cos, tanh, atan, asinh
+const std::array<Expression, 2>& places() {
+  static const std::array<Expression, 2> symbols = {Expression::symbol("x", 0),
+                                                    Expression::symbol("y", 1)};
+  return symbols;
+}
+
+// The derivatives of the functions, by their arguments in places().
+const std::vector<Expression>& slopes_of(const std::string& name) {
+  static std::map<std::string, std::vector<Expression>> known;
+  const auto [it, fresh] = known.try_emplace(name);
+  if (!fresh) return it->second;
+  for (const Function::Slope slope : find_function(name)->slopes) {
+    if (slope != nullptr) it->second.push_back(slope(places()));
+  }
+  return it->second;
+}
+
+Precise plain_value(const Expression& e, const std::vector<Precise>& x);
+
+Precise plain_power(const Precise& base, const Expression& exponent,
+                    const std::vector<Precise>& x) {
+  if (!exponent.is_number()) return power_of(base, plain_value(exponent, x));
+  const Integer& over = exponent.number().get_num();
+  const bool is_root = exponent.number().get_den() == 2;
+  if ((!is_root && exponent.number().get_den() != 1) || !over.fits_slong_p())
+    return power_of(base, precise(exponent.number()));
+  return integer_power_of(is_root ? square_root_of(base) : base, over.get_si());
+}
+
+// With the arguments x in places().
+Precise plain_value(const Expression& e, const std::vector<Precise>& x) {
+  if (e.is_number()) return precise(e.number());
+  if (e.kind() == Kind::symbol) return x.at(e == places()[0] ? 0 : 1);
+  const auto operands = e.operands();
+  if (e.kind() == Kind::power) return plain_power(plain_value(operands[0], x), operands[1], x);
+  std::vector<Precise> values;
+  for (const Expression& operand : operands) values.push_back(plain_value(operand, x));
+  if (e.kind() == Kind::function) return precise_function(e.name(), values);
+  Precise result = values[0];
+  for (std::size_t i = 1; i < values.size(); ++i)
+    result = e.kind() == Kind::sum ? result + values[i] : result * values[i];
+  return result;
+}
+
+// Of a value itself, without its scale: 0 where it has none.
+Precise size_of(const Expression& e, const std::vector<Precise>& x) {
+  try {
+    return cln::abs(plain_value(e, x));
+  } catch (const std::domain_error&) {
+    return zero();
+  }
 }
 
 ScaledValue function_of(const std::string& name, const std::vector<ScaledValue>& x) {
@@ -148,13 +171,9 @@ ScaledValue function_of(const std::string& name, const std::vector<ScaledValue>&
   // Some are computed by way of numbers of size 1.
   const bool is_own_size = name == "abs" || name == "exp" || name == "sqrt";
   Precise scale = is_own_size ? cln::abs(value) : cln::abs(value) + precise(1);
-  if (x.size() == 1) {
-    scale = scale + slope_of(name, x[0].value, value) * x[0].scale;
-  } else {
-    const Precise square = x[0].value * x[0].value + x[1].value * x[1].value;
-    const Precise a = cln::abs(x[0].value) * x[1].scale;
-    scale = scale + (a + cln::abs(x[1].value) * x[0].scale) / square;
-  }
+  const std::vector<Expression>& slopes = slopes_of(name);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    scale = scale + size_of(slopes[i], arguments) * x[i].scale;
   return {value, scale};
 }
 

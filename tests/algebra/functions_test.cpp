@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "generator/algebra/derivative.hpp"
+#include "generator/algebra/evaluate.hpp"
+
 namespace hamgen {
 namespace {
 
@@ -41,6 +44,112 @@ TEST(Functions, have_the_values_of_the_library_where_it_has_any) {
         EXPECT_NEAR(to_double(*value), expected, 4e-16 * std::abs(expected)) << function.name << x;
       }
     }
+  }
+}
+
+// One place where each is defined: 1.5 where acosh begins, else 0.3.
+std::vector<Rational> inside(const Function& function) {
+  if (function.arity == 2) return {Rational(3, 10), Rational(-7, 10)};
+  return {function.name == "acosh" ? Rational(3, 2) : Rational(3, 10)};
+}
+
+double real_value(const Function& function, const std::vector<double>& x) {
+  return function.numbers.real(x[0], x.back());
+}
+
+TEST(Functions, have_one_value_in_every_scalar) {
+  for (const Function& function : all_functions()) {
+    const std::vector<Rational> x = inside(function);
+    const Rational exact = *evaluate_function(function.name, x);
+    const double near = to_double(exact);
+    const double first = to_double(x.front());
+    const double last = to_double(x.back());
+    EXPECT_NEAR(function.numbers.real(first, last), near, 4e-16) << function.name;
+    EXPECT_NEAR(function.numbers.single(float(first), float(last)), near, 4e-7) << function.name;
+    const auto extended = [](const Rational& q) {
+      const double high = to_double(q);
+      return static_cast<long double>(high) + to_double(q - from_double(high));
+    };
+    const long double wide = function.numbers.extended(extended(x.front()), extended(x.back()));
+    EXPECT_NEAR(double(wide - static_cast<long double>(near)), to_double(exact - from_double(near)),
+                1e-18)
+        << function.name;
+  }
+}
+
+// By differences, and as GiNaC differentiates.
+TEST(Functions, have_the_slopes_of_their_values) {
+  const std::vector<Expression> symbols = {Expression::symbol("x", 0), Expression::symbol("y", 1)};
+  for (const Function& function : all_functions()) {
+    const auto arity = static_cast<std::size_t>(function.arity);
+    const std::vector<Rational> x = inside(function);
+    std::map<std::string, Rational> point;
+    std::vector<Expression> arguments;
+    for (std::size_t i = 0; i < arity; ++i) {
+      point[symbols[i].name()] = x[i];
+      arguments.push_back(symbols[i]);
+    }
+    for (std::size_t i = 0; i < arity; ++i) {
+      ASSERT_NE(function.slopes[i], nullptr) << function.name;
+      const auto slope = evaluate(function.slopes[i](arguments), point);
+      ASSERT_TRUE(slope) << function.name;
+      std::vector<double> up{to_double(x.front()), to_double(x.back())};
+      std::vector<double> down = up;
+      constexpr double d = 1e-5;
+      up[i] += d;
+      down[i] -= d;
+      const double measured = (real_value(function, up) - real_value(function, down)) / (2 * d);
+      EXPECT_NEAR(to_double(*slope), measured, 1e-8) << function.name << i;
+      const Expression call = Expression::apply(std::string(function.name), arguments);
+      const auto derived = evaluate(derivative(call, symbols[i]), point);
+      EXPECT_EQ(to_double(*slope), to_double(*derived)) << function.name << i;
+    }
+  }
+}
+
+TEST(Functions, have_the_parity_and_the_shape_of_their_rows) {
+  for (const Function& function : all_functions()) {
+    if (function.arity != 1) continue;
+    const auto at = [&](double x) { return function.numbers.real(x, 0.0); };
+    bool odd = true;
+    bool even = true;
+    bool ascends = true;
+    bool descends = true;
+    for (int k = -80; k <= 80; ++k) {
+      const double x = k / 16.0;
+      if (std::isnan(at(x)) || std::isinf(at(x))) continue;
+      odd = odd && at(-x) == -at(x);
+      even = even && at(-x) == at(x);
+      const double next = at(x + 1.0 / 16.0);
+      if (std::isnan(next)) continue;
+      ascends = ascends && next >= at(x);
+      descends = descends && next <= at(x);
+    }
+    const Parity parity = odd ? Parity::odd : even ? Parity::even : Parity::none;
+    EXPECT_EQ(parity, function.parity) << function.name;
+    EXPECT_EQ(ascends, function.shape == Shape::ascending) << function.name;
+    EXPECT_EQ(descends, function.shape == Shape::descending) << function.name;
+    EXPECT_EQ(even, function.shape == Shape::valley_at_zero || function.shape == Shape::cosine)
+        << function.name;
+  }
+}
+
+TEST(Functions, are_rational_where_their_rows_say_so) {
+  for (const Function& function : all_functions()) {
+    if (!function.exact_at) continue;
+    const Rational x(*function.exact_at);
+    const auto value = evaluate_function(function.name, std::span(&x, 1));
+    ASSERT_TRUE(value) << function.name;
+    EXPECT_EQ(value->get_den(), 1) << function.name;
+  }
+}
+
+TEST(Functions, whose_squares_have_a_partner_have_that_one) {
+  for (const Function& function : all_functions()) {
+    if (function.square_partner.empty()) continue;
+    const double f = function.numbers.real(0.7, 0.0);
+    const double g = find_function(function.square_partner)->numbers.real(0.7, 0.0);
+    EXPECT_NEAR(f * f, function.square_sign * (1 - g * g), 1e-15) << function.name;
   }
 }
 
