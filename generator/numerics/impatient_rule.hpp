@@ -1,5 +1,6 @@
 // When to stop a fixed point that something else can take over from: as FixedPointRule, and with a
-// failure where three times in a row it contracts by less than a half.
+// failure where three times in a row it contracts by less than a half, or no longer gets nearer well
+// above round-off.
 struct ImpatientRule {
   FixedPointRule<2> rule;
   Real size = 0;  // of the last increment
@@ -15,6 +16,8 @@ struct ImpatientRule {
     const bool visible = rule.size > 4096 * epsilon * moved.scale;
     slow = iterations > 1 && visible && 2 * rule.size > size ? slow + 1 : 0;
     size = rule.size;
-    return verdict == Verdict::go_on && slow >= 3 ? Verdict::failed : verdict;
+    const bool near = moved.close || rule.size <= 64 * epsilon * moved.scale;
+    const bool gives_up = verdict == Verdict::done ? !near : slow >= 3;
+    return gives_up ? Verdict::failed : verdict;
   }
 };

@@ -52,6 +52,22 @@ TYPED_TEST(StageRules, SlowNextToRoundingIsNotSlow) {
   }
 }
 
+// One that stands still a thousand units from rounding is no solution where Newton can go on: q and
+// p of a stiff spring in turn do so.
+TYPED_TEST(StageRules, StandingStillFarFromRoundingIsAFailureAndNearItIsTheEnd) {
+  using Verdict = typename TypeParam::Answer;
+  for (const double units : {1000.0, 50.0}) {
+    typename TypeParam::Impatient rule;
+    rule.begin();
+    Verdict verdict = Verdict::go_on;
+    int iteration = 0;
+    while (verdict == Verdict::go_on && iteration < 500)
+      verdict = rule(this->moved(units), ++iteration);
+    EXPECT_EQ(verdict, units > 64 ? Verdict::failed : Verdict::done) << units;
+    EXPECT_LT(iteration, 8) << units;
+  }
+}
+
 TYPED_TEST(StageRules, AnOldMatrixThatContractsSlowlyIsReplaced) {
   using Verdict = typename TypeParam::Answer;
   typename TypeParam::Simplified rule;
