@@ -37,6 +37,8 @@ struct Command {
 [[nodiscard]] Command add_bench(CLI::App& app);
 [[nodiscard]] Command add_report(CLI::App& app);
 [[nodiscard]] Command add_stress(CLI::App& app);
+[[nodiscard]] Command add_chaos(CLI::App& app);
+[[nodiscard]] Command add_section(CLI::App& app);
 [[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);

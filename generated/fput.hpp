@@ -115,11 +115,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_65f38a64::float64 {
+namespace hamgen_d4944b4b::float64 {
 using Real = double;
 
-#ifndef HAMGEN_65F38A64_FLOAT64_STEP_REPORT
-#define HAMGEN_65F38A64_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
+#define HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -129,15 +129,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_VOCABULARY
-#define HAMGEN_65F38A64_FLOAT64_VOCABULARY
+#ifndef HAMGEN_D4944B4B_FLOAT64_VOCABULARY
+#define HAMGEN_D4944B4B_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_TWO_SUM
-#define HAMGEN_65F38A64_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D4944B4B_FLOAT64_TWO_SUM
+#define HAMGEN_D4944B4B_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -147,8 +147,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_BAND_MATRIX
-#define HAMGEN_65F38A64_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_D4944B4B_FLOAT64_BAND_MATRIX
+#define HAMGEN_D4944B4B_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -213,14 +213,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_VERDICT
-#define HAMGEN_65F38A64_FLOAT64_VERDICT
+#ifndef HAMGEN_D4944B4B_FLOAT64_VERDICT
+#define HAMGEN_D4944B4B_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
-#define HAMGEN_65F38A64_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_D4944B4B_FLOAT64_NEWTON_RULE
+#define HAMGEN_D4944B4B_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -310,8 +310,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_HISTORY
-#define HAMGEN_65F38A64_FLOAT64_HISTORY
+#ifndef HAMGEN_D4944B4B_FLOAT64_HISTORY
+#define HAMGEN_D4944B4B_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -372,8 +372,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_FORGET
-#define HAMGEN_65F38A64_FLOAT64_FORGET
+#ifndef HAMGEN_D4944B4B_FLOAT64_FORGET
+#define HAMGEN_D4944B4B_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -383,14 +383,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_65f38a64::float64
+}  // namespace hamgen_d4944b4b::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xc143936c
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x3ab01968
 namespace fput::implicit_midpoint {
-inline namespace emitted_c143936c {
+inline namespace emitted_3ab01968 {
 
-namespace numerics = ::hamgen_65f38a64::float64;
+namespace numerics = ::hamgen_d4944b4b::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::BandMatrix,
     numerics::Verdict, numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -593,9 +593,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_c143936c
+}  // namespace emitted_3ab01968
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xc143936c
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x3ab01968
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -3,7 +3,7 @@
 //   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/henon_heiles.ham --scheme symplectic-euler-a
 //   model     hamiltonians/henon_heiles.ham
-//   sha256    8e46b3740a4830724122a7fa467096da159788e64cb64b79a88f5b14c7363aaf
+//   sha256    dbe775485a2b36ac25eaeb9c1024e491c13c3ce2bf5809910de181f8fb289982
 //   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = q, pbar = P
@@ -74,11 +74,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_65f38a64::float64 {
+namespace hamgen_d4944b4b::float64 {
 using Real = double;
 
-#ifndef HAMGEN_65F38A64_FLOAT64_STEP_REPORT
-#define HAMGEN_65F38A64_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
+#define HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -88,8 +88,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_65F38A64_FLOAT64_TWO_SUM
-#define HAMGEN_65F38A64_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D4944B4B_FLOAT64_TWO_SUM
+#define HAMGEN_D4944B4B_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -99,14 +99,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_65f38a64::float64
+}  // namespace hamgen_d4944b4b::float64
 
 #ifndef HAMGEN_METHOD_henon_heiles_symplectic_euler_a
-#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x85156f12
+#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0xd5f5a938
 namespace henon_heiles::symplectic_euler_a {
-inline namespace emitted_85156f12 {
+inline namespace emitted_d5f5a938 {
 
-namespace numerics = ::hamgen_65f38a64::float64;
+namespace numerics = ::hamgen_d4944b4b::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // dz = Z - z for one step from z + carry.
@@ -205,9 +205,9 @@ class Propagator {
   long long steps_ = 0;
 };
 
-}  // namespace emitted_85156f12
+}  // namespace emitted_d5f5a938
 }  // namespace henon_heiles::symplectic_euler_a
-#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x85156f12
+#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0xd5f5a938
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -109,7 +109,7 @@ const std::vector<Rule>& rules() {
       // What a command measures, without a screen.
       {"app/studies/",
        with_generator_values({"app/studies/", "generator/interpreter/"}),
-       {fmt, other}},
+       {fmt, eigen, other}},
       // Ball arithmetic stays in these: without Arb they are not compiled.
       {"app/studies/ball", with_generator_values({"app/studies/ball"}), {fmt, arb}},
       // How values of studies look.

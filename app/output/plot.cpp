@@ -93,6 +93,8 @@ std::string style_text(const PlotPanel& panel, std::size_t i) {
   switch (panel.series[i].style) {
     case PlotStyle::lines:
       return "with lines " + line;
+    case PlotStyle::dots:  // the same for all series: there are many
+      return fmt::format("with points lc rgb '{}' pt 7 ps 0.15", kColours[colour]);
     case PlotStyle::points:
     case PlotStyle::lines_and_points:
       break;
@@ -232,19 +234,23 @@ bool is_whole(const std::filesystem::path& picture) {
 
 }  // namespace
 
-std::string gnuplot_script(const Plot& plot, const std::string& output) {
+std::string script_head(const std::string& output, int width, int height) {
   const bool png = output.ends_with(".png");
-  const std::size_t count = plot.panels.size();
   const int factor = png ? 2 : 1;  // for sharp screens and print
-  std::string text = fmt::format(
+  return fmt::format(
       "# Drawn by: gnuplot THIS_FILE\n"
       "set terminal {} size {},{} enhanced font '{},{}' background rgb 'white'{}\n"
       "set output {}\n"
       "set border 3 lc rgb '#555555'\nset tics nomirror out scale 0.6\n"
       "set grid lc rgb '#DDDDDD' lw 0.6 dt 1\nset samples 2\n",
-      png ? "pngcairo" : "svg", factor * plot.width * static_cast<int>(count), factor * plot.height,
+      png ? "pngcairo" : "svg", factor * width, factor * height,
       png ? "Sans" : "Helvetica, Arial, sans-serif", png ? 11 : 14,
       png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", gnuplot_path(output));
+}
+
+std::string gnuplot_script(const Plot& plot, const std::string& output) {
+  const std::size_t count = plot.panels.size();
+  std::string text = script_head(output, plot.width * static_cast<int>(count), plot.height);
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
   text += fmt::format("set multiplot layout 1,{}\n", count);
   for (std::size_t i = 0; i < count; ++i)

@@ -14,7 +14,7 @@ struct PlotPoint {
   double y = 0.0;
 };
 
-enum class PlotStyle { lines, points, lines_and_points };
+enum class PlotStyle { lines, points, dots, lines_and_points };
 
 struct PlotSeries {
   std::string label;  // written at the end of the line; may be empty
@@ -38,6 +38,10 @@ struct Plot {
   int width = 560;                // of a panel [pixels]
   int height = 420;
 };
+
+// The beginning of a script: the terminal that the path's ending chooses, with this size in pixels,
+// the output and the style of borders.
+[[nodiscard]] std::string script_head(const std::string& output, int width, int height);
 
 // The whole script, data and output path included.  The path's ending chooses svg or png.  Points
 // that a logarithmic axis or a number cannot hold are left out.

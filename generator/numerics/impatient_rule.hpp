@@ -1,6 +1,6 @@
 // When to stop a fixed point that something else can take over from: as FixedPointRule, and with a
-// failure where three times in a row it contracts by less than a half, or no longer gets nearer well
-// above round-off.
+// failure where three times in a row it contracts by less than a half, or no longer gets nearer
+// well above round-off.
 struct ImpatientRule {
   FixedPointRule<2> rule;
   Real size = 0;  // of the last increment

@@ -1,0 +1,236 @@
+// hamgen chaos: is an orbit regular, is a region?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "app/command_line.hpp"
+#include "app/interrupt.hpp"
+#include "app/output/chaos_output.hpp"
+#include "app/output/draw_picture.hpp"
+#include "app/output/progress_bars.hpp"
+#include "app/output/terminal.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/load_integrator.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/pieces.hpp"
+#include "runtime/atomic_file.hpp"
+
+namespace hamgen::app {
+namespace {
+
+struct ChaosOptions {
+  MethodOptions method;
+  SceneOptions scene;
+  std::vector<std::string> over;
+  std::string indicator = "megno";
+  std::string frequencies = "0";
+  std::string output, plot, compiler;
+  bool spectrum = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+// NAME=LOW:HIGH:COUNT
+ChaosAxis read_axis(const std::string& text, const std::set<std::string>& names) {
+  const std::string help = "\nhelp: for example --over q2=-0.5:0.7:50";
+  const auto [name, range] = split_assignment("--over", text);
+  if (!names.contains(name)) {
+    const std::string near = nearest(name, {names.begin(), names.end()});
+    throw UsageError(fmt::format("--over {}: the model has no such variable or parameter{}", text,
+                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  const std::size_t first = range.find(':');
+  const std::size_t second = first == std::string::npos ? first : range.find(':', first + 1);
+  if (second == std::string::npos)
+    throw UsageError(fmt::format("--over {}: LOW:HIGH:COUNT is wanted{}", text, help));
+  const double low = to_double(constant_option("--over " + text, range.substr(0, first)));
+  const double high =
+      to_double(constant_option("--over " + text, range.substr(first + 1, second - first - 1)));
+  const long count = integer_value("--over " + text, range.substr(second + 1), 2);
+  constexpr long most = 10'000;
+  if (!(low < high) || count > most)
+    throw UsageError(
+        fmt::format("--over {}: LOW < HIGH and at most {} values are wanted{}", text, most, help));
+  ChaosAxis axis{.name = name, .values = {}};
+  for (long i = 0; i < count; ++i)
+    axis.values.push_back(low +
+                          (high - low) * static_cast<double>(i) / static_cast<double>(count - 1));
+  return axis;
+}
+
+const Indicator& read_indicator(const std::string& name) {
+  std::string known;
+  for (const Indicator& each : all_indicators()) {
+    if (each.name == name) return each;
+    known += (known.empty() ? "" : ", ") + each.name;
+  }
+  throw UsageError(fmt::format("--indicator {}: there are {}", name, known));
+}
+
+struct Loaded {
+  Setting setting;
+  SceneValues scene;
+  PluginSource plugin;
+  runtime::LoadedPlugin library;
+};
+
+// The step with its tangent map, of all of the model: a deviation need not stay where the orbit
+// does.
+Loaded load(const ChaosOptions& options, const std::vector<std::string>& names) {
+  Loaded loaded;
+  loaded.setting = read_setting(options.method, options.scene);
+  loaded.scene = complete_scene(loaded.setting.model, loaded.setting.scene);
+  take_gauge_at(loaded.scene, loaded.setting.model, loaded.setting.request);
+  specialise(options.scene, loaded.scene, names, Observing::everything, loaded.setting);
+  loaded.setting.request.tangent = true;
+  loaded.plugin = generate_plugin(loaded.setting.source, loaded.setting.request);
+  if (!loaded.plugin.without_tangent.empty())
+    throw UsageError(
+        fmt::format("chaos is measured with the step's tangent map, and there is none: "
+                    "{}\nhelp: another --scheme",
+                    loaded.plugin.without_tangent));
+  loaded.library = load_integrator(loaded.plugin, options.compiler, &interrupt_flag());
+  return loaded;
+}
+
+ChaosTitle title_of(const Loaded& loaded) {
+  return {.model = loaded.setting.model.name,
+          .scene = loaded.scene.name,
+          .scheme = loaded.plugin.scheme_name,
+          .h = to_double(*loaded.scene.h),
+          .coordinates = element_names(loaded.setting.model.coordinates)};
+}
+
+void write_chaos_files(const ChaosOptions& options, const std::string& csv,
+                       const std::string& script) {
+  if (!options.output.empty()) {
+    runtime::atomic_write(options.output, csv);
+    if (!options.quiet) print_error(options.output + "\n");
+  }
+  if (options.plot.empty()) return;
+  draw_picture({.picture = options.plot,
+                .script = std::filesystem::path(options.plot).replace_extension(".gp"),
+                .text = script},
+               options.quiet, &interrupt_flag());
+}
+
+int run_map(const ChaosOptions& options, const Loaded& loaded, std::vector<ChaosAxis> axes) {
+  const Indicator& indicator = read_indicator(options.indicator);
+  const long all =
+      static_cast<long>(axes[0].values.size() * (axes.size() > 1 ? axes[1].values.size() : 1));
+  std::vector<ChaosCell> cells;
+  {
+    Work work(progress_bars(options.quiet), "map", all);
+    cells = chaos_map({.plugin = &loaded.plugin,
+                       .library = loaded.library.library,
+                       .scene = loaded.setting.scene,
+                       .axes = axes,
+                       .steps = *loaded.scene.steps,
+                       .on_progress = [&work](long done) { work.tell(done); },
+                       .stop = &interrupt_flag()});
+  }
+  if (interrupt_flag()) {
+    print_error("hamgen: stopped; nothing was written\n");
+    return interrupted;
+  }
+  const ChaosMapTable map{&axes, &cells};
+  const ChaosTitle title = title_of(loaded);
+  if (options.json) {
+    print(chaos_map_json(map, title));
+  } else {
+    print(chaos_map_text(map, indicator, title));
+  }
+  write_chaos_files(options, chaos_map_csv(map, title),
+                    chaos_map_script(map, indicator, title, options.plot));
+  return std::ranges::any_of(cells,
+                             [](const ChaosCell& c) { return c.status == runtime::Status::done; })
+             ? done
+             : numerical_failure;
+}
+
+int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
+  const runtime::InitialValues start =
+      initial_values(loaded.plugin, loaded.scene, *loaded.library.library);
+  const long steps = *loaded.scene.steps;
+  Chaos found;
+  {
+    Work work(progress_bars(options.quiet), "deviations", steps, true);
+    found = chaos({.library = loaded.library.library,
+                   .start = start,
+                   .steps = steps,
+                   .spectrum = options.spectrum,
+                   .on_progress = [&work](long done) { work.tell(done); },
+                   .stop = &interrupt_flag()});
+  }
+  const long count = integer_value("--frequencies " + options.frequencies, options.frequencies, 0);
+  std::vector<DegreeFrequencies> degrees;
+  if (count > 0 && found.status == runtime::Status::done)
+    degrees = orbit_frequencies(loaded.library.library, start, steps,
+                                static_cast<int>(std::min(count, 20L)), &interrupt_flag());
+  const ChaosTitle title = title_of(loaded);
+  if (options.json) {
+    print(chaos_json(found, degrees, title));
+  } else {
+    print(chaos_text(found, title) + frequencies_text(degrees, title));
+  }
+  write_chaos_files(options, chaos_csv(found, title),
+                    gnuplot_script(chaos_plot(found, title), options.plot));
+  if (found.status == runtime::Status::stopped) return interrupted;
+  return found.status == runtime::Status::done ? done : numerical_failure;
+}
+
+int run_chaos(const ChaosOptions& options) {
+  if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
+    throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  const Model model = read_setting(options.method, options.scene).model;
+  std::set<std::string> names;
+  for (const auto* variables : {&model.coordinates, &model.momenta})
+    std::ranges::copy(element_names(*variables), std::inserter(names, names.end()));
+  std::ranges::copy(element_names(model.parameters), std::inserter(names, names.end()));
+  std::vector<ChaosAxis> axes;
+  for (const std::string& text : options.over) {
+    for (const std::string_view piece : outermost_pieces(text))
+      axes.push_back(read_axis(std::string(piece), names));
+  }
+  if (axes.size() > 2) throw UsageError("--over: two axes at most");
+  const Loaded loaded = load(options, {names.begin(), names.end()});
+  return axes.empty() ? run_orbit(options, loaded) : run_map(options, loaded, std::move(axes));
+}
+
+}  // namespace
+
+Command add_chaos(CLI::App& app) {
+  const auto options = std::make_shared<ChaosOptions>();
+  CLI::App* parser = app.add_subcommand(
+      "chaos", "Lyapunov exponents, MEGNO, FLI, SALI and frequencies, of an orbit or over a plane");
+  add_scene_options(*parser, options->scene);
+  parser->add_flag("--spectrum", options->spectrum, "");
+  parser
+      ->add_option("--frequencies", options->frequencies,
+                   "all Lyapunov exponents; leading frequencies of each q + ip")
+      ->type_name("COUNT");
+  add_repeated(*parser, "--over", options->over,
+               "an axis of a map: a parameter or variable; twice at most")
+      ->type_name("NAME=LOW:HIGH:COUNT");
+  parser->add_option("--indicator", options->indicator, "of a map: megno, lyapunov, fli or sali")
+      ->type_name("NAME");
+  add_step_option(*parser, options->scene);
+  parser->add_option("--steps", options->scene.steps, "of each orbit")->type_name("N");
+  parser->add_option("-o,--output", options->output, "")->type_name("FILE");
+  parser
+      ->add_option("--plot", options->plot,
+                   "the numbers as CSV; a picture, .svg or .png, and its script .gp")
+      ->type_name("FILE");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet,
+                   "the numbers as JSON; no progress, no names of files");
+  add_method_options(*parser, options->method);
+  parser->add_option("--compiler", options->compiler, "default: $CXX, g++, clang++")
+      ->type_name("PROGRAM");
+  return {parser, [options] { return run_chaos(*options); }};
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,138 @@
+#include "app/output/chaos_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/output/json_document.hpp"
+#include "runtime/csv_writer.hpp"
+
+namespace hamgen::app {
+namespace {
+
+using ChaosJson = nlohmann::ordered_json;
+
+std::string head_of(const ChaosTitle& title) {
+  return fmt::format("{}{}\n  scheme     {}, h = {:.10g}\n", title.model,
+                     title.scene.empty() ? "" : ", scene " + title.scene, title.scheme, title.h);
+}
+
+ChaosJson json_of(const ChaosSample& sample) {
+  return {{"t", sample.time},  {"lyapunov", sample.lyapunov}, {"megno", sample.megno},
+          {"fli", sample.fli}, {"sali", sample.sali},         {"gali", sample.gali}};
+}
+
+}  // namespace
+
+std::string chaos_text(const Chaos& chaos, const ChaosTitle& title) {
+  std::string text = head_of(title);
+  if (chaos.samples.empty())
+    return text + fmt::format("  ended      {} at the first step\n", to_text(chaos.status));
+  const ChaosSample& end = chaos.samples.back();
+  text += fmt::format("  time       {:.6g}, {} steps, energy kept to {:.1e}\n", end.time,
+                      chaos.steps, chaos.largest_energy_error);
+  if (chaos.status != runtime::Status::done)
+    text += fmt::format("  ended      {} before all steps were done\n", to_text(chaos.status));
+  text += fmt::format("  lyapunov   {:.5g} (on a regular orbit about ln(t)/t = {:.1e})\n",
+                      end.lyapunov, std::log(std::abs(end.time)) / std::abs(end.time));
+  text +=
+      fmt::format("  MEGNO      {:.5g} (regular 2, isochronous 0, chaotic lyapunov t/2 = {:.3g})\n",
+                  end.megno, 0.5 * end.lyapunov * std::abs(end.time));
+  text += fmt::format("  FLI        {:.5g} (on a regular orbit about ln t = {:.3g})\n", end.fli,
+                      std::log(std::abs(end.time)));
+  text += fmt::format("  SALI       {:.3g} (chaotic: to 0 as exp(-(l1 - l2) t))\n", end.sali);
+  text += fmt::format("  GALI_{}     {:.3g}\n", chaos.deviations, end.gali);
+  if (!chaos.spectrum.empty()) {
+    text += "  spectrum  ";
+    for (const double exponent : chaos.spectrum) text += fmt::format(" {:.5g}", exponent);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
+                             const ChaosTitle& title) {
+  std::string text;
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    text += fmt::format("  frequencies of {} (change between the halves of the time {:.1e})\n",
+                        title.coordinates[i], degrees[i].change);
+    for (const Harmonic& harmonic : degrees[i].harmonics)
+      text += fmt::format("    {:+.12f}  amplitude {:.4e}\n", harmonic.frequency,
+                          std::abs(harmonic.amplitude));
+  }
+  return text;
+}
+
+std::string chaos_csv(const Chaos& chaos, const ChaosTitle& title) {
+  std::string text =
+      fmt::format("# made by   hamgen " HAMGEN_VERSION
+                  "\n# model     {}\n# scheme    {}, h = {}\n"
+                  "t,lyapunov,megno,fli,sali,gali_{}\n",
+                  title.model, title.scheme, runtime::number_text(title.h), chaos.deviations);
+  using runtime::number_text;
+  for (const ChaosSample& s : chaos.samples)
+    text += fmt::format("{},{},{},{},{},{}\n", number_text(s.time), number_text(s.lyapunov),
+                        number_text(s.megno), number_text(s.fli), number_text(s.sali),
+                        number_text(s.gali));
+  return text;
+}
+
+std::string chaos_json(const Chaos& chaos, const std::vector<DegreeFrequencies>& degrees,
+                       const ChaosTitle& title) {
+  ChaosJson samples = ChaosJson::array();
+  for (const ChaosSample& sample : chaos.samples) samples.push_back(json_of(sample));
+  ChaosJson frequencies = ChaosJson::object();
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    ChaosJson harmonics = ChaosJson::array();
+    for (const Harmonic& each : degrees[i].harmonics)
+      harmonics.push_back({{"frequency", each.frequency},
+                           {"amplitude", std::abs(each.amplitude)},
+                           {"phase", std::arg(each.amplitude)}});
+    frequencies[title.coordinates[i]] = {{"harmonics", harmonics}, {"change", degrees[i].change}};
+  }
+  return json_document({{"model", title.model},
+                        {"scene", title.scene},
+                        {"scheme", title.scheme},
+                        {"h", title.h},
+                        {"status", to_text(chaos.status)},
+                        {"steps", chaos.steps},
+                        {"max_energy_error", chaos.largest_energy_error},
+                        {"deviations", chaos.deviations},
+                        {"spectrum", chaos.spectrum},
+                        {"frequencies", frequencies},
+                        {"samples", samples}});
+}
+
+Plot chaos_plot(const Chaos& chaos, const ChaosTitle& title) {
+  PlotSeries exponent{.label = "", .points = {}, .style = PlotStyle::lines};
+  PlotSeries megno{.label = "", .points = {}, .style = PlotStyle::lines};
+  for (const ChaosSample& s : chaos.samples) {
+    exponent.points.push_back({std::abs(s.time), s.lyapunov});
+    megno.points.push_back({std::abs(s.time), s.megno});
+  }
+  return {.panels = {{.title = title.model + ": largest Lyapunov exponent",
+                      .x_label = "t",
+                      .y_label = "ln(|w(t)|/|w(0)|)/t",
+                      .logarithmic_x = true,
+                      .logarithmic_y = true,
+                      .series = {exponent}},
+                     {.title = "MEGNO",
+                      .x_label = "t",
+                      .y_label = "mean of Y",
+                      .logarithmic_x = true,
+                      .series = {megno}}}};
+}
+
+const std::vector<Indicator>& all_indicators() {
+  static const std::vector<Indicator> list = {
+      {"megno", "MEGNO", [](const ChaosSample& s) { return s.megno; }},
+      {"lyapunov", "largest Lyapunov exponent", [](const ChaosSample& s) { return s.lyapunov; }},
+      {"fli", "FLI", [](const ChaosSample& s) { return s.fli; }},
+      {"sali", "log10 SALI",
+       [](const ChaosSample& s) { return std::log10(std::max(s.sali, 1e-16)); }},
+  };
+  return list;
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,128 @@
+#include "app/output/section_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "app/output/json_document.hpp"
+#include "runtime/csv_writer.hpp"
+
+namespace hamgen::app {
+namespace {
+
+long points_of(const Section& section) {
+  long count = 0;
+  for (const SectionOrbit& orbit : section.orbits) count += static_cast<long>(orbit.points.size());
+  return count;
+}
+
+// Of the orbits that came to their end.
+double largest_error_of(const Section& section) {
+  double largest = 0.0;
+  for (const SectionOrbit& orbit : section.orbits) {
+    if (orbit.status == runtime::Status::done) largest = std::max(largest, orbit.largest_error);
+  }
+  return largest;
+}
+
+// An expression as the name of a column.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted;
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return '"' + quoted + '"';
+}
+
+std::string of_scene(const SectionTitle& title) {
+  return title.scene.empty() ? title.model : title.model + ", scene " + title.scene;
+}
+
+}  // namespace
+
+std::string section_summary(const Section& section, const SectionTitle& title) {
+  std::string text = fmt::format(
+      "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}, kept to {:.1e}\n"
+      "  orbits     {}, {} crossings\n",
+      of_scene(title), title.surface, title.scheme, title.h, title.energy,
+      largest_error_of(section), section.orbits.size(), points_of(section));
+  if (section.unreachable > 0)
+    text += fmt::format("  starts     no momentum has this energy at {} of {} that were tried\n",
+                        section.unreachable, section.tried);
+  std::map<std::string, int> endings;
+  int without = 0;
+  for (const SectionOrbit& orbit : section.orbits) {
+    if (orbit.status != runtime::Status::done) {
+      ++endings[std::string(runtime::to_text(orbit.status))];
+    } else if (orbit.points.empty()) {
+      ++without;
+    }
+  }
+  for (const auto& [ending, count] : endings)
+    text += fmt::format("  ended      {} of the orbits: {}\n", count, ending);
+  if (!endings.empty())
+    text +=
+        fmt::format("help: a smaller --h, or start where orbits stay: --from '{}=-1:1,{}=-1:1'\n",
+                    title.first, title.second);
+  if (without > 0)
+    text += fmt::format("  never      {} of the orbits did not cross it in {} steps\n", without,
+                        section.orbits.front().steps);
+  return text;
+}
+
+std::string section_csv(const Section& section, const SectionTitle& title) {
+  std::string text = fmt::format("# made by   hamgen " HAMGEN_VERSION
+                                 "\n# section   {} of {}\n# scheme    {}, h = {}\n"
+                                 "# energy    {}\norbit,t,{},{}\n",
+                                 title.surface, of_scene(title), title.scheme,
+                                 runtime::number_text(title.h), runtime::number_text(title.energy),
+                                 csv_field(title.first), csv_field(title.second));
+  for (std::size_t i = 0; i < section.orbits.size(); ++i) {
+    for (const SectionPoint& point : section.orbits[i].points)
+      text += fmt::format("{},{},{},{}\n", i + 1, runtime::number_text(point.time),
+                          runtime::number_text(point.first), runtime::number_text(point.second));
+  }
+  return text;
+}
+
+std::string section_json(const Section& section, const SectionTitle& title) {
+  using Json = nlohmann::ordered_json;
+  Json orbits = Json::array();
+  for (const SectionOrbit& orbit : section.orbits) {
+    Json points = Json::array();
+    for (const SectionPoint& point : orbit.points)
+      points.push_back({point.time, point.first, point.second});
+    orbits.push_back({{"start", {orbit.first, orbit.second}},
+                      {"status", runtime::to_text(orbit.status)},
+                      {"steps", orbit.steps},
+                      {"max_energy_error", orbit.largest_error},
+                      {"points", points}});
+  }
+  return json_document({{"model", title.model},
+                        {"scene", title.scene},
+                        {"scheme", title.scheme},
+                        {"h", title.h},
+                        {"surface", title.surface},
+                        {"axes", {title.first, title.second}},
+                        {"energy", title.energy},
+                        {"starts_tried", section.tried},
+                        {"starts_without_momentum", section.unreachable},
+                        {"orbits", orbits}});
+}
+
+Plot section_plot(const Section& section, const SectionTitle& title) {
+  PlotPanel panel{
+      .title = fmt::format("{}: {}, H = {:.6g}", title.model, title.surface, title.energy),
+      .x_label = title.first,
+      .y_label = title.second,
+      .series = {}};
+  for (std::size_t i = 0; i < section.orbits.size(); ++i) {
+    PlotSeries series{.label = "", .points = {}, .style = PlotStyle::dots};
+    for (const SectionPoint& point : section.orbits[i].points)
+      series.points.push_back({point.first, point.second});
+    if (!series.points.empty()) panel.series.push_back(std::move(series));
+  }
+  return {.panels = {std::move(panel)}, .width = 720, .height = 640};
+}
+
+}  // namespace hamgen::app

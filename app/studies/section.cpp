@@ -1,0 +1,73 @@
+#include "app/studies/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/studies/section_starts.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr long kStepsOfAProgress = 4096;
+
+runtime::Status status_after_a_step(runtime::Integrator& integrator, double& largest_error) {
+  const runtime::Judge& judge = integrator.judge();
+  const runtime::Report report = integrator.advance(1, true);
+  if (report.status != runtime::Status::done || !report.energy) return report.status;
+  largest_error =
+      std::max(largest_error, std::abs(runtime::difference(report.energy->last, judge.energy())));
+  return judge.is_jump(largest_error)
+             ? judge.failure(runtime::Status::jumped, integrator.rounded_state(), largest_error)
+             : runtime::Status::done;
+}
+
+SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wide>& state) {
+  runtime::InitialValues start = request.start;
+  start.state = state;
+  runtime::Integrator integrator(request.library, start);
+  const EventLocator locator(request.library, start, 0, request.direction);
+  const auto axes = [&](const std::vector<runtime::Wide>& at) {
+    return request.library->invariants(start.parameters, at);
+  };
+  const auto begin = axes(state);
+  SectionOrbit orbit;
+  orbit.first = begin[1].hi;
+  orbit.second = begin[2].hi;
+  std::vector<runtime::Wide> before = state;
+  double value_before = begin[0].hi;
+  while (orbit.steps < request.steps && static_cast<long>(orbit.points.size()) < request.points) {
+    if (orbit.steps % kStepsOfAProgress == 0 && is_stopped(request.stop)) {
+      orbit.status = runtime::Status::stopped;
+      break;
+    }
+    orbit.status = status_after_a_step(integrator, orbit.largest_error);
+    if (orbit.status != runtime::Status::done) break;
+    ++orbit.steps;
+    std::vector<runtime::Wide> after = integrator.state();
+    const double value_after = locator.value(after);
+    if (const auto crossing = locator.within(before, value_before, after, value_after)) {
+      const auto values = axes(crossing->state);
+      const double steps = static_cast<double>(orbit.steps - 1) + crossing->fraction;
+      orbit.points.push_back({steps * start.h.hi, values[1].hi, values[2].hi});
+    }
+    before = std::move(after);
+    value_before = value_after;
+  }
+  return orbit;
+}
+
+}  // namespace
+
+Section section(const SectionRequest& request) {
+  const SectionStarts starts = section_starts(request);
+  Section result{.orbits = {}, .tried = starts.tried, .unreachable = starts.unreachable};
+  const int count = static_cast<int>(starts.states.size());
+  for (int i = 0; i < count && !is_stopped(request.stop); ++i) {
+    if (request.on_progress) request.on_progress(i, count);
+    result.orbits.push_back(follow(request, starts.states[static_cast<std::size_t>(i)]));
+  }
+  if (request.on_progress) request.on_progress(count, count);
+  return result;
+}
+
+}  // namespace hamgen::app

@@ -1,0 +1,196 @@
+#include "app/studies/section_starts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <set>
+
+#include "generator/base/diagnostic.hpp"
+
+namespace hamgen::app {
+namespace {
+
+using State = std::vector<runtime::Wide>;
+
+std::vector<double> rounded_values(const State& state) {
+  std::vector<double> values;
+  for (const runtime::Wide& x : state) values.push_back(x.hi);
+  return values;
+}
+
+// H - energy with another momentum at its place.
+class EnergyOfMomentum {
+ public:
+  EnergyOfMomentum(const SectionRequest& request, State state)
+      : request_(request), state_(std::move(state)) {}
+
+  double operator()(double p) {
+    state_[request_.momentum] = {p, 0.0};
+    return request_.library->energy(request_.start.parameters, state_).hi - request_.energy;
+  }
+  // dH/dp there.
+  double slope(double p) {
+    (*this)(p);
+    std::vector<double> parameters;
+    for (const runtime::Wide& x : request_.start.parameters) parameters.push_back(x.hi);
+    return request_.library->gradient(parameters, rounded_values(state_))[request_.momentum];
+  }
+
+ private:
+  const SectionRequest& request_;
+  State state_;
+};
+
+// Does the quantity that is zero on the surface change in the direction that is asked for?
+bool goes_the_right_way(const SectionRequest& request, const State& state) {
+  if (request.direction == Direction::both) return true;
+  constexpr double kLittle = 1e-3;  // of a step
+  const EventLocator locator(request.library, request.start, 0, Direction::both);
+  runtime::InitialValues part = request.start;
+  part.h = {part.h.hi * kLittle, 0.0};
+  part.state = state;
+  runtime::Integrator integrator(request.library, part);
+  if (integrator.advance(1, false).status != runtime::Status::done) return false;
+  const double change = locator.value(integrator.state()) - locator.value(state);
+  return (request.start.h.hi > 0 ? change : -change) *
+             (request.direction == Direction::rising ? 1.0 : -1.0) >
+         0.0;
+}
+
+// The states of a grid over the rectangle that have the energy, and those connected with the cell
+// of the scene's start, as a rectangle.
+class Region {
+ public:
+  Region(const SectionRequest& request, double x, double y)
+      : request_(request),
+        x_(x),
+        y_(y),
+        width_(std::max(1.0, 2 * std::abs(x))),
+        height_(std::max(1.0, 2 * std::abs(y))) {}
+
+  [[nodiscard]] std::array<double, 4> rectangle() {
+    std::array<double, 4> found{};
+    for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+      found = connected();
+      const bool wide = reaches_x_;
+      const bool high = reaches_y_;
+      if (!wide && !high) break;
+      if (wide) width_ *= 2;
+      if (high) height_ *= 2;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr int kCells = 48;
+  static constexpr int kMostDoublings = 8;
+
+  [[nodiscard]] double first(int i) const { return x_ + width_ * (2.0 * i / kCells - 1.0); }
+  [[nodiscard]] double second(int j) const { return y_ + height_ * (2.0 * j / kCells - 1.0); }
+
+  [[nodiscard]] bool has_energy(int i, int j) const {
+    State state = request_.start.state;
+    state[request_.first] = {first(i), 0.0};
+    state[request_.second] = {second(j), 0.0};
+    if (request_.fixed) state[request_.fixed->first] = {request_.fixed->second, 0.0};
+    return with_energy(request_, std::move(state)).has_value();
+  }
+
+  [[nodiscard]] std::array<double, 4> connected() {
+    reaches_x_ = reaches_y_ = false;
+    std::array<double, 4> box{x_, x_, y_, y_};
+    std::set<std::pair<int, int>> seen{{kCells / 2, kCells / 2}};
+    std::vector<std::pair<int, int>> open{{kCells / 2, kCells / 2}};
+    while (!open.empty()) {
+      const auto [i, j] = open.back();
+      open.pop_back();
+      box = {std::min(box[0], first(i)), std::max(box[1], first(i)), std::min(box[2], second(j)),
+             std::max(box[3], second(j))};
+      reaches_x_ = reaches_x_ || i == 0 || i == kCells;
+      reaches_y_ = reaches_y_ || j == 0 || j == kCells;
+      for (const auto& [k, l] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
+        if (k < 0 || l < 0 || k > kCells || l > kCells || !seen.insert({k, l}).second) continue;
+        if (has_energy(k, l)) open.emplace_back(k, l);
+      }
+    }
+    return box;
+  }
+
+  const SectionRequest& request_;
+  double x_, y_, width_, height_;
+  bool reaches_x_ = false, reaches_y_ = false;
+};
+
+// Element i of van der Corput's sequence in this base.
+double spread(int i, int base) {
+  double result = 0.0;
+  double weight = 1.0 / base;
+  for (; i > 0; i /= base, weight /= base) result += weight * (i % base);
+  return result;
+}
+
+}  // namespace
+
+std::optional<State> with_energy(const SectionRequest& request, State state) {
+  EnergyOfMomentum error(request, state);
+  // H is least where its slope vanishes: by two slopes where it is a square, near there else.
+  const double at_zero = error.slope(0.0);
+  const double bend = error.slope(1.0) - at_zero;
+  const double least = bend > 0.0 ? -at_zero / bend : 0.0;
+  const double below = error(least);
+  if (!(below <= 0.0)) return std::nullopt;
+  for (const double side : {1.0, -1.0}) {
+    double width = 1e-3 * std::max(1.0, std::abs(least));
+    double value = error(least + side * width);
+    for (int doubling = 0; doubling < 60 && value < 0.0; ++doubling) {
+      width *= 2;
+      value = error(least + side * width);
+    }
+    if (!(value >= 0.0) || !std::isfinite(value)) continue;
+    const double far = least + side * width;
+    std::uintmax_t iterations = 100;
+    const auto root = boost::math::tools::toms748_solve(
+        error, std::min(least, far), std::max(least, far), side > 0 ? below : value,
+        side > 0 ? value : below, boost::math::tools::eps_tolerance<double>(53), iterations);
+    state[request.momentum] = {
+        std::abs(error(root.first)) < std::abs(error(root.second)) ? root.first : root.second, 0.0};
+    if (goes_the_right_way(request, state)) return state;
+  }
+  return std::nullopt;
+}
+
+SectionStarts section_starts(const SectionRequest& request) {
+  SectionStarts starts;
+  if (request.orbits == 0) {
+    starts.states.push_back(request.start.state);
+    return starts;
+  }
+  const double x = request.start.state[request.first].hi;
+  const double y = request.start.state[request.second].hi;
+  const std::array<double, 4> box = request.box ? *request.box : Region(request, x, y).rectangle();
+  constexpr int kTriesForOne = 50;
+  for (int i = 1; static_cast<int>(starts.states.size()) < request.orbits &&
+                  starts.tried < kTriesForOne * request.orbits;
+       ++i) {
+    ++starts.tried;
+    State state = request.start.state;
+    state[request.first] = {box[0] + (box[1] - box[0]) * spread(i, 2), 0.0};
+    state[request.second] = {box[2] + (box[3] - box[2]) * spread(i, 3), 0.0};
+    if (request.fixed) state[request.fixed->first] = {request.fixed->second, 0.0};
+    if (auto found = with_energy(request, std::move(state))) {
+      starts.states.push_back(std::move(*found));
+    } else {
+      ++starts.unreachable;
+    }
+  }
+  if (starts.states.empty())
+    throw UsageError(fmt::format(
+        "no momentum reaches H = {:.10g} from any of {} starting points of the section\nhelp: "
+        "another --energy, or a rectangle of starting points around one that has it: --from",
+        request.energy, starts.tried));
+  return starts;
+}
+
+}  // namespace hamgen::app

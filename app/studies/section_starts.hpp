@@ -1,0 +1,19 @@
+// Where the orbits of a section begin.
+#pragma once
+
+#include <vector>
+
+#include "app/studies/section.hpp"
+
+namespace hamgen::app {
+
+struct SectionStarts {
+  std::vector<std::vector<runtime::Wide>> states;
+  int tried = 0;
+  int unreachable = 0;
+};
+
+// So many, spread over the region that the energy leaves, the same ones each time.
+[[nodiscard]] SectionStarts section_starts(const SectionRequest& request);
+
+}  // namespace hamgen::app

@@ -1,0 +1,118 @@
+// hamgen chaos: values that are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/studies/frequencies.hpp"
+#include "tests/app/hamgen_command.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+nlohmann::json chaos_of(const std::string& model, std::vector<std::string> options) {
+  options.insert(options.begin(),
+                 {"chaos", HAMGEN_SOURCE_DIR "/hamiltonians/" + model, "--json", "--quiet"});
+  const Result result = hamgen(options);
+  EXPECT_EQ(result.status, 0) << result.err;
+  return nlohmann::json::parse(result.out);
+}
+
+// H = 1/8, x = 0, y = -1/4: the largest exponent is about 0.04 to 0.05, and the others are 0, 0 and
+// its negative.
+TEST(Chaos, OfHenonAndHeilesHasTheKnownExponents) {
+  const auto json = chaos_of("henon_heiles.ham",
+                             {"--scene", "regular", "--initial", "q2=-1/4,p1=sqrt(2/8-1/16-1/96)",
+                              "--steps", "400000", "--h", "0.1", "--spectrum"});
+  const auto& end = json["samples"].back();
+  const double exponent = end["lyapunov"];
+  EXPECT_GT(exponent, 0.035);
+  EXPECT_LT(exponent, 0.055);
+  const std::vector<double> spectrum = json["spectrum"];
+  ASSERT_EQ(spectrum.size(), 4U);
+  EXPECT_NEAR(spectrum[0], exponent, 2e-3);
+  EXPECT_NEAR(spectrum[0] + spectrum[3], 0, 1e-3);
+  EXPECT_NEAR(spectrum[1], 0, 1e-3);
+  EXPECT_NEAR(spectrum[2], 0, 1e-3);
+  EXPECT_NEAR(spectrum[0] + spectrum[1] + spectrum[2] + spectrum[3], 0, 1e-10);
+  const double time = end["t"];
+  EXPECT_NEAR(end["megno"].get<double>() / (0.5 * exponent * time), 1, 0.25);
+  EXPECT_LT(end["sali"].get<double>(), 1e-12);
+}
+
+TEST(Chaos, IsAbsentFromARegularOrbit) {
+  const auto json = chaos_of("henon_heiles.ham", {"--scene", "regular", "--steps", "100000"});
+  const auto& end = json["samples"].back();
+  const double time = end["t"];
+  EXPECT_NEAR(end["megno"].get<double>(), 2, 0.1);
+  EXPECT_LT(end["lyapunov"].get<double>(), 3 * std::log(time) / time);
+  EXPECT_GT(end["sali"].get<double>(), 1e-3);
+}
+
+// Nothing depends on amplitudes: no shear.  The frequency is that of the midpoint step.
+TEST(Chaos, AnIsochronousOrbitHasNone) {
+  const auto json =
+      chaos_of("harmonic.ham", {"--steps", "4096", "--h", "1/10", "--frequencies", "1"});
+  const auto& end = json["samples"].back();
+  EXPECT_NEAR(end["megno"].get<double>(), 0, 1e-10);
+  EXPECT_NEAR(end["lyapunov"].get<double>(), 0, 1e-14);
+  const double frequency = json["frequencies"].front()["harmonics"][0]["frequency"];
+  EXPECT_NEAR(frequency, -20 * std::atan(0.05), 1e-11);
+}
+
+TEST(Chaos, OverAPlaneTellsRegularFromChaotic) {
+  const Scratch scratch;
+  const auto json = chaos_of("henon_heiles.ham",
+                             {"--over", "q2=-0.2:0.2:3,p2=0:0.3:2", "--steps", "2000", "--h", "0.1",
+                              "-o", scratch.path("map.csv"), "--plot", scratch.path("map.svg")});
+  ASSERT_EQ(json["cells"].size(), 6U);
+  EXPECT_EQ(json["axes"][0]["values"][1], 0.0);
+  for (const auto& cell : json["cells"]) EXPECT_EQ(cell["status"], "done");
+  EXPECT_NEAR(json["cells"][1]["megno"].get<double>(), 2, 0.5);
+  EXPECT_TRUE(contains(read(scratch.path("map.csv")), "q2,p2,status,t,lyapunov,megno,fli,sali"));
+  EXPECT_TRUE(contains(read(scratch.path("map.svg")), "</svg>"));
+}
+
+TEST(Chaos, RefusesWhatItCannotVary) {
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham";
+  for (const auto& [value, words] :
+       {std::pair{"q3=0:1:5", "did you mean 'q1'"}, std::pair{"q2=0:1", "LOW:HIGH:COUNT"},
+        std::pair{"q2=1:0:5", "LOW < HIGH"}, std::pair{"q2=0:1:1000000000", "at most 10000"}}) {
+    const Result result = hamgen({"chaos", model, "--over", value});
+    EXPECT_EQ(result.status, 2) << value;
+    EXPECT_TRUE(contains(result.err, words)) << result.err;
+  }
+}
+
+using Complex = std::complex<double>;
+
+TEST(Frequencies, OfAQuasiPeriodicSignalAreFound) {
+  const std::vector<app::Harmonic> truth = {
+      {.frequency = -0.7390851332, .amplitude = std::polar(2.0, 0.3)},
+      {.frequency = 1.6180339887, .amplitude = std::polar(0.5, -1.0)},
+      {.frequency = 0.3183098862, .amplitude = std::polar(0.02, 2.0)}};
+  std::vector<Complex> signal;
+  constexpr double dt = 0.37;
+  for (int k = 0; k < 4096; ++k) {
+    Complex sum = 0;
+    for (const app::Harmonic& each : truth)
+      sum += each.amplitude * std::polar(1.0, each.frequency * dt * k);
+    signal.push_back(sum);
+  }
+  const auto found = app::leading_harmonics(signal, dt, 3);
+  ASSERT_EQ(found.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(found[i].frequency, truth[i].frequency, 1e-7) << i;
+    EXPECT_NEAR(std::abs(found[i].amplitude - truth[i].amplitude), 0, 1e-4) << i;
+  }
+}
+
+TEST(Frequencies, OfNothingAreNone) {
+  const std::vector<Complex> signal(256, Complex(0));
+  EXPECT_TRUE(app::leading_harmonics(signal, 0.1, 3).empty());
+}
+
+}  // namespace
+}  // namespace hamgen::app_test

@@ -1,0 +1,134 @@
+// hamgen section.
+#include "app/studies/section.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "generator/base/diagnostic.hpp"
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/interpreted_orbit.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+constexpr const char* kHenonHeiles =
+    "system henon_heiles\ncoordinate x, y\nmomentum u, v\n"
+    "H = (u^2 + v^2 + x^2 + y^2)/2 + x^2*y - y^3/3\n"
+    "invariant surface = x\ninvariant axis_1 = y\ninvariant axis_2 = v\n"
+    "scene start { y = 0.1; u = 0.4 }\n";
+
+app::SectionRequest request_of(const InterpretedOrbit& orbit) {
+  app::SectionRequest request;
+  request.plugin = &orbit.plugin;
+  request.library = orbit.library;
+  request.start = orbit.start;
+  request.energy = 1.0 / 8.0;
+  request.first = 1;
+  request.second = 3;
+  request.momentum = 2;
+  request.fixed = {0, 0.0};
+  request.orbits = 4;
+  request.points = 12;
+  request.steps = 2000;
+  return request;
+}
+
+TEST(Section, HasOrbitsOfOneEnergyThatCrossTheSurfaceUpwards) {
+  const auto orbit = interpreted_orbit(kHenonHeiles, "gauss-4", "0.1");
+  const app::SectionRequest request = request_of(*orbit);
+  const app::Section section = app::section(request);
+  ASSERT_EQ(section.orbits.size(), 4U);
+  for (const app::SectionOrbit& each : section.orbits) {
+    EXPECT_EQ(each.status, runtime::Status::done);
+    EXPECT_EQ(each.points.size(), 12U);
+    EXPECT_LT(each.largest_error, 1e-6);
+    double time = 0.0;
+    for (const app::SectionPoint& point : each.points) {
+      // u^2/2 = E - H(0, y, 0, v) > 0.
+      const double y = point.first;
+      const double v = point.second;
+      EXPECT_GT(1.0 / 8.0 - (v * v + y * y) / 2 + y * y * y / 3, -1e-6);
+      EXPECT_GT(point.time, time);
+      time = point.time;
+    }
+  }
+}
+
+TEST(Section, GivesTheLastMomentumTheEnergy) {
+  const auto orbit = interpreted_orbit(kHenonHeiles, "gauss-4", "0.1");
+  app::SectionRequest request = request_of(*orbit);
+  std::vector<runtime::Wide> state(4);
+  state[1] = {0.2, 0.0};
+  state[3] = {-0.1, 0.0};
+  for (const auto direction : {app::Direction::rising, app::Direction::falling}) {
+    request.direction = direction;
+    const auto found = app::with_energy(request, state);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(orbit->library->energy(request.start.parameters, *found).hi, 0.125, 1e-16);
+    EXPECT_EQ((*found)[2].hi > 0, direction == app::Direction::rising);
+  }
+  state[3] = {0.6, 0.0};  // v^2/2 alone is more
+  EXPECT_FALSE(app::with_energy(request, state));
+  request.energy = -1;
+  EXPECT_THROW((void)app::section(request), UsageError);
+}
+
+// The momentum's term is not p^2/2 and couples to the other one.
+TEST(Section, FindsAMomentumThatIsCoupled) {
+  const auto orbit = interpreted_orbit(
+      "system coupled\ncoordinate x, y\nmomentum u, v\n"
+      "H = u^2 - u*v/2 + v^2/2 - cos(x) - cos(y)\n"
+      "invariant surface = x\ninvariant axis_1 = y\ninvariant axis_2 = v\nscene s { v = 0.5 }\n",
+      "implicit-midpoint", "0.05");
+  app::SectionRequest request = request_of(*orbit);
+  request.energy = 0;
+  request.direction = app::Direction::falling;
+  std::vector<runtime::Wide> state = orbit->start.state;
+  const auto found = app::with_energy(request, state);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(orbit->library->energy(request.start.parameters, *found).hi, 0.0, 1e-15);
+  EXPECT_LT(2 * (*found)[2].hi - 0.25, 0.0);  // dx/dt
+}
+
+TEST(SectionCommand, WritesPointsPictureAndJson) {
+  const Scratch scratch;
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham";
+  const Result result =
+      hamgen({"section", model, "--energy", "1/12", "--orbits", "3", "--points", "5", "--plot",
+              scratch.path("s.svg"), "-o", scratch.path("s.csv"), "--json", "--quiet"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["orbits"].size(), 3U);
+  EXPECT_EQ(json["surface"], "q1 = 0, rising");
+  EXPECT_EQ(json["axes"][1], "p2");
+  int rows = 0;
+  for (const std::string& line : lines(read(scratch.path("s.csv")))) {
+    if (!line.empty() && line.front() != '#' && line.front() != 'o') ++rows;
+  }
+  EXPECT_EQ(rows, 15);
+  EXPECT_TRUE(contains(read(scratch.path("s.svg")), "</svg>"));
+}
+
+TEST(SectionCommand, RefusesWhatIsNoSection) {
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham";
+  for (const auto& [options, words] :
+       {std::pair<std::vector<std::string>, std::string>{{"--axes", "q2"}, "two quantities"},
+        {{"--axes", "q2,p3"}, "--surface or --axes: error: unknown name 'p3'"},
+        {{"--surface", "q1,q2"}, "one equation is wanted"},
+        {{"--surface", "q1 +"}, "expected"},
+        {{"--direction", "up"}, "rising, falling or both"},
+        {{"--from", "q2=1"}, "a range of both axes"},
+        {{"--plot", "a.pdf"}, "ends in .svg or .png"}}) {
+    std::vector<std::string> words_of{"section", model};
+    words_of.insert(words_of.end(), options.begin(), options.end());
+    const Result result = hamgen(words_of);
+    EXPECT_EQ(result.status, 2) << options[0];
+    EXPECT_TRUE(contains(result.err, words)) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
