@@ -1,8 +1,11 @@
 // hamgen verify: what algebra proves of the step, one line a property.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
@@ -24,6 +27,7 @@ struct VerifyOptions {
   std::string required;
   bool measure = false;
   bool json = false;
+  std::string emitted;  // a header; empty: the one that would be written
 };
 
 nlohmann::ordered_json json_of(const LinearPoint& point) {
@@ -108,12 +112,46 @@ Setting verify_setting(const VerifyOptions& options) {
   return setting;
 }
 
+// The word behind `option` in the command that the header says it was made with.
+std::string option_of_header(const std::string& text, const std::string& option) {
+  const std::string lead = "//   command   ";
+  const std::size_t begin = text.find(lead);
+  if (begin == std::string::npos) return {};
+  std::istringstream words(text.substr(begin, text.find('\n', begin) - begin));
+  for (std::string word; words >> word;) {
+    if (word != option) continue;
+    std::string value;
+    words >> value;
+    return value.empty() ? "set" : value;
+  }
+  return {};
+}
+
+// The header that is named, and what it emits besides the step.
+std::optional<EmittedHeader> read_header(const std::string& path, Request& request) {
+  if (path.empty()) return {};
+  EmittedHeader header{.path = path, .text = read_source(path).text};
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const char* name : {"hamgen_support.hpp", "hamgen_support_float32.hpp",
+                           "hamgen_support_long_double.hpp", "hamgen_support_quad.hpp"}) {
+    const std::filesystem::path beside = folder / name;
+    if (std::filesystem::exists(beside))
+      header.beside[name] = read_source(beside.string()).text;
+  }
+  if (!option_of_header(header.text, "--tangent").empty()) request.tangent = true;
+  const std::string modified = option_of_header(header.text, "--watch-modified");
+  if (!modified.empty())
+    request.watch_modified = modified_term_count("--watch-modified", modified);
+  return header;
+}
+
 bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::refuted; }
 
 int verify(const VerifyOptions& options) {
-  const Setting setting = verify_setting(options);
+  Setting setting = verify_setting(options);
+  const std::optional<EmittedHeader> header = read_header(options.emitted, setting.request);
   const SceneValues scene = scene_values(setting.model, setting.scene);
-  Proof proof = verify_step(setting.source, setting.request, scene);
+  Proof proof = verify_step(setting.source, setting.request, scene, header);
   std::vector<InvariantDefect> defects;
   bool holds = true;
   if (options.measure) {
@@ -139,8 +177,12 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    const bool of_code = finding.property == "emitted code" || finding.property == "specialised";
+    const bool of_code = finding.property == kProgram || finding.property == kEmittedCode ||
+                         finding.property == "specialised";
     if (of_code && is_refuted(finding)) holds = false;
+    // What is emitted can be read.
+    const bool unread = finding.detail.find("not understood") != std::string::npos;
+    if (finding.property == kEmittedCode && unread) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }
@@ -168,6 +210,8 @@ Command add_verify(CLI::App& app) {
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
+  parser->add_option("--emitted", options->emitted, "read this header, made by these options")
+      ->type_name("FILE");
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser
