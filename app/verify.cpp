@@ -15,6 +15,7 @@
 #include "app/studies/initial_data.hpp"
 #include "app/studies/measure.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/verify/model_text.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -132,8 +133,7 @@ std::optional<EmittedHeader> read_header(const std::string& path, Request& reque
   if (path.empty()) return {};
   EmittedHeader header{.path = path, .text = read_source(path).text};
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  for (const char* name : {"hamgen_support.hpp", "hamgen_support_float32.hpp",
-                           "hamgen_support_long_double.hpp", "hamgen_support_quad.hpp"}) {
+  for (const char* name : kSupportFiles) {
     const std::filesystem::path beside = folder / name;
     if (std::filesystem::exists(beside))
       header.beside[name] = read_source(beside.string()).text;
@@ -178,7 +178,7 @@ int verify(const VerifyOptions& options) {
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
     const bool of_code = finding.property == kProgram || finding.property == kEmittedCode ||
-                         finding.property == "specialised";
+                         finding.property == kModelRead || finding.property == "specialised";
     if (of_code && is_refuted(finding)) holds = false;
     // What is emitted can be read.
     const bool unread = finding.detail.find("not understood") != std::string::npos;

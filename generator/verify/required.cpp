@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/verify/model_text.hpp"
 
 namespace hamgen {
 
@@ -74,7 +75,7 @@ void require(const Proof& proof, const std::string& list) {
 }
 
 void require_emitted(const Proof& proof) {
-  for (const char* property : {kProgram, kEmittedCode, "specialised"}) {
+  for (const char* property : {kProgram, kEmittedCode, kModelRead, "specialised"}) {
     const Finding* finding = find(proof, property);
     if (finding == nullptr || finding->verdict != Verdict::refuted) continue;
     throw ProofError("the emitted code is not the step of this model, a fault of hamgen: " +
@@ -87,7 +88,7 @@ std::string properties_with(const Proof& proof, Verdict verdict) {
   for (const Finding& finding : proof) {
     // What it rests on is said by `verify`.
     if (finding.verdict != verdict || finding.property == "gauge in sp(2n)" ||
-        finding.property.ends_with(" invariant")) {
+        finding.property.ends_with(" invariant") || finding.property == kModelRead) {
       continue;
     }
     // The text says no less than the program.

@@ -50,7 +50,7 @@ TEST(ReadBackOf, EveryModelByEverySchemeIsTheProgram) {
   for (const Scheme& scheme : all_schemes()) requests.push_back({.scheme = scheme.name});
   const Counts counts = read_all(requests);
   EXPECT_GT(counts.read, 400);
-  std::cout << counts.read << " read, " << counts.refused << " refused, " << counts.instructions << " instructions\n";
+
 }
 
 TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
@@ -71,7 +71,7 @@ TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
   requests.push_back({.watch_modified = 2});
   const Counts counts = read_all(requests);
   EXPECT_GT(counts.read, 300);
-  std::cout << counts.read << " read, " << counts.refused << " refused, " << counts.instructions << " instructions\n";
+
 }
 
 }  // namespace
