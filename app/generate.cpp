@@ -44,10 +44,10 @@ std::string said_of(const std::string& path, const std::string& text, const Sour
   if (found.outcome == ReadBack::Outcome::same)
     return fmt::format("note: {}: the code is that of the model, read back; the rest differs\n",
                        path);
-  return fmt::format("note: {}:{}: {}{}\n", path, found.line,
-                     found.outcome == ReadBack::Outcome::different ? "the code is another: "
-                                                                   : "not understood: ",
-                     found.what);
+  return fmt::format(
+      "note: {}:{}: {}{}\n", path, found.line,
+      found.outcome == ReadBack::Outcome::different ? "the code is another: " : "not understood: ",
+      found.what);
 }
 
 int compare(const OutputFiles& files, const std::string& directory, const SourceText& source,

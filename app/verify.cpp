@@ -1,4 +1,6 @@
 // hamgen verify: what algebra proves of the step, one line a property.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +11,7 @@
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
+#include "app/output/certificate_json.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/modified_output.hpp"
 #include "app/output/terminal.hpp"
@@ -16,6 +19,7 @@
 #include "app/studies/measure.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/verify/model_text.hpp"
+#include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -28,7 +32,8 @@ struct VerifyOptions {
   std::string required;
   bool measure = false;
   bool json = false;
-  std::string emitted;  // a header; empty: the one that would be written
+  std::string emitted;      // a header; empty: the one that would be written
+  std::string certificate;  // a file to write
 };
 
 nlohmann::ordered_json json_of(const LinearPoint& point) {
@@ -135,19 +140,39 @@ std::optional<EmittedHeader> read_header(const std::string& path, Request& reque
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (const char* name : kSupportFiles) {
     const std::filesystem::path beside = folder / name;
-    if (std::filesystem::exists(beside))
-      header.beside[name] = read_source(beside.string()).text;
+    if (std::filesystem::exists(beside)) header.beside[name] = read_source(beside.string()).text;
   }
   if (!option_of_header(header.text, "--tangent").empty()) request.tangent = true;
   const std::string modified = option_of_header(header.text, "--watch-modified");
-  if (!modified.empty())
-    request.watch_modified = modified_term_count("--watch-modified", modified);
+  if (!modified.empty()) request.watch_modified = modified_term_count("--watch-modified", modified);
   return header;
+}
+
+// Only of what holds, and of a header that is there.
+void write_certificate(const VerifyOptions& options, const Setting& setting,
+                       const EmittedHeader& header, const Proof& proof) {
+  for (const char* property : {"symplectic", kProgram, kEmittedCode, kModelRead}) {
+    const auto found = std::ranges::find(proof, property, &Finding::property);
+    if (found != proof.end() && hamgen::holds(found->verdict)) continue;
+    throw ProofError(fmt::format("--certificate: '{}' is {}", property,
+                                 found == proof.end() ? "not looked at" : to_text(found->verdict)));
+  }
+  const ProofCertificate certificate = certificate_of(setting.source, setting.request, proof);
+  std::map<std::string, long> sizes;
+  for (const Size& size : setting.model.sizes) sizes[size.name] = size.value;
+  const std::string name = std::filesystem::path(header.path).filename().string();
+  runtime::atomic_write(
+      options.certificate,
+      certificate_json(certificate, sizes, setting.source.text, name, header.text));
 }
 
 bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::refuted; }
 
 int verify(const VerifyOptions& options) {
+  if (!options.certificate.empty() && options.emitted.empty())
+    throw UsageError(
+        "--certificate: it has the digest of a header\nhelp: write one with `hamgen generate -o "
+        "DIRECTORY`, and add --emitted FILE");
   Setting setting = verify_setting(options);
   const std::optional<EmittedHeader> header = read_header(options.emitted, setting.request);
   const SceneValues scene = scene_values(setting.model, setting.scene);
@@ -195,6 +220,7 @@ int verify(const VerifyOptions& options) {
   }
   print(options.json ? json_document(rows) : text);
   require(proof, options.required);
+  if (!options.certificate.empty()) write_certificate(options, setting, *header, proof);
   return holds ? done : proof_failed;
 }
 
@@ -210,7 +236,10 @@ Command add_verify(CLI::App& app) {
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
-  parser->add_option("--emitted", options->emitted, "read this header, made by these options")
+  parser->add_option("--emitted", options->emitted, "")->type_name("FILE");
+  parser
+      ->add_option("--certificate", options->certificate,
+                   "read this header back; write JSON for scripts/check-certificate")
       ->type_name("FILE");
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");

@@ -185,6 +185,26 @@ ReadBack read_emitted(const SourceText& source, const Request& request,
   return read_header(header, source, run_stages(source, request), request);
 }
 
+ProofCertificate certificate_of(const SourceText& source, const Request& request,
+                                const Proof& proof) {
+  const Stages stages = run_stages(source, request);
+  if (stages.plan.sweeps)
+    throw UsageError("--certificate: sweeps leave the step unsolved\nhelp: drop --solver sweeps");
+  if (is_something_left_out(stages)) {
+    throw UsageError("--certificate: the scene leaves a part of the system out\nhelp: add --whole");
+  }
+  const auto is_proved = [&](const std::string& property) {
+    const auto found = std::ranges::find(proof, property, &Finding::property);
+    return found != proof.end() && found->verdict == Verdict::proved;
+  };
+  const Mechanics& mechanics = stages.system.mechanics;
+  std::vector<NamedExpression> invariants;
+  for (const NamedExpression& invariant : mechanics.invariants) {
+    if (is_proved(invariant.name + " invariant")) invariants.push_back(invariant);
+  }
+  return make_certificate(mechanics, stages.equations.scheme, is_proved("symmetric"), invariants);
+}
+
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
   return corners_of_hamiltonian(derive(read_request(source, request)));
 }

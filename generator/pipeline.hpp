@@ -16,6 +16,7 @@
 #include "generator/readback/read_back.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/specialise/specialisation.hpp"
+#include "generator/verify/certificate.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
@@ -86,6 +87,11 @@ struct EmittedHeader {
 // The reading alone, without any proof.
 [[nodiscard]] ReadBack read_emitted(const SourceText& source, const Request& request,
                                     const std::optional<EmittedHeader>& header = {});
+
+// What another program can check of a proof: of the whole system, by what `proof` says of it.
+// Throws UsageError where there is none.
+[[nodiscard]] ProofCertificate certificate_of(const SourceText& source, const Request& request,
+                                              const Proof& proof);
 
 // Where H is defined but has no derivatives: a step across it is not what is proved of the step.
 [[nodiscard]] std::vector<Corner> corners_of_hamiltonian(const SourceText& source,

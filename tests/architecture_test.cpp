@@ -34,11 +34,11 @@ struct Rule {
 
 // The stages as one, and the values that go in and come out.
 std::vector<std::string> with_generator_values(std::vector<std::string> folders) {
-  folders.insert(folders.end(), {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
-                                 "generator/language/", "generator/mechanics/",
-                                 "generator/schemes/", "generator/specialise/", "generator/verify/",
-                                 "generator/formats/scalar.hpp", "generator/readback/read_back.hpp",
-                                 "runtime/"});
+  folders.insert(
+      folders.end(),
+      {"generator/pipeline.hpp", "generator/base/", "generator/algebra/", "generator/language/",
+       "generator/mechanics/", "generator/schemes/", "generator/specialise/", "generator/verify/",
+       "generator/formats/scalar.hpp", "generator/readback/read_back.hpp", "runtime/"});
   return folders;
 }
 

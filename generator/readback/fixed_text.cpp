@@ -16,11 +16,14 @@ namespace {
 constexpr std::string_view kIncludes[] = {"<cmath>", "<algorithm>", "<vector>", "<Eigen/SparseLU>",
                                           "<Eigen/LU>"};
 constexpr std::string_view kBlockNames[] = {
-    "StepReport",     "magnitude",       "largest",       "epsilon",          "two_sum",
-    "two_sum_with_rest", "collect",      "product_error", "DenseMatrix",      "DiagonalMatrix",
-    "BandMatrix",     "ReorderedMatrix", "EigenDenseMatrix", "EigenSparseMatrix", "invert",
-    "Verdict",        "NewtonRule",      "FixedPointRule", "Distance",        "ImpatientRule",
-    "SimplifiedNewtonRule", "Refinement", "History",      "forget"};
+    "StepReport",       "magnitude",         "largest",
+    "epsilon",          "two_sum",           "two_sum_with_rest",
+    "collect",          "product_error",     "DenseMatrix",
+    "DiagonalMatrix",   "BandMatrix",        "ReorderedMatrix",
+    "EigenDenseMatrix", "EigenSparseMatrix", "invert",
+    "Verdict",          "NewtonRule",        "FixedPointRule",
+    "Distance",         "ImpatientRule",     "SimplifiedNewtonRule",
+    "Refinement",       "History",           "forget"};
 
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
@@ -44,8 +47,7 @@ void read_quad_functions(TokenCursor& cursor, const Precision& precision) {
     const std::string name = cursor.word();
     const bool two = name == "powq" || name == "atan2q";
     if (!name.ends_with('q')) throw TextDifference(line, name + " is no quad function");
-    expect_pattern(cursor,
-                   {two ? "(__float128, __float128) noexcept;" : "(__float128) noexcept;"},
+    expect_pattern(cursor, {two ? "(__float128, __float128) noexcept;" : "(__float128) noexcept;"},
                    precision, name);
   }
 }
@@ -196,13 +198,12 @@ FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precis
   const std::string name = cursor.word();
   if (!name.starts_with("hamgen_")) throw TextDifference(line, "not the namespace of fixed blocks");
   blocks.digest = name.substr(7);
-  const std::string type = precision.is_quad()
-                               ? "__extension__ typedef __float128 Real;"
-                               : fmt::format("using Real = {};", precision.type);
+  const std::string type = precision.is_quad() ? "__extension__ typedef __float128 Real;"
+                                               : fmt::format("using Real = {};", precision.type);
   expect_pattern(cursor, {fmt::format("::{} {{ {}", precision.space, type)}, precision,
                  "the namespace of fixed blocks");
-  const std::string prefix = fmt::format("HAMGEN_{}_{}_", upper(blocks.digest),
-                                         upper(std::string(precision.space)));
+  const std::string prefix =
+      fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(std::string(precision.space)));
   while (is_directive(cursor, "#ifndef "))
     blocks.names.insert(read_block(cursor, text, prefix, precision));
   expect_pattern(cursor, {"}"}, precision, "the namespace of fixed blocks");

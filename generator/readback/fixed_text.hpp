@@ -19,8 +19,8 @@ namespace hamgen {
 void expect_ieee_begin(TokenCursor& cursor, const Precision& precision);
 void expect_ieee_end(TokenCursor& cursor);
 
-// The headers of generator/numerics in their namespace: each is compared with the tested one, letter
-// by letter.  The digest in the namespace's name is that of them all.
+// The headers of generator/numerics in their namespace: each is compared with the tested one,
+// letter by letter.  The digest in the namespace's name is that of them all.
 struct FixedBlocks {
   std::string digest;
   std::set<std::string> names;

@@ -152,15 +152,14 @@ MachineValue machine_value(const Expression& e,
 
 bool is_same(const MachineValue& written, const MachineValue& exact, const Precision& precision) {
   if (written.kind != exact.kind || written.negative != exact.negative) return false;
-  if (written.kind == MachineKind::number) return is_rounded(written.number, exact.number, precision);
+  if (written.kind == MachineKind::number)
+    return is_rounded(written.number, exact.number, precision);
   if (written.name != exact.name) return false;
   if (same_parts(written, exact, false, precision)) return true;
   const bool turns = written.kind == MachineKind::sum || written.kind == MachineKind::product;
   return turns && same_parts(written, exact, true, precision);
 }
 
-bool is_computed_as_meant(const Expression& e) {
-  return meaning(arrange(e)) == without_ranks(e);
-}
+bool is_computed_as_meant(const Expression& e) { return meaning(arrange(e)) == without_ranks(e); }
 
 }  // namespace hamgen

@@ -33,8 +33,8 @@ struct MachineValue {
 [[nodiscard]] MachineValue operator/(MachineValue a, MachineValue b);
 
 // The operations for an expression, whose symbols are called as `name` says.
-[[nodiscard]] MachineValue machine_value(const Expression& e,
-                                         const std::function<std::string(const std::string&)>& name);
+[[nodiscard]] MachineValue machine_value(
+    const Expression& e, const std::function<std::string(const std::string&)>& name);
 
 // `written` has numbers as they are read, `exact` as they are meant.
 [[nodiscard]] bool is_same(const MachineValue& written, const MachineValue& exact,

@@ -14,12 +14,8 @@ using ParsedKind = CppExpression::Kind;
 constexpr int kDeepest = 400;  // brackets within brackets
 
 // Operators from the weakest on; those of one row are read from the left.
-constexpr std::array<std::array<std::string_view, 4>, 6> kOperators = {{{"||"},
-                                                                        {"&&"},
-                                                                        {"==", "!="},
-                                                                        {"<", ">", "<=", ">="},
-                                                                        {"+", "-"},
-                                                                        {"*", "/", "%"}}};
+constexpr std::array<std::array<std::string_view, 4>, 6> kOperators = {
+    {{"||"}, {"&&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"+", "-"}, {"*", "/", "%"}}};
 
 class CppReader {
  public:
@@ -255,8 +251,10 @@ class CppReader {
       return inner;
     }
     if (token.is("{")) return list();
-    if (token.kind == CppToken::Kind::number) return {ParsedKind::number, cursor_.take().text, {}, line};
-    if (token.kind == CppToken::Kind::quoted) return {ParsedKind::quoted, cursor_.take().text, {}, line};
+    if (token.kind == CppToken::Kind::number)
+      return {ParsedKind::number, cursor_.take().text, {}, line};
+    if (token.kind == CppToken::Kind::quoted)
+      return {ParsedKind::quoted, cursor_.take().text, {}, line};
     std::string name = cursor_.word();
     while (cursor_.accept("::")) name += "::" + cursor_.word();
     return {ParsedKind::name, std::move(name), {}, line};

@@ -32,8 +32,8 @@ void expect_pattern(TokenCursor& cursor, const Pattern& pattern, const Precision
     }
     const CppToken& found = cursor.peek();
     if (found.kind != token.kind || found.text != token.text)
-      throw TextDifference(found.line, fmt::format("'{}' where {} has '{}'", found.text, what,
-                                                   token.text));
+      throw TextDifference(found.line,
+                           fmt::format("'{}' where {} has '{}'", found.text, what, token.text));
     cursor.take();
   }
 }

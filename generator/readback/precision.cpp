@@ -133,8 +133,8 @@ std::optional<CppLiteral> read_literal(std::string_view text) {
   CppLiteral result;
   result.is_integer = !digits.has_point && !has_exponent;
   Rational value(digits.mantissa);
-  value *= power(hexadecimal ? 16 : 10, -digits.behind_point) *
-           power(hexadecimal ? 2 : 10, exponent);
+  value *=
+      power(hexadecimal ? 16 : 10, -digits.behind_point) * power(hexadecimal ? 2 : 10, exponent);
   if (text == "f" || text == "F") {
     result.bits = 24;
   } else if (text == "l" || text == "L") {

@@ -32,8 +32,7 @@ std::string time_field(const Program& program) {
 
 class FileReader {
  public:
-  FileReader(const EmittedFile& file, const Program& program, const StepCode& code,
-             ReadBack& found)
+  FileReader(const EmittedFile& file, const Program& program, const StepCode& code, ReadBack& found)
       : file_(file),
         program_(program),
         code_(code),
@@ -112,8 +111,7 @@ class FileReader {
     if (macro != begin.substr(8) + flat)
       throw TextDifference(line, fmt::format("{} guards the namespace {}", macro, section.name));
     if (kind == "system") system_ = section.name;
-    const bool inside =
-        section.name == system_ || section.name.starts_with(system_ + "::");
+    const bool inside = section.name == system_ || section.name.starts_with(system_ + "::");
     if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", section.name, system_));
     expect(fmt::format("{{ inline namespace emitted_{} {{", section.digest), "a section");
     while (!cursor_.peek().is("}")) read_item(section);
@@ -131,12 +129,10 @@ class FileReader {
     if (first.is("struct")) return read_struct(section);
     if (first.is("class")) return once("Propagator", propagator_pattern(facts_));
     if (first.is("namespace")) {
-      return expect(fmt::format("namespace numerics = ::hamgen_{}::{};", digest_,
-                                precision_.space),
+      return expect(fmt::format("namespace numerics = ::hamgen_{}::{};", digest_, precision_.space),
                     "the name of the fixed blocks");
     }
-    if (first.is("__extension__"))
-      return once("Real", {"__extension__ typedef __float128 Real;"});
+    if (first.is("__extension__")) return once("Real", {"__extension__ typedef __float128 Real;"});
     if (first.is("using")) return read_using();
     if (first.is("inline") && cursor_.peek(1).is("constexpr")) return read_constant();
     read_routine();

@@ -25,9 +25,7 @@ MachineValue action(const Place& object, const std::string& name,
 
 }  // namespace
 
-void RoutineReader::operator()(const Let& let) {
-  local("Real", let.symbol, meant(let.value));
-}
+void RoutineReader::operator()(const Let& let) { local("Real", let.symbol, meant(let.value)); }
 
 void RoutineReader::operator()(const Array& node) {
   Values values;
@@ -37,15 +35,15 @@ void RoutineReader::operator()(const Array& node) {
 
 void RoutineReader::operator()(const Matrix& matrix) {
   const bool eigen = matrix.large && !scope_.precision().is_quad();
-  object(matrix.patterned ? "Matrix"
-                          : fmt::format("{}<{}>", eigen ? "EigenDenseMatrix" : "DenseMatrix",
-                                        matrix.size),
+  object(matrix.patterned
+             ? "Matrix"
+             : fmt::format("{}<{}>", eigen ? "EigenDenseMatrix" : "DenseMatrix", matrix.size),
          matrix.name);
 }
 
 void RoutineReader::operator()(const Copy& copy) {
-  const MachineValue from = copy.from.empty() ? machine_call("::" + copy.record, {})
-                                              : machine_symbol("@" + copy.from);
+  const MachineValue from =
+      copy.from.empty() ? machine_call("::" + copy.record, {}) : machine_symbol("@" + copy.from);
   if (!copy.declares) return assignment(machine_symbol("@" + copy.to), "=", from);
   const CppStatement& found = declaration(copy.record, copy.to);
   if (!found.value || !found.sizes.empty())
@@ -102,9 +100,9 @@ void RoutineReader::operator()(const If& node) {
 void RoutineReader::operator()(const Call& node) {
   if (!node.must_succeed) {
     const bool kept = !node.object.empty();
-    const CppStatement& found = next(
-        kept ? CppStatement::Kind::declaration : CppStatement::Kind::expression,
-        "a call of " + node.routine);
+    const CppStatement& found =
+        next(kept ? CppStatement::Kind::declaration : CppStatement::Kind::expression,
+             "a call of " + node.routine);
     if (!found.value || !is_called(*found.value, node) || !found.sizes.empty() ||
         (kept && found.type != node.record))
       throw TextDifference(found.line, "not the program's call of " + node.routine);
@@ -130,10 +128,9 @@ void RoutineReader::operator()(const Alternate& node) {
   const MachineValue patience = at(node.patience);
   const CppStatement& tries = next(CppStatement::Kind::branch, "a call of " + node.first.routine);
   const CppExpression& condition = *tries.value;
-  const bool both = condition.is_binary("&&") &&
-                    condition.parts[1].kind == CppExpression::Kind::prefix &&
-                    condition.parts[1].text == "!" &&
-                    is_called(condition.parts[1].parts[0], node.first);
+  const bool both =
+      condition.is_binary("&&") && condition.parts[1].kind == CppExpression::Kind::prefix &&
+      condition.parts[1].text == "!" && is_called(condition.parts[1].parts[0], node.first);
   if (!both) throw TextDifference(tries.line, "not the program's call of " + node.first.routine);
   same(scope_.value(condition.parts[0]), machine_call("==", {patience, integer_symbol(0)}),
        tries.line, "the condition of the program");
@@ -156,8 +153,7 @@ void RoutineReader::operator()(const Factorise& node) {
   const CppStatement& found = branch(negated(action(node.matrix, "factorise")));
   within(found, [this] {
     if (iterates_)
-      assignment(machine_symbol("@report.iterations"), "+=",
-                 machine_symbol("iteration "));
+      assignment(machine_symbol("@report.iterations"), "+=", machine_symbol("iteration "));
     failure();
   });
 }
@@ -168,10 +164,11 @@ void RoutineReader::operator()(const SolveFactorised& node) {
 
 void RoutineReader::operator()(const Invert& node) {
   const MachineValue regular = at(node.regular);
-  assignment(regular, "=",
-             machine_call("&&", {machine_call("::invert", {machine_symbol("@" + node.matrix),
-                                                           at(node.inverse)}),
-                                 regular}));
+  assignment(
+      regular, "=",
+      machine_call("&&",
+                   {machine_call("::invert", {machine_symbol("@" + node.matrix), at(node.inverse)}),
+                    regular}));
 }
 
 void RoutineReader::operator()(const Return& end) {
@@ -193,10 +190,9 @@ void RoutineReader::operator()(const Return& end) {
       local("Real", "length ", integer_symbol(0));
       for_elements(end.ranges, [&] { assignment(machine_symbol("length "), "+=", sum); });
     }
-    success = machine_call(
-        "<=", {machine_symbol("length "),
-               {.kind = MachineValue::Kind::number,
-                .number = read_literal(scope_.precision().largest)->value}});
+    success = machine_call("<=", {machine_symbol("length "),
+                                  {.kind = MachineValue::Kind::number,
+                                   .number = read_literal(scope_.precision().largest)->value}});
   }
   if (routine_.result.type != "StepReport") {
     const CppStatement& found = next(CppStatement::Kind::result, "the result");
@@ -239,11 +235,9 @@ MachineValue RoutineReader::length(const UnknownArray& u) {
 
 // What an iteration's report counts, and how it goes on.
 void RoutineReader::leave_with(const std::string& jump) {
-  assignment(machine_symbol("@report.iterations"), "+=",
-             machine_symbol("iteration "));
+  assignment(machine_symbol("@report.iterations"), "+=", machine_symbol("iteration "));
   if (jump == "failed") {
-    assignment(machine_symbol("@report.increment"), "=",
-               machine_symbol("size "));
+    assignment(machine_symbol("@report.increment"), "=", machine_symbol("size "));
     return failure();
   }
   next(CppStatement::Kind::leave, "the end of the iteration");
@@ -301,9 +295,8 @@ void RoutineReader::newton(const Iterate& iterate) {
 
 void RoutineReader::end_newton() {
   for (const char* verdict : {"failed", "done"}) {
-    const MachineValue condition =
-        machine_call("==", {machine_symbol("verdict "),
-                            machine_symbol(fmt::format("::Verdict::{}", verdict))});
+    const MachineValue condition = machine_call(
+        "==", {machine_symbol("verdict "), machine_symbol(fmt::format("::Verdict::{}", verdict))});
     within(branch(condition), [&] { leave_with(verdict); });
   }
 }
@@ -375,8 +368,7 @@ void RoutineReader::end_contraction(const MachineValue& size) {
         "==", {machine_symbol("verdict "), machine_symbol(fmt::format("::Verdict::{}", name))});
   };
   const std::string report = "@report";
-  within(branch(verdict("go_on")),
-         [&] { next(CppStatement::Kind::next, "the next iteration"); });
+  within(branch(verdict("go_on")), [&] { next(CppStatement::Kind::next, "the next iteration"); });
   assignment(machine_symbol(report + ".iterations"), "+=", machine_symbol("iteration "));
   within(branch(verdict("done")),
          [&] { next(CppStatement::Kind::leave, "the end of the iteration"); });
@@ -452,10 +444,10 @@ void RoutineReader::refine_body(const Refine& refine, const std::string& kept) {
     });
   }
   array("point ", {count}, point);
-  assignment(machine_symbol("more "), "=",
-             machine_call(symbol_of({refine.name}),
-                          {machine_symbol("@point "), machine_symbol("@lack "),
-                           machine_symbol("@slope ")}));
+  assignment(
+      machine_symbol("more "), "=",
+      machine_call(symbol_of({refine.name}), {machine_symbol("@point "), machine_symbol("@lack "),
+                                              machine_symbol("@slope ")}));
   for (std::size_t j = 0; j < refine.unknowns.size(); ++j)
     assignment(symbol(refine.unknowns[j].symbol), "=", element("point ", j));
 }
@@ -480,9 +472,7 @@ void RoutineReader::operator()(const RefineArray& refine) {
 void RoutineReader::operator()(const Sweep& sweep) {
   for (const Unknown& u : sweep.unknowns) local("Real", u.symbol, meant(u.start));
   const CppStatement& found =
-      loop({.index = "sweep ",
-            .lower = {},
-            .upper = {.constant = sweep.count - 1, .factors = {}}});
+      loop({.index = "sweep ", .lower = {}, .upper = {.constant = sweep.count - 1, .factors = {}}});
   within(found, [&] {
     compare(sweep.body);
     for (const Unknown& u : sweep.unknowns) local("Real", u.symbol + " next", meant(u.correction));
@@ -492,8 +482,7 @@ void RoutineReader::operator()(const Sweep& sweep) {
   scope_.leave();
   for (std::size_t j = 0; j < sweep.results.size(); ++j)
     local("Real", sweep.results[j], symbol(sweep.unknowns[j].symbol));
-  assignment(machine_symbol("@report.iterations"), "=",
-             integer_symbol(sweep.count));
+  assignment(machine_symbol("@report.iterations"), "=", integer_symbol(sweep.count));
 }
 
 }  // namespace hamgen

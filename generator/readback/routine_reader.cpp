@@ -50,8 +50,8 @@ void RoutineReader::compare() {
 void RoutineReader::compare_signature() {
   const std::string type = routine_.result.type.empty() ? "void" : routine_.result.type;
   if (function_.type != type)
-    throw TextDifference(function_.line, fmt::format("{} returns {}, not {}", routine_.name,
-                                                     function_.type, type));
+    throw TextDifference(function_.line,
+                         fmt::format("{} returns {}, not {}", routine_.name, function_.type, type));
   if (function_.arguments.size() != routine_.arguments.size())
     throw TextDifference(function_.line,
                          fmt::format("{} has {} arguments, not {}", routine_.name,
@@ -80,10 +80,10 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
     throw TextDifference(function_.line, fmt::format("argument {} of {} is not the program's",
                                                      argument.name, routine_.name));
   if (written.name.empty()) return;
-  scope_.declare(written.name,
-                 {pass == Pass::value ? Meaning::Kind::number : Meaning::Kind::object,
-                  argument.name},
-                 function_.line);
+  scope_.declare(
+      written.name,
+      {pass == Pass::value ? Meaning::Kind::number : Meaning::Kind::object, argument.name},
+      function_.line);
 }
 
 void RoutineReader::compare(const Body& body) {
@@ -284,8 +284,8 @@ MachineValue RoutineReader::symbol(const std::string& name) const {
 
 MachineValue RoutineReader::meant(const Expression& e) {
   if (!is_computed_as_meant(e))
-    throw TextDifference(end_line_, "the operations of the program do not compute " +
-                                        shortened(to_text(e)));
+    throw TextDifference(end_line_,
+                         "the operations of the program do not compute " + shortened(to_text(e)));
   return machine_value(e, [this](const std::string& name) { return meaning_of(name); });
 }
 

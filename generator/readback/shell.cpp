@@ -44,7 +44,8 @@ class PropagatorText {
     text_ += "private: ";
     if (composed_) {
       text_ += "StepReport substep(int i, State& z, State& carry) {";
-      part({"par_", "k_[i]", "lengths_[i]", "z", "carry", "start_[i]", "history_[i]", "dz", "rest"});
+      part(
+          {"par_", "k_[i]", "lengths_[i]", "z", "carry", "start_[i]", "history_[i]", "dz", "rest"});
       text_ += "}";
     }
     members();
@@ -88,8 +89,7 @@ class PropagatorText {
   void constructor() {
     if (composed_)
       text_ += fmt::format("static constexpr int substeps = {};", code_.substeps.size());
-    text_ +=
-        "Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z)";
+    text_ += "Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z)";
     if (!composed_) {
       text_ += coefficients_ ? ", k_(prepare(par, h)) {}" : "{}";
       return;
@@ -136,10 +136,11 @@ class PropagatorText {
   void tries(const PartNames& names, const std::string& call) {
     const std::string& start = names.start;
     const std::string known = extrapolates_ ? start + ".known" : "known";
-    text_ += extrapolates_
-                 ? fmt::format("{0}.known = {1}.known > 0; if ({0}.known) {1}.extrapolate({0}.value);",
-                               start, names.history)
-                 : fmt::format("const bool known = {}.known;", start);
+    text_ +=
+        extrapolates_
+            ? fmt::format("{0}.known = {1}.known > 0; if ({0}.known) {1}.extrapolate({0}.value);",
+                          start, names.history)
+            : fmt::format("const bool known = {}.known;", start);
     text_ += fmt::format(
         "StepReport report = {}; if (!report.converged && {}) {{"
         "const long long wasted = report.iterations;",
@@ -236,8 +237,7 @@ class PropagatorText {
     if (composed_) text_ += "Real lengths_[substeps] = {};";
     if (coefficients_) text_ += "Coefficients k_" + each_part;
     if (start_) text_ += "Start start_" + each_part;
-    if (extrapolates_)
-      text_ += fmt::format("History<{}> history_{}", code_.unknowns, each_part);
+    if (extrapolates_) text_ += fmt::format("History<{}> history_{}", code_.unknowns, each_part);
     if (facts_.arrays) text_ += rest_ ? "State dz_, rest_;" : "State dz_;";
   }
 
@@ -251,8 +251,8 @@ class PropagatorText {
 std::string order_body(const ArrayMatrix& matrix) {
   const int length = matrix.size / matrix.arrays;
   const std::string k = matrix.arrays == 1 ? "i" : "k";
-  const std::string folded = fmt::format("2 * {0} < {1} ? 2 * {0} : 2 * ({1} - 1 - {0}) + 1", k,
-                                         length);
+  const std::string folded =
+      fmt::format("2 * {0} < {1} ? 2 * {0} : 2 * ({1} - 1 - {0}) + 1", k, length);
   if (matrix.arrays == 1) return fmt::format("return {};", matrix.folded ? folded : k);
   const std::string element = fmt::format("const int k = i % {};", length);
   if (!matrix.folded)
@@ -272,11 +272,10 @@ Pattern record_pattern(const Record& record) {
     for (const Rational& value : field.values) {
       const bool number = field.type != "int" && field.type != "bool";
       if (number) pattern.constants.push_back(value);
-      values += (values.empty() ? "" : ", ") +
-                (number                 ? std::string(kConstant)
-                 : field.type == "int" ? value.get_str()
-                 : value == 0          ? "false"
-                                       : "true");
+      values += (values.empty() ? "" : ", ") + (number                ? std::string(kConstant)
+                                                : field.type == "int" ? value.get_str()
+                                                : value == 0          ? "false"
+                                                                      : "true");
     }
     if (!field.sizes.empty()) {
       values = "{" + values + "}";
@@ -296,10 +295,10 @@ Pattern propagator_pattern(const ShellFacts& facts) { return PropagatorText(fact
 Pattern step_pattern(const ShellFacts& facts) { return PropagatorText(facts).step(); }
 
 Pattern modified_energy_pattern(const ShellFacts& facts) {
-  return {fmt::format(
-      "inline Real modified_energy(const Parameters& par, Real h, const State& z) {{"
-      "Real values[{}]; modified_energies(par, h, z, values); return values[{}]; }}",
-      facts.modified, facts.modified - 1)};
+  return {
+      fmt::format("inline Real modified_energy(const Parameters& par, Real h, const State& z) {{"
+                  "Real values[{}]; modified_energies(par, h, z, values); return values[{}]; }}",
+                  facts.modified, facts.modified - 1)};
 }
 
 Pattern gradient_pattern() {
@@ -318,9 +317,10 @@ Pattern matrix_pattern(const ArrayMatrix& matrix) {
   if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
   const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return {fmt::format("using Matrix = {};", band)};
-  return {fmt::format("struct Order {{ static int row(int i) {{ {} }} }};"
-                      "using Matrix = ReorderedMatrix<{}, Order>;",
-                      order_body(matrix), band)};
+  return {
+      fmt::format("struct Order {{ static int row(int i) {{ {} }} }};"
+                  "using Matrix = ReorderedMatrix<{}, Order>;",
+                  order_body(matrix), band)};
 }
 
 }  // namespace hamgen

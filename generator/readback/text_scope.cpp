@@ -207,9 +207,9 @@ std::string TextScope::function(const std::string& name, int line) const {
     plain.resize(plain.size() - suffix.size());
     return plain;
   }
-  constexpr std::string_view kQuad[] = {"fabsq", "acosq",  "acoshq", "asinq", "asinhq", "atanq",
-                                        "atan2q", "atanhq", "cosq",  "coshq", "expq",   "logq",
-                                        "sinq",  "sinhq",  "sqrtq",  "tanq",  "tanhq",  "powq"};
+  constexpr std::string_view kQuad[] = {"fabsq",  "acosq",  "acoshq", "asinq", "asinhq", "atanq",
+                                        "atan2q", "atanhq", "cosq",   "coshq", "expq",   "logq",
+                                        "sinq",   "sinhq",  "sqrtq",  "tanq",  "tanhq",  "powq"};
   if (precision_.is_quad() && std::ranges::find(kQuad, name) != std::end(kQuad))
     return name.substr(0, name.size() - 1);
   return "::" + name;

@@ -25,7 +25,9 @@ struct Meaning {
 //   "::pi"       what is no name of the function
 class TextScope {
  public:
-  TextScope(const Precision& precision, int n) : precision_(precision), n_(n) { frames_.emplace_back(); }
+  TextScope(const Precision& precision, int n) : precision_(precision), n_(n) {
+    frames_.emplace_back();
+  }
 
   void enter() { frames_.emplace_back(); }
   void leave() { frames_.pop_back(); }

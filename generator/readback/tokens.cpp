@@ -15,9 +15,7 @@ constexpr std::array<std::string_view, 16> kLongSigns = {"::", "++", "--", "+=",
                                                          "/=", "==", "!=", "<=", ">=", "&&",
                                                          "||", "->", "##", "..."};
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -72,7 +70,8 @@ class Lexer {
     const char c = text_[at_];
     if (c == '#' && line_begins_) return directive();
     line_begins_ = false;
-    if (is_letter(c)) return run_of(CppToken::Kind::word, [](char d) { return is_letter(d) || is_digit(d); });
+    if (is_letter(c))
+      return run_of(CppToken::Kind::word, [](char d) { return is_letter(d) || is_digit(d); });
     if (is_digit(c) || (c == '.' && is_digit(at(at_ + 1)))) return number();
     if (c == '"' || c == '\'') return quoted(c);
     sign();
@@ -91,8 +90,8 @@ class Lexer {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       const char before = at_ == begin ? ' ' : text_[at_ - 1];
-      const bool after_power = hexadecimal ? before == 'p' || before == 'P'
-                                           : before == 'e' || before == 'E';
+      const bool after_power =
+          hexadecimal ? before == 'p' || before == 'P' : before == 'e' || before == 'E';
       if (!is_digit(c) && !is_letter(c) && c != '.' && !((c == '+' || c == '-') && after_power))
         break;
       ++at_;

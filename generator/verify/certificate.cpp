@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -15,8 +16,8 @@ namespace {
 constexpr std::size_t kMostTermsOfCertificate = 20000;
 
 // Functions whose derivatives are polynomials in themselves and these.
-constexpr std::string_view kCertified[] = {"sin", "cos", "tan", "exp", "log", "sinh", "cosh",
-                                           "tanh"};
+constexpr std::string_view kCertified[] = {"sin", "cos",  "tan",  "exp",
+                                           "log", "sinh", "cosh", "tanh"};
 
 [[noreturn]] void refuse_certificate(const std::string& why) {
   throw UsageError(fmt::format(
@@ -35,12 +36,90 @@ void collect_roots(const Expression& e, ExpressionMap<long>& roots) {
   it->second = std::lcm(it->second, under);
 }
 
+// Is the expression a polynomial in h?
+bool is_polynomial_in_step(const Expression& e) {
+  if (e.kind() == Kind::function) return !depends_on(e, "h");
+  if (e.kind() == Kind::power) {
+    const Expression& exponent = e.operands()[1];
+    const bool integer = exponent.is_number() && exponent.number().get_den() == 1;
+    if (depends_on(e, "h") && (!integer || exponent.number() < 0)) return false;
+  }
+  return std::ranges::all_of(e.operands(), is_polynomial_in_step);
+}
+
+// exp(2 x) as exp(x)^2, for all exponentials whose arguments are multiples of each other.
+class Exponentials {
+ public:
+  void collect(const Expression& e) {
+    for (const Expression& operand : e.operands()) collect(operand);
+    if (!is_exponential(e)) return;
+    const auto [factor, rest] = e.operands()[0].split_coefficient();
+    const auto [it, fresh] = units_.try_emplace(rest, factor);
+    if (!fresh) it->second = common_unit(it->second, factor);
+  }
+  [[nodiscard]] Expression unified(const Expression& e) const {
+    std::vector<Expression> operands;
+    for (const Expression& operand : e.operands()) operands.push_back(unified(operand));
+    switch (e.kind()) {
+      case Kind::number:
+      case Kind::symbol:
+        return e;
+      case Kind::power:
+        return Expression::power(operands[0], operands[1]);
+      case Kind::product:
+        return Expression::product(std::move(operands));
+      case Kind::sum:
+        return Expression::sum(std::move(operands));
+      case Kind::function:
+        break;
+    }
+    if (!is_exponential(e)) return Expression::apply(e.name(), std::move(operands));
+    const auto [factor, rest] = e.operands()[0].split_coefficient();
+    const Rational unit = units_.at(rest);
+    const Expression argument = unified(Expression(unit) * rest);
+    return Expression::power(Expression::apply("exp", {argument}),
+                             Expression(Rational(factor / unit)));
+  }
+
+ private:
+  static bool is_exponential(const Expression& e) {
+    return e.kind() == Kind::function && e.name() == "exp";
+  }
+  // The largest number of which both are integer multiples.
+  static Rational common_unit(const Rational& a, const Rational& b) {
+    Integer over;
+    Integer under;
+    const Integer left = a.get_num() * b.get_den();
+    const Integer right = b.get_num() * a.get_den();
+    mpz_gcd(over.get_mpz_t(), left.get_mpz_t(), right.get_mpz_t());
+    under = a.get_den() * b.get_den();
+    Rational unit(over, under);
+    unit.canonicalize();
+    return unit;
+  }
+
+  ExpressionMap<Rational> units_;
+};
+
+// The system with its exponentials unified.
+void unify_exponentials(Mechanics& mechanics, std::vector<NamedExpression>& invariants) {
+  Exponentials exponentials;
+  const auto each = [&](const auto& visit) {
+    visit(mechanics.energy);
+    for (Expression& e : mechanics.gradient) visit(e);
+    for (auto& [place, e] : mechanics.hessian) visit(e);
+    for (NamedExpression& invariant : invariants) visit(invariant.value);
+  };
+  each([&](const Expression& e) { exponentials.collect(e); });
+  each([&](Expression& e) { e = exponentials.unified(e); });
+}
+
 class CertificateWriter {
  public:
   CertificateWriter(const Mechanics& mechanics, const Scheme& scheme)
       : mechanics_(mechanics), scheme_(scheme), ring_(kMostTermsOfCertificate) {}
 
-  Certificate write(bool symmetric, const std::vector<NamedExpression>& invariants) {
+  ProofCertificate write(bool symmetric, const std::vector<NamedExpression>& invariants) {
     certificate_.name = mechanics_.name;
     certificate_.scheme = scheme_.name;
     certificate_.symmetric = symmetric;
@@ -93,8 +172,8 @@ class CertificateWriter {
       certificate_.c.emplace_back();
       for (int j = 0; j < size; ++j) {
         const auto found = scheme_.member().c.find({i, j});
-        const Expression entry =
-            found == scheme_.member().c.end() ? Expression(0) : found->second;
+        const Expression entry = found == scheme_.member().c.end() ? Expression(0) : found->second;
+        if (!is_polynomial_in_step(entry)) refuse_certificate("C is no polynomial in h");
         certificate_.c.back().push_back(text(ring_.expand(entry)));
         vanishes = vanishes && substitute(entry, {{"h", Expression(0)}}).is_zero();
       }
@@ -130,7 +209,8 @@ class CertificateWriter {
     for (std::size_t i = 0; i < ring_.size(); ++i) {
       const Expression atom = ring_.atom(i);
       if (atom.kind() == Kind::symbol) continue;
-      CertificateAtom result{.name = name_of(i), .function = "root", .argument = {}, .derivatives = {}};
+      CertificateAtom result{
+          .name = name_of(i), .function = "root", .argument = {}, .derivatives = {}};
       Polynomial value;
       if (atom.kind() == Kind::function) {
         result.function = atom.name();
@@ -151,15 +231,46 @@ class CertificateWriter {
             ring_.derivative({{single_atom(i), Rational(1)}}, variable_symbol(variable.name));
         if (!slope.empty()) result.derivatives.emplace_back(variable.name, text(slope));
       }
+      inside_.push_back(atoms_in(value));
+      places_.push_back(i);
       certificate_.atoms.push_back(std::move(result));
     }
+    order_atoms();
+  }
+
+  // Those first that others are made of.
+  void order_atoms() {
+    std::vector<CertificateAtom> ordered;
+    std::set<std::size_t> done;
+    while (ordered.size() < certificate_.atoms.size()) {
+      const std::size_t before = ordered.size();
+      for (std::size_t k = 0; k < places_.size(); ++k) {
+        if (done.contains(places_[k]) || !std::ranges::includes(done, inside_[k])) continue;
+        ordered.push_back(certificate_.atoms[k]);
+        done.insert(places_[k]);
+      }
+      if (ordered.size() == before) internal_error("atoms that are made of each other");
+    }
+    certificate_.atoms = std::move(ordered);
+  }
+
+  // The atoms of a polynomial that are no symbols.
+  [[nodiscard]] std::set<std::size_t> atoms_in(const Polynomial& p) const {
+    std::set<std::size_t> found;
+    for (const auto& [monomial, coefficient] : p) {
+      for (std::size_t i = 0; i < monomial.size(); ++i) {
+        const bool plain = plain_.contains(i) || monomial[i] == 0;
+        if (!plain && ring_.atom(i).kind() != Kind::symbol) found.insert(i);
+      }
+    }
+    return found;
   }
 
   // The base of a root: a sum, term by term, or a single symbol or function.
   Polynomial argument_of_root(const Expression& base) {
     if (base.kind() != Kind::sum) {
-      const bool symbol = base.kind() == Kind::symbol;
-      if (!symbol) refuse_certificate("a root of " + to_text(base));
+      if (base.is_number()) return ring_.expand(base);
+      if (base.kind() != Kind::symbol) refuse_certificate("a root of " + to_text(base));
       // The root of a symbol stands for it: the symbol by its own name.
       return {{single_atom(symbol_atom(base.name())), Rational(1)}};
     }
@@ -213,23 +324,27 @@ class CertificateWriter {
   const Mechanics& mechanics_;
   const Scheme& scheme_;
   PolynomialRing ring_;
-  Certificate certificate_;
+  ProofCertificate certificate_;
   std::vector<Polynomial> gradient_;
   std::map<std::size_t, std::string> plain_;
+  std::vector<std::size_t> places_;            // of the certificate's atoms in the ring
+  std::vector<std::set<std::size_t>> inside_;  // the atoms that their arguments have
 };
 
 }  // namespace
 
-Certificate make_certificate(const Mechanics& mechanics, const Scheme& scheme, bool symmetric,
-                             const std::vector<NamedExpression>& invariants) {
+ProofCertificate make_certificate(const Mechanics& mechanics, const Scheme& scheme, bool symmetric,
+                                  const std::vector<NamedExpression>& invariants) {
   if (!scheme.is_member()) refuse_certificate(scheme.name + " is no member of the family");
-  if (scheme.member().generating_order > 0)
-    refuse_certificate("a step that takes K in place of H");
+  if (scheme.member().generating_order > 0) refuse_certificate("a step that takes K in place of H");
   if (mechanics.keeps_sums()) refuse_certificate("the sums of this system stay loops");
   if (!mechanics.constants.empty())
     refuse_certificate("parameters whose values are part of the code");
+  Mechanics unified = mechanics;
+  std::vector<NamedExpression> conserved = invariants;
+  unify_exponentials(unified, conserved);
   try {
-    return CertificateWriter(mechanics, scheme).write(symmetric, invariants);
+    return CertificateWriter(unified, scheme).write(symmetric, conserved);
   } catch (const TooManyTerms&) {
     refuse_certificate(fmt::format("polynomials of more than {} terms", kMostTermsOfCertificate));
   }

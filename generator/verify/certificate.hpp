@@ -15,10 +15,10 @@ namespace hamgen {
 // What is no polynomial in variables, parameters and other atoms: the value of a function, or a
 // root of a sum, of which a reciprocal is the power -1.
 struct CertificateAtom {
-  std::string name;      // "a1"
-  std::string function;  // "cos", or "root"
-  int degree = 1;        // of a root
-  std::string argument;  // a polynomial
+  std::string name;                                              // "a1"
+  std::string function;                                          // "cos", or "root"
+  int degree = 1;                                                // of a root
+  std::string argument;                                          // a polynomial
   std::vector<std::pair<std::string, std::string>> derivatives;  // by variables, but for zeros
 };
 
@@ -29,7 +29,7 @@ struct CertificateInvariant {
 };
 
 // Polynomials are texts such as "1/2*p^2 - eps*a1"; z = (q, p).
-struct Certificate {
+struct ProofCertificate {
   std::string name;  // of the system
   std::vector<std::string> coordinates, momenta, parameters;
   std::vector<CertificateAtom> atoms;
@@ -45,8 +45,8 @@ struct Certificate {
 
 // Of a member of the family whose system is written out.  `invariants` are those that are conserved
 // along the flow.  Throws UsageError for what there is no certificate of.
-[[nodiscard]] Certificate make_certificate(const Mechanics& mechanics, const Scheme& scheme,
-                                           bool symmetric,
-                                           const std::vector<NamedExpression>& invariants);
+[[nodiscard]] ProofCertificate make_certificate(const Mechanics& mechanics, const Scheme& scheme,
+                                                bool symmetric,
+                                                const std::vector<NamedExpression>& invariants);
 
 }  // namespace hamgen

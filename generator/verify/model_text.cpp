@@ -191,8 +191,7 @@ class TextValue {
       if (size.name == name) return precise(size.value);
     }
     for (const Definition& definition : model_.definitions) {
-      if (definition.name == name)
-        return TextValue(model_, definition.text, point_).run().value;
+      if (definition.name == name) return TextValue(model_, definition.text, point_).run().value;
     }
     return at_point(name);
   }
@@ -282,7 +281,8 @@ class Reading {
   // False where something is not defined at the point.
   bool at(SamplePoint draw, bool with_gradient) {
     point_.clear();
-    for (const Quantity& variable : mechanics_.variables) point_[variable.name] = draw(variable.name);
+    for (const Quantity& variable : mechanics_.variables)
+      point_[variable.name] = draw(variable.name);
     for (const Quantity& parameter : mechanics_.parameters)
       point_[parameter.name] = draw(parameter.name);
     for (const Quantity& constant : mechanics_.constants)
@@ -304,8 +304,8 @@ class Reading {
     if (!found) return false;
     const Precise size = found->scale + read.scale;
     if (cln::abs(found->value - read.value) <= tolerance * size) return true;
-    witness_ = fmt::format("{} is {:.6g} by the text of the file and {:.6g} as derived, at {}", what,
-                           to_double(read.value), to_double(found->value), place());
+    witness_ = fmt::format("{} is {:.6g} by the text of the file and {:.6g} as derived, at {}",
+                           what, to_double(read.value), to_double(found->value), place());
     return true;
   }
 

@@ -23,8 +23,8 @@ using PointValues = std::map<std::string, Precise>;
 
 inline constexpr const char* kModelRead = "model";
 
-// H is that of the file, and so are its gradient, by differences of H, and the invariants: at random
-// points, in 60 digits.  `hamiltonian` is H written out, as derived; without `gradient` and
+// H is that of the file, and so are its gradient, by differences of H, and the invariants: at
+// random points, in 60 digits.  `hamiltonian` is H written out, as derived; without `gradient` and
 // `invariants` they are not looked at.
 struct DerivedFormulas {
   Expression hamiltonian;

@@ -20,8 +20,7 @@ struct Counts {
 
 Counts read_all(const std::vector<Request>& requests) {
   Counts counts;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(HAMGEN_SOURCE_DIR "/hamiltonians")) {
+  for (const auto& entry : std::filesystem::directory_iterator(HAMGEN_SOURCE_DIR "/hamiltonians")) {
     if (entry.path().extension() != ".ham") continue;
     const SourceText source = read_source(entry.path().string());
     for (const Request& request : requests) {
@@ -50,7 +49,6 @@ TEST(ReadBackOf, EveryModelByEverySchemeIsTheProgram) {
   for (const Scheme& scheme : all_schemes()) requests.push_back({.scheme = scheme.name});
   const Counts counts = read_all(requests);
   EXPECT_GT(counts.read, 400);
-
 }
 
 TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
@@ -71,7 +69,6 @@ TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
   requests.push_back({.watch_modified = 2});
   const Counts counts = read_all(requests);
   EXPECT_GT(counts.read, 300);
-
 }
 
 }  // namespace

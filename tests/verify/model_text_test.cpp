@@ -1,5 +1,7 @@
 // What the front end makes of a file, held against the file's text: faults of a parser, of a table
 // of functions, of a derivative are noticed.
+#include "generator/verify/model_text.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -8,7 +10,6 @@
 #include "generator/mechanics/derive.hpp"
 #include "generator/pipeline.hpp"
 #include "generator/schemes/scheme.hpp"
-#include "generator/verify/model_text.hpp"
 #include "tests/verify/mutants.hpp"
 
 namespace hamgen {
@@ -33,7 +34,8 @@ Finding read_as(const std::string& formula, const std::string& misread) {
 TEST(ModelText, IsWhatIsDerived) {
   for (const std::string formula :
        {"p^2/2 - q^2/(1 + q^2)", "p^2/2 + sin(q)", "-2^2^3*q + 2^-3^2*p", "p^2/2 - -q^2",
-        "p^2/2 + a*q/r/2*3 - q^2^-1^2", "sum(i = 1..N, u[i]^2/2) + sum(i = 0..N, (x[i+1] - x[i])^2)",
+        "p^2/2 + a*q/r/2*3 - q^2^-1^2",
+        "sum(i = 1..N, u[i]^2/2) + sum(i = 0..N, (x[i+1] - x[i])^2)",
         "sum(i = 0..2, (y[i+1] - y[i-1])^4*i) + sum(i = 1..N, j = i+1..N, x[i]*u[j])",
         "p^2/2 + sum(i = 2..1, q) + atan2(q, 1 + p^2) + abs(q)^3 + pi*q*1.5e-1*.5",
         "log(5 + sin(q)) + exp(-q^2) + cosh(p) + (1 + q^2)^(1/3)"}) {
@@ -73,8 +75,8 @@ TEST(ModelText, HasAnotherGradientThanAWrongDerivative) {
 
 // abs(x) as x in the instructions: only negative points tell.
 TEST(Program, WithAMagnitudeLeftOutIsRefuted) {
-  const Mechanics mechanics = verify_test::mechanics_of(
-      "coordinate q\nmomentum p\nH = p^2/2 + q^2/2 + exp(-abs(q))*q^2\n");
+  const Mechanics mechanics =
+      verify_test::mechanics_of("coordinate q\nmomentum p\nH = p^2/2 + q^2/2 + exp(-abs(q))*q^2\n");
   const Expression half(Rational(1, 2));
   const Scheme scheme = family_member(1, {{half}}, {{Expression(0)}}, {{Expression(0)}});
   const Program program = verify_test::program_of(mechanics, scheme, "");

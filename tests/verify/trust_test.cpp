@@ -123,12 +123,10 @@ TEST(TrueClaims, AreDecidedWhereTheModelIsDefined) {
   const auto scene = [](const std::string& q) {
     return "scene s { q = " + q + "; h = 0.01; steps = 10 }\n";
   };
-  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"),
-            Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"), Verdict::proved);
   EXPECT_EQ(verdict(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "program"), Verdict::proved);
   EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "program"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"),
-            Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"), Verdict::proved);
   // By points alone, of what is defined near the scene only.
   const SourceText narrow =
       of_one("p^2/2 + log(q - 500)",
