@@ -118,10 +118,11 @@ Setting verify_setting(const VerifyOptions& options) {
   return setting;
 }
 
+constexpr const char* kCommandLead = "//   command   ";
+
 // The word behind `option` in the command that the header says it was made with.
 std::string option_of_header(const std::string& text, const std::string& option) {
-  const std::string lead = "//   command   ";
-  const std::size_t begin = text.find(lead);
+  const std::size_t begin = text.find(kCommandLead);
   if (begin == std::string::npos) return {};
   std::istringstream words(text.substr(begin, text.find('\n', begin) - begin));
   for (std::string word; words >> word;) {
@@ -146,6 +147,17 @@ std::optional<EmittedHeader> read_header(const std::string& path, Request& reque
   const std::string modified = option_of_header(header.text, "--watch-modified");
   if (!modified.empty()) request.watch_modified = modified_term_count("--watch-modified", modified);
   return header;
+}
+
+// What would be the options of a header that is another step.
+void propose_command(const Proof& proof, const EmittedHeader& header) {
+  const auto found = std::ranges::find(proof, kEmittedCode, &Finding::property);
+  const std::size_t begin = header.text.find(kCommandLead);
+  if (found == proof.end() || found->verdict != Verdict::refuted || begin == std::string::npos)
+    return;
+  const std::size_t at = begin + std::string(kCommandLead).size();
+  print_error(fmt::format("help: {} says that it was made by: {}\n", header.path,
+                          header.text.substr(at, header.text.find('\n', at) - at)));
 }
 
 // Only of what holds, and of a header that is there.
@@ -219,6 +231,7 @@ int verify(const VerifyOptions& options) {
     text += modified_text(modified, options.latex);
   }
   print(options.json ? json_document(rows) : text);
+  if (header) propose_command(proof, *header);
   require(proof, options.required);
   if (!options.certificate.empty()) write_certificate(options, setting, *header, proof);
   return holds ? done : proof_failed;
@@ -239,7 +252,7 @@ Command add_verify(CLI::App& app) {
   parser->add_option("--emitted", options->emitted, "")->type_name("FILE");
   parser
       ->add_option("--certificate", options->certificate,
-                   "read this header back; write JSON for scripts/check-certificate")
+                   "read this header back; write a certificate (JSON)")
       ->type_name("FILE");
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
