@@ -30,18 +30,45 @@ std::string path_in(const std::string& directory, const OutputFile& file) {
   return (std::filesystem::path(directory) / file.path).string();
 }
 
-int compare(const OutputFiles& files, const std::string& directory, const std::string& command) {
+// What a header that is there computes, whatever else of it has changed.
+std::string said_of(const std::string& path, const std::string& text, const SourceText& source,
+                    const Request& request) {
+  if (!path.ends_with(".hpp") || path.find("hamgen_support") != std::string::npos) return {};
+  EmittedHeader header{.path = path, .text = text};
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const char* name : kSupportFiles) {
+    const std::string beside = (folder / name).string();
+    if (std::filesystem::exists(beside)) header.beside[name] = runtime::read_file(beside);
+  }
+  const ReadBack found = read_emitted(source, request, header);
+  if (found.outcome == ReadBack::Outcome::same)
+    return fmt::format("note: {}: the code is that of the model, read back; the rest differs\n",
+                       path);
+  return fmt::format(
+      "note: {}:{}: {}{}\n", path, found.line,
+      found.outcome == ReadBack::Outcome::different ? "the code is another: " : "not understood: ",
+      found.what);
+}
+
+int compare(const OutputFiles& files, const std::string& directory, const SourceText& source,
+            const Request& request) {
+  const std::string& command = request.command;
   std::string text;
+  std::string notes;
   for (const OutputFile& file : files) {
     const std::string path = path_in(directory, file);
     if (!std::filesystem::exists(path)) {
       text += fmt::format("{}: missing\n", path);
       continue;
     }
-    text += difference(path, runtime::read_file(path), path + " (generated)", file.text);
+    const std::string there = runtime::read_file(path);
+    if (there == file.text) continue;
+    text += difference(path, there, path + " (generated)", file.text);
+    notes += said_of(path, there, source, request);
   }
   if (text.empty()) return done;
   print(text);
+  print_error(notes);
   print_error(
       fmt::format("help: to bring {} up to date: {} -o {}\n", directory, command, directory));
   return numerical_failure;
@@ -78,7 +105,7 @@ int generate_files(const GenerateOptions& options) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
   record_origin(options.method, source, request);
   const OutputFiles files = generate(source, request);
-  if (options.check) return compare(files, options.output, request.command);
+  if (options.check) return compare(files, options.output, source, request);
   return options.output == "-" ? print_only_file(files) : write(files, options.output);
 }
 

@@ -1,17 +1,25 @@
 // hamgen verify: what algebra proves of the step, one line a property.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
+#include "app/output/certificate_json.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/modified_output.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/measure.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/verify/model_text.hpp"
+#include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -24,6 +32,8 @@ struct VerifyOptions {
   std::string required;
   bool measure = false;
   bool json = false;
+  std::string emitted;      // a header; empty: the one that would be written
+  std::string certificate;  // a file to write
 };
 
 nlohmann::ordered_json json_of(const LinearPoint& point) {
@@ -108,12 +118,77 @@ Setting verify_setting(const VerifyOptions& options) {
   return setting;
 }
 
+constexpr const char* kCommandLead = "//   command   ";
+
+// The word behind `option` in the command that the header says it was made with.
+std::string option_of_header(const std::string& text, const std::string& option) {
+  const std::size_t begin = text.find(kCommandLead);
+  if (begin == std::string::npos) return {};
+  std::istringstream words(text.substr(begin, text.find('\n', begin) - begin));
+  for (std::string word; words >> word;) {
+    if (word != option) continue;
+    std::string value;
+    words >> value;
+    return value.empty() ? "set" : value;
+  }
+  return {};
+}
+
+// The header that is named, and what it emits besides the step.
+std::optional<EmittedHeader> read_header(const std::string& path, Request& request) {
+  if (path.empty()) return {};
+  EmittedHeader header{.path = path, .text = read_source(path).text};
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const char* name : kSupportFiles) {
+    const std::filesystem::path beside = folder / name;
+    if (std::filesystem::exists(beside)) header.beside[name] = read_source(beside.string()).text;
+  }
+  if (!option_of_header(header.text, "--tangent").empty()) request.tangent = true;
+  const std::string modified = option_of_header(header.text, "--watch-modified");
+  if (!modified.empty()) request.watch_modified = modified_term_count("--watch-modified", modified);
+  return header;
+}
+
+// What would be the options of a header that is another step.
+void propose_command(const Proof& proof, const EmittedHeader& header) {
+  const auto found = std::ranges::find(proof, kEmittedCode, &Finding::property);
+  const std::size_t begin = header.text.find(kCommandLead);
+  if (found == proof.end() || found->verdict != Verdict::refuted || begin == std::string::npos)
+    return;
+  const std::size_t at = begin + std::string(kCommandLead).size();
+  print_error(fmt::format("help: {} says that it was made by: {}\n", header.path,
+                          header.text.substr(at, header.text.find('\n', at) - at)));
+}
+
+// Only of what holds, and of a header that is there.
+void write_certificate(const VerifyOptions& options, const Setting& setting,
+                       const EmittedHeader& header, const Proof& proof) {
+  for (const char* property : {"symplectic", kProgram, kEmittedCode, kModelRead}) {
+    const auto found = std::ranges::find(proof, property, &Finding::property);
+    if (found != proof.end() && hamgen::holds(found->verdict)) continue;
+    throw ProofError(fmt::format("--certificate: '{}' is {}", property,
+                                 found == proof.end() ? "not looked at" : to_text(found->verdict)));
+  }
+  const ProofCertificate certificate = certificate_of(setting.source, setting.request, proof);
+  std::map<std::string, long> sizes;
+  for (const Size& size : setting.model.sizes) sizes[size.name] = size.value;
+  const std::string name = std::filesystem::path(header.path).filename().string();
+  runtime::atomic_write(
+      options.certificate,
+      certificate_json(certificate, sizes, setting.source.text, name, header.text));
+}
+
 bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::refuted; }
 
 int verify(const VerifyOptions& options) {
-  const Setting setting = verify_setting(options);
+  if (!options.certificate.empty() && options.emitted.empty())
+    throw UsageError(
+        "--certificate: it has the digest of a header\nhelp: write one with `hamgen generate -o "
+        "DIRECTORY`, and add --emitted FILE");
+  Setting setting = verify_setting(options);
+  const std::optional<EmittedHeader> header = read_header(options.emitted, setting.request);
   const SceneValues scene = scene_values(setting.model, setting.scene);
-  Proof proof = verify_step(setting.source, setting.request, scene);
+  Proof proof = verify_step(setting.source, setting.request, scene, header);
   std::vector<InvariantDefect> defects;
   bool holds = true;
   if (options.measure) {
@@ -139,8 +214,12 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    const bool of_code = finding.property == "emitted code" || finding.property == "specialised";
+    const bool of_code = finding.property == kProgram || finding.property == kEmittedCode ||
+                         finding.property == kModelRead || finding.property == "specialised";
     if (of_code && is_refuted(finding)) holds = false;
+    // What is emitted can be read.
+    const bool unread = finding.detail.find("not understood") != std::string::npos;
+    if (finding.property == kEmittedCode && unread) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }
@@ -152,7 +231,9 @@ int verify(const VerifyOptions& options) {
     text += modified_text(modified, options.latex);
   }
   print(options.json ? json_document(rows) : text);
+  if (header) propose_command(proof, *header);
   require(proof, options.required);
+  if (!options.certificate.empty()) write_certificate(options, setting, *header, proof);
   return holds ? done : proof_failed;
 }
 
@@ -168,6 +249,11 @@ Command add_verify(CLI::App& app) {
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
+  parser->add_option("--emitted", options->emitted, "")->type_name("FILE");
+  parser
+      ->add_option("--certificate", options->certificate,
+                   "read this header back; write a certificate (JSON)")
+      ->type_name("FILE");
   parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser

@@ -8,6 +8,7 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
 #include "generator/emitted_spaces.hpp"
+#include "generator/emitted_text.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
 #include "generator/formats/cpp_tangent.hpp"
@@ -48,10 +49,22 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .watched_step = request.step};
 }
 
-// What the first lines of a header say of the step.
+// The text of a header and of what it includes.
+ReadBack read_header(const OutputFiles& files, const Stages& stages, const Request& request) {
+  EmittedFile file{.text = files.front().text, .scalar = request.scalar};
+  for (const OutputFile& other : files) file.beside[other.path] = other.text;
+  return read_back(file, stages.program, step_code(stages.program));
+}
+
+// What the first lines of a header say of the step; `files` are what is emitted, but for them.
 void add_proof(const SourceText& source, const Stages& stages, const Request& request,
-               EmitOptions& options) {
-  const Proof proof = prove(source, request, stages);
+               const OutputFiles& files, EmitOptions& options) {
+  Proof proof = prove(source, request, stages);
+  if (files.front().path.ends_with(".hpp")) {
+    add_emitted_code(read_header(files, stages, request), "", proof);
+  } else {
+    add_unread_code(files.front().path.ends_with(".h") ? "C11" : "a plugin", proof);
+  }
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -83,6 +96,19 @@ std::string plugin_text(const Stages& stages, const EmitOptions& options, const 
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
+// A header that is there, or else the one that is emitted.
+ReadBack read_header(const std::optional<EmittedHeader>& header, const SourceText& source,
+                     const Stages& stages, const Request& request) {
+  if (header) {
+    const EmittedFile file{
+        .text = header->text, .scalar = request.scalar, .beside = header->beside};
+    return read_back(file, stages.program, step_code(stages.program));
+  }
+  const EmitOptions options = emit_options(source, stages, request);
+  const auto files = [&] { return cpp_header_files(stages.program, options); };
+  return read_header(written(stages.model, request, files), stages, request);
+}
+
 }  // namespace
 
 OutputFiles generate(const SourceText& source, const Request& request) {
@@ -91,9 +117,12 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  add_proof(source, stages, request, options);
   const NamedFormat& format = find_format(request.format);
-  return written(stages.model, request, [&] { return format.files(stages.program, options); });
+  const auto files = [&] {
+    return written(stages.model, request, [&] { return format.files(stages.program, options); });
+  };
+  add_proof(source, stages, request, files(), options);
+  return files();
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
@@ -143,8 +172,37 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
 }
 
 Proof verify_step(const SourceText& source, const Request& request,
-                  const std::optional<SceneValues>& scene) {
-  return prove(source, request, run_stages(source, request), scene);
+                  const std::optional<SceneValues>& scene,
+                  const std::optional<EmittedHeader>& header) {
+  const Stages stages = run_stages(source, request);
+  Proof proof = prove(source, request, stages, scene);
+  add_emitted_code(read_header(header, source, stages, request), header ? header->path : "", proof);
+  return proof;
+}
+
+ReadBack read_emitted(const SourceText& source, const Request& request,
+                      const std::optional<EmittedHeader>& header) {
+  return read_header(header, source, run_stages(source, request), request);
+}
+
+ProofCertificate certificate_of(const SourceText& source, const Request& request,
+                                const Proof& proof) {
+  const Stages stages = run_stages(source, request);
+  if (stages.plan.sweeps)
+    throw UsageError("--certificate: sweeps leave the step unsolved\nhelp: drop --solver sweeps");
+  if (is_something_left_out(stages)) {
+    throw UsageError("--certificate: the scene leaves a part of the system out\nhelp: add --whole");
+  }
+  const auto is_proved = [&](const std::string& property) {
+    const auto found = std::ranges::find(proof, property, &Finding::property);
+    return found != proof.end() && found->verdict == Verdict::proved;
+  };
+  const Mechanics& mechanics = stages.system.mechanics;
+  std::vector<NamedExpression> invariants;
+  for (const NamedExpression& invariant : mechanics.invariants) {
+    if (is_proved(invariant.name + " invariant")) invariants.push_back(invariant);
+  }
+  return make_certificate(mechanics, stages.equations.scheme, is_proved("symmetric"), invariants);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
@@ -168,7 +226,10 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   EmitOptions anonymous = options;
   anonymous.command.clear();
   plugin.text = plugin_text(stages, anonymous, request);
-  if (proof == HeaderProof::included) add_proof(source, stages, request, options);
+  if (proof == HeaderProof::included) {
+    const OutputFiles files = {{options.file_name + ".hpp", header_text(stages, options, request)}};
+    add_proof(source, stages, request, files, options);
+  }
   plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {

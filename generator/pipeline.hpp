@@ -13,8 +13,10 @@
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/program/step_code.hpp"
+#include "generator/readback/read_back.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/specialise/specialisation.hpp"
+#include "generator/verify/certificate.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/linear_stability.hpp"
 #include "generator/verify/required.hpp"
@@ -71,8 +73,25 @@ void check_step(const SourceText& source, const Request& request);
 
 // What algebra can say of the step: one finding a property.  What it leaves open is tried around
 // the model's scenes, and around `scene`, of a run that changes one.
+//
+// The emitted code is a C++ header, read back: one that is there, or else the one that `generate`
+// would write.
+struct EmittedHeader {
+  std::string path;  // as the user named it
+  std::string text;
+  std::map<std::string, std::string> beside = {};  // texts it may include, by their names
+};
 [[nodiscard]] Proof verify_step(const SourceText& source, const Request& request,
-                                const std::optional<SceneValues>& scene = {});
+                                const std::optional<SceneValues>& scene = {},
+                                const std::optional<EmittedHeader>& header = {});
+// The reading alone, without any proof.
+[[nodiscard]] ReadBack read_emitted(const SourceText& source, const Request& request,
+                                    const std::optional<EmittedHeader>& header = {});
+
+// What another program can check of a proof: of the whole system, by what `proof` says of it.
+// Throws UsageError where there is none.
+[[nodiscard]] ProofCertificate certificate_of(const SourceText& source, const Request& request,
+                                              const Proof& proof);
 
 // Where H is defined but has no derivatives: a step across it is not what is proved of the step.
 [[nodiscard]] std::vector<Corner> corners_of_hamiltonian(const SourceText& source,

@@ -4,6 +4,8 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/stages.hpp"
+#include "generator/verify/derivatives.hpp"
+#include "generator/verify/model_text.hpp"
 #include "generator/verify/proof.hpp"
 #include "generator/verify/specialised.hpp"
 
@@ -62,6 +64,24 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
 
 }  // namespace
 
+namespace {
+
+// What the front end has read; a scene's own values are put in later, and proved by "specialised".
+Finding prove_front_end(const Stages& stages, const Surroundings& around) {
+  const Mechanics& mechanics = stages.system.whole;
+  DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(stages.model)};
+  const bool folded = !stages.folded.folding.left_out.empty();
+  if (!folded && !mechanics.keeps_sums()) {
+    derived.gradient = mechanics.gradient;
+    derived.invariants = mechanics.invariants;
+  } else if (!folded && mechanics.degrees_of_freedom <= kMostLookedAt) {
+    derived.gradient = Derivatives(mechanics, derived.hamiltonian).gradient();
+  }
+  return prove_model_read(stages.model, mechanics, derived, around);
+}
+
+}  // namespace
+
 Proof prove(const SourceText& source, const Request& request, const Stages& stages,
             const std::optional<SceneValues>& scene) {
   Surroundings around = surroundings_of(stages.model);
@@ -69,6 +89,7 @@ Proof prove(const SourceText& source, const Request& request, const Stages& stag
   Proof proof =
       verify(stages.system.mechanics, stages.equations.scheme, stages.program,
              written_out_hamiltonian(stages), around, smaller_systems(source, request, stages));
+  proof.push_back(prove_front_end(stages, around));
   if (request.scene && is_something_left_out(stages))
     proof.push_back(
         prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));

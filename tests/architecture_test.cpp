@@ -34,10 +34,11 @@ struct Rule {
 
 // The stages as one, and the values that go in and come out.
 std::vector<std::string> with_generator_values(std::vector<std::string> folders) {
-  folders.insert(folders.end(), {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
-                                 "generator/language/", "generator/mechanics/",
-                                 "generator/schemes/", "generator/specialise/", "generator/verify/",
-                                 "generator/formats/scalar.hpp", "runtime/"});
+  folders.insert(
+      folders.end(),
+      {"generator/pipeline.hpp", "generator/base/", "generator/algebra/", "generator/language/",
+       "generator/mechanics/", "generator/schemes/", "generator/specialise/", "generator/verify/",
+       "generator/formats/scalar.hpp", "generator/readback/read_back.hpp", "runtime/"});
   return folders;
 }
 
@@ -104,6 +105,11 @@ const std::vector<Rule>& rules() {
       {"generator/verify/linear_",
        {"generator/verify/", "generator/schemes/", "generator/mechanics/", "generator/algebra/"},
        {fmt, eigen}},
+      // Nothing of what writes the text.
+      {"generator/readback/",
+       {"generator/readback/", "generator/program/", "generator/algebra/expression.hpp",
+        "generator/algebra/exact.hpp", "generator/base/"},
+       {fmt}},
       {"generator/", {"generator/"}, {fmt}},
       {"runtime/", {"runtime/"}, {fmt, system}},
       // What a command measures, without a screen.

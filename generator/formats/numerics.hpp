@@ -10,10 +10,10 @@
 // Sizes are template parameters.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 
+#include "generator/base/numerics_text.hpp"
 #include "generator/formats/scalar.hpp"
 
 namespace hamgen {
@@ -23,13 +23,5 @@ namespace hamgen {
 
 // The text of generator/numerics/NAME.hpp.
 [[nodiscard]] std::string cpp_numerics(std::string_view name);
-
-// A header's name, "two_sum", and its text.  Their table is made from the headers by the build: an
-// installed hamgen has no sources.
-struct NumericsText {
-  std::string_view name;
-  std::string_view text;
-};
-[[nodiscard]] std::span<const NumericsText> all_numerics();
 
 }  // namespace hamgen

@@ -214,7 +214,7 @@ std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const S
 // Of a system in loops that is too large to look at every element.
 Finding prove_longer(const StepUnderProof& step, const Expression& hamiltonian,
                      const Surroundings& around, const std::optional<SmallerSystems>& smaller) {
-  const std::string property = "emitted code";
+  const std::string property = kProgram;
   std::vector<Identities> parts = kernel_identities(step.mechanics, hamiltonian);
   std::ranges::move(invariant_identities(step), std::back_inserter(parts));
   Decision total = decide_all(parts, around);
@@ -255,7 +255,7 @@ Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Pr
                       const StepCode& code, const Expression& hamiltonian,
                       const Surroundings& around, std::optional<Decision> of_k,
                       const std::optional<SmallerSystems>& smaller) {
-  const std::string property = "emitted code";
+  const std::string property = kProgram;
   const StepUnderProof step(mechanics, scheme, program.plan.equations, code);
   if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostLookedAt)
     return prove_longer(step, hamiltonian, around, smaller);

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/verify/model_text.hpp"
 
 namespace hamgen {
 
@@ -46,7 +47,7 @@ void require_one(const Proof& proof, const std::string& word) {
   if (word.starts_with("order:")) return require_order(proof, word);
   std::string property = word;
   if (word == "emitted-code") {
-    property = "emitted code";
+    property = kEmittedCode;
   } else if (word.starts_with("conserves:")) {
     const std::string name = word.substr(word.find(':') + 1);
     property = name + std::string(kConserved);
@@ -74,7 +75,7 @@ void require(const Proof& proof, const std::string& list) {
 }
 
 void require_emitted(const Proof& proof) {
-  for (const char* property : {"emitted code", "specialised"}) {
+  for (const char* property : {kProgram, kEmittedCode, kModelRead, "specialised"}) {
     const Finding* finding = find(proof, property);
     if (finding == nullptr || finding->verdict != Verdict::refuted) continue;
     throw ProofError("the emitted code is not the step of this model, a fault of hamgen: " +
@@ -87,9 +88,12 @@ std::string properties_with(const Proof& proof, Verdict verdict) {
   for (const Finding& finding : proof) {
     // What it rests on is said by `verify`.
     if (finding.verdict != verdict || finding.property == "gauge in sp(2n)" ||
-        finding.property.ends_with(" invariant")) {
+        finding.property.ends_with(" invariant") || finding.property == kModelRead) {
       continue;
     }
+    // The text says no less than the program.
+    const Finding* text_read = finding.property == kProgram ? find(proof, kEmittedCode) : nullptr;
+    if (text_read != nullptr && text_read->verdict == verdict) continue;
     std::string property = finding.property;
     if (property.ends_with(kConserved)) {
       property = "conserves " + property.substr(0, property.size() - kConserved.size());

@@ -165,6 +165,33 @@ TEST(Verify, NeedsNoSceneToMeasure) {
   EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "tested");
 }
 
+TEST(Verify, ReadsAHeaderThatIsThere) {
+  const Scratch scratch;
+  const std::string model = (models / "pendulum.ham").string();
+  ASSERT_EQ(hamgen({"generate", model, "-o", scratch.path("made")}).status, 0);
+  const std::string path = scratch.path("made") + "/pendulum.hpp";
+  const auto read_back = [&](int status, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--emitted", path});
+    return find(findings(model, more, status), "emitted code");
+  };
+  EXPECT_EQ(read_back(0).at("verdict"), "proved");
+  // Of another member it is another step.
+  EXPECT_EQ(read_back(5, {"--alpha", "1/3"}).at("verdict"), "refuted");
+  std::string text = read(path);
+  const std::size_t at = text.find("q_bar += delta_q;");
+  text.replace(at, 17, "q_bar -= delta_q;");
+  static_cast<void>(scratch.write("made/pendulum.hpp", text));
+  const Json found = read_back(5);
+  EXPECT_EQ(found.at("verdict"), "refuted");
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+  EXPECT_TRUE(contains(found.at("detail"), path + ":" + std::to_string(line) + ": ")) << found;
+  const Result compared = hamgen({"generate", model, "-o", scratch.path("made"), "--check"});
+  EXPECT_EQ(compared.status, 1);
+  EXPECT_TRUE(contains(compared.err, ":" + std::to_string(line) + ": the code is another"))
+      << compared.err;
+  EXPECT_EQ(hamgen({"verify", model, "--emitted", scratch.path("none.hpp")}).status, 2);
+}
+
 TEST(Check, SaysWhereHHasACorner) {
   const Scratch scratch;
   scratch.write("ball.ham", "coordinate q\nmomentum p\nH = p^2/2 + (abs(q) - q)^2/8\n");

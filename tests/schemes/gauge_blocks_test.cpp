@@ -122,7 +122,7 @@ TEST(GaugeMatrix, OutsideTheAlgebraIsRefutedWithTheEntryAndStillEmittedAsItIs) {
         EXPECT_EQ(finding.verdict, Verdict::refuted);
         EXPECT_TRUE(finding.detail.starts_with("entry (")) << finding.detail;
       }
-      if (finding.property == "emitted code") {
+      if (finding.property == "program") {
         EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
       }
     }

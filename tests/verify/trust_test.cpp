@@ -123,12 +123,10 @@ TEST(TrueClaims, AreDecidedWhereTheModelIsDefined) {
   const auto scene = [](const std::string& q) {
     return "scene s { q = " + q + "; h = 0.01; steps = 10 }\n";
   };
-  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "emitted code"),
-            Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "emitted code"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "emitted code"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "emitted code"),
-            Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"), Verdict::proved);
   // By points alone, of what is defined near the scene only.
   const SourceText narrow =
       of_one("p^2/2 + log(q - 500)",
@@ -217,6 +215,8 @@ TEST(Corners, LowerEveryVerdictOfTheStepAndAreNamed) {
   for (const Finding& f : verify_step(source, {})) {
     if (f.property == "gauge in sp(2n)") continue;
     EXPECT_EQ(f.verdict, Verdict::tested) << f.property;
+    // The text rests on the program, and the reading of the model on points.
+    if (f.property == "emitted code" || f.property == "model") continue;
     EXPECT_NE(f.detail.find("off the corners of abs("), std::string::npos) << f.detail;
   }
   const auto found = corners_of_hamiltonian(source, {});

@@ -1,0 +1,225 @@
+#include "generator/readback/fixed_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "generator/base/numerics_text.hpp"
+#include "generator/readback/findings.hpp"
+#include "generator/readback/pattern.hpp"
+
+namespace hamgen {
+
+namespace {
+
+constexpr std::string_view kIncludes[] = {"<cmath>", "<algorithm>", "<vector>", "<Eigen/SparseLU>",
+                                          "<Eigen/LU>"};
+constexpr std::string_view kBlockNames[] = {
+    "StepReport",       "magnitude",         "largest",
+    "epsilon",          "two_sum",           "two_sum_with_rest",
+    "collect",          "product_error",     "DenseMatrix",
+    "DiagonalMatrix",   "BandMatrix",        "ReorderedMatrix",
+    "EigenDenseMatrix", "EigenSparseMatrix", "invert",
+    "Verdict",          "NewtonRule",        "FixedPointRule",
+    "Distance",         "ImpatientRule",     "SimplifiedNewtonRule",
+    "Refinement",       "History",           "forget"};
+
+std::string upper(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
+  return text;
+}
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+bool is_directive(const TokenCursor& cursor, std::string_view begin) {
+  return cursor.peek().kind == CppToken::Kind::directive && cursor.peek().text.starts_with(begin);
+}
+
+// __extension__ __float128 sinq(__float128) noexcept;
+void read_quad_functions(TokenCursor& cursor, const Precision& precision) {
+  expect_pattern(cursor, {"extern \"C\" {"}, precision, "the functions of quad numbers");
+  while (!cursor.accept("}")) {
+    expect_pattern(cursor, {"__extension__ __float128"}, precision, "a quad function");
+    const int line = cursor.line();
+    const std::string name = cursor.word();
+    const bool two = name == "powq" || name == "atan2q";
+    if (!name.ends_with('q')) throw TextDifference(line, name + " is no quad function");
+    expect_pattern(cursor, {two ? "(__float128, __float128) noexcept;" : "(__float128) noexcept;"},
+                   precision, name);
+  }
+}
+
+// The lines between two lines of the text, both left out.
+std::string lines_between(std::string_view text, int first, int last) {
+  std::string result;
+  int line = 1;
+  for (std::size_t begin = 0; begin < text.size() && line < last; ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (line > first) result += std::string(text.substr(begin, end - begin)) + '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
+std::string trimmed(std::string_view text) {
+  return std::string(text.substr(0, text.find_last_not_of(" \r\n") + 1));
+}
+
+// The first line in which the texts differ, from 0.
+int first_difference(const std::string& a, const std::string& b) {
+  int line = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i) {
+    if (a[i] == '\n') ++line;
+  }
+  return line;
+}
+
+void expect_vocabulary(TokenCursor& cursor, const Precision& precision) {
+  const std::string suffix = precision.bits == 24 ? "f" : precision.bits == 64 ? "l" : "";
+  std::string magnitude = "std::fabs(x)";
+  if (precision.is_quad()) magnitude = "x < 0 ? -x : x";
+  const std::string builtin = "__builtin_fabs" + suffix;
+  expect_pattern(cursor, {"inline Real magnitude(Real x) { return"}, precision, "the vocabulary");
+  if (!precision.is_quad() && cursor.peek().is(builtin)) magnitude = builtin + "(x)";
+  const std::string least = fmt::format("0x1p-{}{}", precision.bits - 1, precision.suffix);
+  const auto number = [&](std::string_view text) {
+    return precision.is_quad() ? fmt::format("Real({})", text) : std::string(text);
+  };
+  expect_pattern(cursor,
+                 {fmt::format("{}; }} inline constexpr Real largest = {};"
+                              "inline constexpr Real epsilon = {};",
+                              magnitude, number(precision.largest), number(least))},
+                 precision, "the vocabulary");
+}
+
+void skip_to_end(TokenCursor& cursor) {
+  for (int depth = 1;;) {
+    if (cursor.at_end()) throw TextNotUnderstood(cursor.line(), "a block without its #endif");
+    if (is_directive(cursor, "#if")) ++depth;
+    if (is_directive(cursor, "#endif") && --depth == 0) return;
+    cursor.take();
+  }
+}
+
+// #ifndef guard, #define guard, the header, #endif
+std::string read_block(TokenCursor& cursor, std::string_view text, const std::string& prefix,
+                       const Precision& precision) {
+  const std::string macro = cursor.peek().text.substr(std::string("#ifndef ").size());
+  const int begin = cursor.line();
+  if (!macro.starts_with(prefix)) throw TextDifference(begin, macro + " guards no fixed block");
+  const std::string name = lower(macro.substr(prefix.size()));
+  cursor.take();
+  const int first = cursor.line();
+  expect_directive(cursor, "#define " + macro);
+  if (name == "vocabulary") {
+    expect_vocabulary(cursor, precision);
+  } else {
+    const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
+    if (found == all_numerics().end())
+      throw TextDifference(begin, fmt::format("there is no fixed block '{}'", name));
+    skip_to_end(cursor);
+    const std::string written = trimmed(lines_between(text, first, cursor.line()));
+    const std::string tested = trimmed(found->text);
+    if (written != tested)
+      throw TextDifference(first + 1 + first_difference(written, tested),
+                           fmt::format("not the text of numerics/{}, which is tested", name));
+  }
+  expect_directive(cursor, "#endif");
+  return name;
+}
+
+}  // namespace
+
+void expect_directive(TokenCursor& cursor, const std::string& text) {
+  const CppToken& found = cursor.peek();
+  if (found.kind != CppToken::Kind::directive || found.text != text)
+    throw TextDifference(found.line, fmt::format("'{}' where '{}' belongs", found.text, text));
+  cursor.take();
+}
+
+std::vector<std::string> read_includes(TokenCursor& cursor, const Precision& precision) {
+  std::vector<std::string> files;
+  for (;;) {
+    if (precision.is_quad() && cursor.peek().is("extern")) {
+      read_quad_functions(cursor, precision);
+    } else if (is_directive(cursor, "#include ")) {
+      const std::string name = cursor.peek().text.substr(std::string("#include ").size());
+      const bool ours = name.size() > 2 && name.starts_with('"') && name.ends_with('"');
+      if (ours) {
+        files.push_back(name.substr(1, name.size() - 2));
+      } else if (std::ranges::find(kIncludes, name) == std::end(kIncludes)) {
+        throw TextDifference(cursor.line(), name + " is included");
+      }
+      cursor.take();
+    } else {
+      return files;
+    }
+  }
+}
+
+void expect_ieee_begin(TokenCursor& cursor, const Precision& precision) {
+  expect_directive(cursor,
+                   "#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined "
+                   "__RECIPROCAL_MATH__ || defined __NO_SIGNED_ZEROS__ || (defined "
+                   "__FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ > 0)");
+  expect_directive(cursor,
+                   "#error \"what rounding loses is kept here: compile without -ffast-math, "
+                   "-Ofast and parts of them\"");
+  expect_directive(cursor, "#endif");
+  if (precision.bits <= 53) {
+    expect_directive(cursor,
+                     "#if defined __FLT_EVAL_METHOD__ && (__FLT_EVAL_METHOD__ < 0 || "
+                     "__FLT_EVAL_METHOD__ == 2)");
+    expect_directive(cursor,
+                     "#error \"numbers must not be kept in wider registers: compile with -msse2 "
+                     "-mfpmath=sse\"");
+    expect_directive(cursor, "#endif");
+  }
+  expect_directive(cursor, "#ifdef __clang__");
+  expect_directive(cursor, "#pragma float_control(push)");
+  expect_directive(cursor, "#pragma clang fp reassociate(off)");
+  expect_directive(cursor, "#endif");
+}
+
+void expect_ieee_end(TokenCursor& cursor) {
+  expect_directive(cursor, "#ifdef __clang__");
+  expect_directive(cursor, "#pragma float_control(pop)");
+  expect_directive(cursor, "#endif");
+}
+
+FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision) {
+  FixedBlocks blocks;
+  if (!cursor.peek().is("namespace")) return blocks;
+  cursor.take();
+  const int line = cursor.line();
+  const std::string name = cursor.word();
+  if (!name.starts_with("hamgen_")) throw TextDifference(line, "not the namespace of fixed blocks");
+  blocks.digest = name.substr(7);
+  const std::string type = precision.is_quad() ? "__extension__ typedef __float128 Real;"
+                                               : fmt::format("using Real = {};", precision.type);
+  expect_pattern(cursor, {fmt::format("::{} {{ {}", precision.space, type)}, precision,
+                 "the namespace of fixed blocks");
+  const std::string prefix =
+      fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(std::string(precision.space)));
+  while (is_directive(cursor, "#ifndef "))
+    blocks.names.insert(read_block(cursor, text, prefix, precision));
+  expect_pattern(cursor, {"}"}, precision, "the namespace of fixed blocks");
+  return blocks;
+}
+
+void read_block_names(TokenCursor& cursor) {
+  do {
+    const int line = cursor.line();
+    cursor.expect("numerics");
+    cursor.expect("::");
+    const std::string name = cursor.word();
+    if (std::ranges::find(kBlockNames, name) == std::end(kBlockNames))
+      throw TextDifference(line, name + " is no fixed block");
+  } while (cursor.accept(","));
+  cursor.expect(";");
+}
+
+}  // namespace hamgen

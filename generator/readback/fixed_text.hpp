@@ -1,0 +1,35 @@
+// The parts of an emitted file that are the same in all of them.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/readback/precision.hpp"
+#include "generator/readback/tokens.hpp"
+
+namespace hamgen {
+
+// Includes, and the functions of quad numbers: what a file may begin with.  The names of files
+// between quotes are kept.
+[[nodiscard]] std::vector<std::string> read_includes(TokenCursor& cursor,
+                                                     const Precision& precision);
+// What is demanded of the compiler's arithmetic.
+void expect_ieee_begin(TokenCursor& cursor, const Precision& precision);
+void expect_ieee_end(TokenCursor& cursor);
+
+// The headers of generator/numerics in their namespace: each is compared with the tested one,
+// letter by letter.  The digest in the namespace's name is that of them all.
+struct FixedBlocks {
+  std::string digest;
+  std::set<std::string> names;
+};
+[[nodiscard]] FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text,
+                                      const Precision& precision);
+// "using numerics::two_sum, ...": of names that the blocks define.
+void read_block_names(TokenCursor& cursor);
+
+void expect_directive(TokenCursor& cursor, const std::string& text);
+
+}  // namespace hamgen

@@ -1,0 +1,38 @@
+// The emitted file read back: a C++ header is turned into functions again, and these are compared
+// with the routines of the program, operation by operation.
+//
+// Independent of what writes it: formats/ has no part in it.  Comments, the width of lines, the
+// names of locals, brackets and digits of numbers are free, nothing else is: what is not the
+// program's is a difference, and what cannot be read leaves the question open.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "generator/program/program.hpp"
+#include "generator/program/step_code.hpp"
+
+namespace hamgen {
+
+struct EmittedFile {
+  std::string_view text;
+  std::string_view scalar;  // "" is double
+  // Files beside it by their names, of which it may include "hamgen_support.hpp".
+  std::map<std::string, std::string> beside = {};
+};
+
+struct ReadBack {
+  enum class Outcome { same, different, not_understood };
+  Outcome outcome = Outcome::not_understood;
+  int line = 0;      // of the first difference, or of what is not understood
+  std::string what;  // the difference
+  int routines = 0;  // that were compared, with so many instructions
+  int instructions = 0;
+  int blocks = 0;  // of fixed text
+};
+
+[[nodiscard]] ReadBack read_back(const EmittedFile& file, const Program& program,
+                                 const StepCode& code);
+
+}  // namespace hamgen

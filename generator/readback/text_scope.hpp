@@ -1,0 +1,63 @@
+// The names of a function and what the program calls them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/program/code.hpp"
+#include "generator/readback/machine_value.hpp"
+#include "generator/readback/syntax.hpp"
+
+namespace hamgen {
+
+struct Meaning {
+  enum class Kind { number, object, index };
+  Kind kind = Kind::number;
+  std::string name;
+};
+
+// Values have symbols called
+//   "q"          a local number of the routine
+//   "@z.q[0]"    a place
+//   "#2*i + 1"   an index, an integer
+//   "::pi"       what is no name of the function
+class TextScope {
+ public:
+  TextScope(const Precision& precision, int n) : precision_(precision), n_(n) {
+    frames_.emplace_back();
+  }
+
+  void enter() { frames_.emplace_back(); }
+  void leave() { frames_.pop_back(); }
+  // Throws TextDifference for a name that is there already.
+  void declare(const std::string& name, Meaning meaning, int line);
+
+  [[nodiscard]] MachineValue value(const CppExpression& e) const;
+  // Of an index.  Throws TextNotUnderstood for what is none.
+  [[nodiscard]] AffineIndex index(const CppExpression& e) const;
+  // An object, a field or an element; none for anything else.
+  [[nodiscard]] std::optional<Place> place(const CppExpression& e) const;
+  [[nodiscard]] const Precision& precision() const { return precision_; }
+
+ private:
+  [[nodiscard]] const Meaning* find(const std::string& name) const;
+  [[nodiscard]] MachineValue number(const CppExpression& e) const;
+  [[nodiscard]] MachineValue name(const CppExpression& e) const;
+  [[nodiscard]] MachineValue binary(const CppExpression& e) const;
+  [[nodiscard]] MachineValue call(const CppExpression& e) const;
+  [[nodiscard]] MachineValue converted(const CppExpression& argument) const;
+  [[nodiscard]] std::string function(const std::string& name, int line) const;
+
+  const Precision& precision_;
+  int n_;  // what the text calls n; 0: nothing
+  std::vector<std::map<std::string, Meaning>> frames_;
+};
+
+// a + sign b.
+[[nodiscard]] AffineIndex plus(AffineIndex a, const AffineIndex& b, long sign);
+// What a place is called in a value.
+[[nodiscard]] std::string symbol_of(const Place& place);
+
+}  // namespace hamgen

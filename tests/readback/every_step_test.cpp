@@ -1,0 +1,99 @@
+// What is emitted for every model that is shipped, by every scheme, is read back whole.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/pipeline.hpp"
+#include "generator/schemes/all_schemes.hpp"
+
+namespace hamgen {
+namespace {
+
+std::vector<std::string> shipped_models() {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(HAMGEN_SOURCE_DIR "/hamiltonians")) {
+    if (entry.path().extension() == ".ham") paths.push_back(entry.path().string());
+  }
+  std::ranges::sort(paths);
+  return paths;
+}
+
+// Every model with every request in `ctest -C full`; without the variable every model and every
+// request several times, each time with others.
+bool is_looked_at(std::size_t model, std::size_t request) {
+  constexpr std::size_t kEvery = 7;
+  return std::getenv("HAMGEN_READ_EVERY_STEP") != nullptr || (model + request) % kEvery == 0;
+}
+
+struct Counts {
+  int wished = 0;
+  int refused = 0;  // by the method: there is no such step
+  int read = 0;
+};
+
+Counts read_all(const std::vector<Request>& requests) {
+  const std::vector<std::string> models = shipped_models();
+  Counts counts;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const SourceText source = read_source(models[i]);
+    for (std::size_t j = 0; j < requests.size(); ++j) {
+      if (!is_looked_at(i, j)) continue;
+      ++counts.wished;
+      const Request& request = requests[j];
+      ReadBack found;
+      try {
+        found = read_emitted(source, request);
+      } catch (const UsageError&) {
+        ++counts.refused;
+        continue;
+      } catch (const ModelError&) {
+        ++counts.refused;
+        continue;
+      }
+      EXPECT_EQ(found.outcome, ReadBack::Outcome::same)
+          << models[i] << " " << request.scheme << request.solver << request.scalar << " line "
+          << found.line << ": " << found.what;
+      EXPECT_GE(found.routines, 3);
+      EXPECT_GE(found.instructions, 7);
+      counts.read += found.outcome == ReadBack::Outcome::same ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+TEST(ReadBackOf, EveryModelByEverySchemeIsTheProgram) {
+  std::vector<Request> requests;
+  for (const Scheme& scheme : all_schemes()) requests.push_back({.scheme = scheme.name});
+  const Counts counts = read_all(requests);
+  EXPECT_EQ(counts.read + counts.refused, counts.wished);
+  EXPECT_GT(counts.read, 4 * counts.wished / 5);
+}
+
+TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
+  std::vector<Request> requests;
+  for (const char* solver : {"newton", "fixed-point", "sweeps:3"}) {
+    requests.push_back({.solver = solver});
+    requests.push_back({.scheme = "gauss-4", .solver = solver});
+  }
+  for (const char* scalar : {"float", "long-double", "quad"}) {
+    requests.push_back({.scalar = scalar});
+    requests.push_back({.scheme = "kahan-li-8", .scalar = scalar});
+  }
+  requests.push_back({.order = 4});
+  requests.push_back({.alpha = "3/10", .beta = "h/7", .gamma = "-h/5"});
+  requests.push_back({.tangent = true});
+  requests.push_back({.scheme = "gauss-4", .tangent = true});
+  requests.push_back({.support = "shared"});
+  requests.push_back({.watch_modified = 2});
+  const Counts counts = read_all(requests);
+  EXPECT_EQ(counts.read + counts.refused, counts.wished);
+  EXPECT_GT(counts.read, 4 * counts.wished / 5);
+}
+
+}  // namespace
+}  // namespace hamgen

@@ -1,0 +1,242 @@
+// Faults planted in the text of emitted headers: each is found, at its line.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/pipeline.hpp"
+#include "generator/readback/tokens.hpp"
+#include "generator/stages.hpp"
+
+namespace hamgen {
+namespace {
+
+const std::string kRational =
+    "coordinate q\nmomentum p\nparameter a = 3\n"
+    "H = p^2/2 + q^2/((1 + q^2)*(a + p^2*q))\n";
+const std::string kNonseparable =
+    "coordinate q, r\nmomentum p, s\nH = (p^2 + s^2)*(1 + q^2 + r^2)/2 + q*r*p/5\n";
+
+SourceText source_of(const std::string& model) {
+  if (model.find('\n') != std::string::npos) return make_source("system.ham", model);
+  return read_source(HAMGEN_SOURCE_DIR "/hamiltonians/" + model + ".ham");
+}
+
+struct Emitted {
+  Stages stages;
+  std::string scalar;
+  std::string text;
+
+  [[nodiscard]] ReadBack read(const std::string& changed) const {
+    return read_back({.text = changed, .scalar = scalar}, stages.program,
+                     step_code(stages.program));
+  }
+};
+
+Emitted emitted(const std::string& model, const Request& request) {
+  const SourceText source = source_of(model);
+  return {run_stages(source, request), request.scalar,
+          generate_plugin(source, request).header.text};
+}
+
+int line_of(const std::string& text, std::size_t at) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+}
+
+struct Fault {
+  std::string name;
+  std::string model;
+  Request request;
+  std::string from, to;
+};
+
+void expect_found(const Fault& fault) {
+  const Emitted header = emitted(fault.model, fault.request);
+  ASSERT_EQ(header.read(header.text).outcome, ReadBack::Outcome::same) << fault.name;
+  const std::size_t at = header.text.find(fault.from);
+  ASSERT_NE(at, std::string::npos) << fault.name << " is not in\n" << header.text;
+  std::string changed = header.text;
+  changed.replace(at, fault.from.size(), fault.to);
+  const ReadBack found = header.read(changed);
+  EXPECT_EQ(found.outcome, ReadBack::Outcome::different) << fault.name;
+  const int first = line_of(header.text, at);
+  const int last = first + static_cast<int>(std::ranges::count(fault.to, '\n'));
+  EXPECT_TRUE(first <= found.line && found.line <= last)
+      << fault.name << ": planted in line " << first << ", found in " << found.line << ": "
+      << found.what;
+}
+
+TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
+  const Request splitting{.scheme = "stormer-verlet"};
+  const std::vector<Fault> faults = {
+      {"a - b as a + b", "pendulum", {}, "(p * p) - par.eps", "(p * p) + par.eps"},
+      {"parentheses dropped", kRational, {}, "((1.0 + t2) * (par.a", "(1.0 + t2 * (par.a"},
+      {"0.5 as 0.25", "kepler", {}, "k.c2 = 0.5 * h", "k.c2 = 0.25 * h"},
+      {"sign of the residual",
+       kNonseparable,
+       {},
+       "{-(q_bar - q - rest_q)",
+       "{(q_bar - q - rest_q)"},
+      {"matrix transposed", kNonseparable, {}, "matrix.put(0, 1,", "matrix.put(1, 0,"},
+      {"update subtracted", kNonseparable, {}, "q_bar += delta_q;", "q_bar -= delta_q;"},
+      {"dz added twice",
+       "pendulum",
+       {},
+       "two_sum(z_.q, carry_.q, dz.q);",
+       "two_sum(z_.q, carry_.q, dz.q);\n    two_sum(z_.q, carry_.q, dz.q);"},
+      {"sign of the kick", "pendulum", splitting, "rest.p, -k.kick[0]", "rest.p, k.kick[0]"},
+      {"a number of the tableau",
+       "pendulum",
+       {.scheme = "gauss-6"},
+       "0.96475800154489;",
+       "0.96475800154488;"},
+      {"all substeps of the first's length",
+       "pendulum",
+       {.scheme = "yoshida-4"},
+       "lengths_[i] = h * fractions[i];",
+       "lengths_[i] = h * fractions[0];"},
+      {"q and p exchanged", "pendulum", {}, "const Real q = z.q;", "const Real q = z.p;"},
+      {"index of the solution", kNonseparable, {}, "delta_r = vector[1];", "delta_r = vector[2];"},
+      {"stops at 1e9 eps",
+       kNonseparable,
+       {},
+       "round_off = epsilon * scale;",
+       "round_off = 1e9 * epsilon * scale;"},
+      {"lengths h^2", "pendulum", splitting, "k.kick[0] = 0.5 * h;", "k.kick[0] = 0.5 * h * h;"},
+      {"a/(b*c) as a/b*c",
+       kRational,
+       {},
+       "t2 / ((1.0 + t2) * (par.a + q * t1))",
+       "t2 / (1.0 + t2) * (par.a + q * t1)"},
+      {"sin as cos",
+       "pendulum",
+       {},
+       "H_q = par.eps * std::sin(q_bar)",
+       "H_q = par.eps * std::cos(q_bar)"},
+  };
+  EXPECT_EQ(faults.size(), 16U);
+  for (const Fault& fault : faults) expect_found(fault);
+}
+
+TEST(PlantedFault, OfRoundingAloneIsFound) {
+  const std::vector<Fault> faults = {
+      {"carry dropped", "pendulum", {}, "two_sum(z_.p, carry_.p, dz.p);", "z_.p += dz.p;"},
+      {"order of a sum", "pendulum", {}, "q_bar - q - rest_q", "q_bar - (q + rest_q)"},
+      {"order of a product",
+       "pendulum",
+       {},
+       "start.value[0] = q_bar + delta_q;",
+       "start.value[0] = delta_q + q_bar * 1.0;"},
+      {"last digit", "pendulum", {.alpha = "3/10"}, "k.c1 = ", "k.c1 = 1.0000000000000002 * "},
+      {"another type", "pendulum", {.scalar = "float"}, "0.5f * (p * p)", "0.5 * (p * p)"},
+      {"carry not collected",
+       "pendulum",
+       {.scheme = "stormer-verlet"},
+       "collect(dz.p, rest.p, -k.kick[0] * start.value[0]);",
+       "dz.p += -k.kick[0] * start.value[0];"},
+      {"two-sum without its rest",
+       "pendulum",
+       {},
+       "carry = (value - (sum - part)) + (increment - part);",
+       "carry = increment - part;"},
+      {"fast arithmetic allowed",
+       "pendulum",
+       {},
+       "#pragma clang fp reassociate(off)",
+       "#pragma clang fp reassociate(on)"},
+  };
+  for (const Fault& fault : faults) expect_found(fault);
+}
+
+TEST(ReadBackOf, ATextThatComputesTheSameIsTheSame) {
+  const Emitted header = emitted("pendulum", {});
+  const std::vector<std::pair<std::string, std::string>> freedoms = {
+      {"par.eps * std::sin(q_bar)", "std::sin((q_bar)) * par.eps"},
+      {"0.5 * (p * p) - par.eps * std::cos(q)", "-par.eps * std::cos(q) + p * p * 0.5e0"},
+      {"k.c1 = -0.5 * h;", "k.c1 = -(h * 0x1p-1);  // half"},
+      {"const Real q = z.q;\n", "/* q */ Real\n  q=z.q;\n"},
+      {"delta_q = -R_q / R_q_q;", "delta_q = -(R_q / R_q_q);"},
+      {"dz.p = rest_dp - h * H_q;", "dz.p = rest_dp + -H_q * h;"},
+  };
+  for (const auto& [from, to] : freedoms) {
+    std::string changed = header.text;
+    const std::size_t at = changed.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    changed.replace(at, from.size(), to);
+    const ReadBack found = header.read(changed);
+    EXPECT_EQ(found.outcome, ReadBack::Outcome::same) << to << ": " << found.line << found.what;
+  }
+}
+
+// A local called otherwise, everywhere.
+TEST(ReadBackOf, NamesOfLocalsAreFree) {
+  const Emitted header = emitted("pendulum", {});
+  std::string changed = header.text;
+  for (std::size_t at = 0; (at = changed.find("rest_p", at)) != std::string::npos; at += 4)
+    changed.replace(at, 6, "push");
+  EXPECT_EQ(header.read(changed).outcome, ReadBack::Outcome::same);
+  // ... but not where two become one.
+  changed = header.text;
+  const std::size_t at = changed.find("const Real rest_dp = carry.p");
+  changed.replace(at, 18, "const Real H_q_new");
+  EXPECT_NE(header.read(changed).outcome, ReadBack::Outcome::same);
+}
+
+TEST(ReadBackOf, WhatIsNotUnderstoodIsNotProved) {
+  const Emitted header = emitted("pendulum", {});
+  const std::string from = "k.c1 = -0.5 * h;";
+  const std::size_t at = header.text.find(from);
+  for (const char* to : {"k.c1 = [&] { return -0.5 * h; }();", "while (true) { k.c1 = -0.5 * h; }",
+                         "k.c1 = -0.5 * h ^ 1;", "goto end; k.c1 = -0.5 * h;"}) {
+    std::string changed = header.text;
+    changed.replace(at, from.size(), to);
+    const ReadBack found = header.read(changed);
+    EXPECT_NE(found.outcome, ReadBack::Outcome::same) << to;
+    EXPECT_GT(found.line, 0);
+  }
+  std::string deep = header.text;
+  deep.replace(at, from.size(), "k.c1 = " + std::string(100000, '(') + "h;");
+  EXPECT_EQ(header.read(deep).outcome, ReadBack::Outcome::not_understood);
+  EXPECT_NE(header.read("").outcome, ReadBack::Outcome::same);
+}
+
+// Every word of the text counts: left out, the text is another or none.
+void expect_every_word_counts(const Emitted& header, std::size_t every) {
+  const std::vector<CppToken> tokens = tokens_of(header.text);
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < header.text.size();) {
+    const std::size_t end = std::min(header.text.find('\n', begin), header.text.size());
+    lines.push_back(header.text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  int looked_at = 0;
+  for (std::size_t i = 0; i + 1 < tokens.size(); i += every) {
+    const CppToken& token = tokens[i];
+    // What is free: const, and directives that go on over two lines are found by their beginning.
+    if (token.is("const") || token.kind == CppToken::Kind::directive) continue;
+    std::vector<std::string> changed = lines;
+    std::string& line = changed[static_cast<std::size_t>(token.line - 1)];
+    // The first of its kind in the line that stands before a comment.
+    const std::size_t at = line.find(token.text);
+    if (at == std::string::npos || at > line.find("//")) continue;
+    line.replace(at, token.text.size(), " ");
+    std::string text;
+    for (const std::string& each : changed) text += each + '\n';
+    EXPECT_NE(header.read(text).outcome, ReadBack::Outcome::same)
+        << token.line << ": " << lines[static_cast<std::size_t>(token.line - 1)] << "  without "
+        << token.text;
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 100);
+}
+
+TEST(ReadBackOf, EveryWordCounts) {
+  expect_every_word_counts(emitted("pendulum", {}), 7);
+  expect_every_word_counts(emitted("fput", {.solver = "fixed-point"}), 29);
+  expect_every_word_counts(emitted("kepler", {.scheme = "gauss-4"}), 29);
+}
+
+}  // namespace
+}  // namespace hamgen
