@@ -62,7 +62,10 @@ Stages run_stages(const SourceText& source, const Request& request) {
   std::vector<std::string> left_out = folded.folding.left_out;
   left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
   plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
+  if (request.plain_sums)
+    plan.left_out.emplace_back("compensated sums: rounding takes up to half a unit of the state a step");
   Program program = build_program(plan);
+  program.plain_sums = request.plain_sums;
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0) require_solved_step(request);
   if (request.watch_modified > 0) {

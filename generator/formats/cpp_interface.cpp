@@ -172,7 +172,8 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line();
   out.open("void get_carry(const hamgen_run* run, double* carry, double* carry_lo)");
   out.line("const State& z = run->propagator.state();");
-  out.line("const State& c = run->propagator.carry();");
+  out.line(context.code.has_carry() ? "const State& c = run->propagator.carry();"
+                                    : "const State c;  // sums are plain");
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
     out.line("carry[i] = high_part(carried(z.q[i], c.q[i]), carry_lo + i);");

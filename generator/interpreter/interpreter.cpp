@@ -105,7 +105,9 @@ typename Interpreter<Real>::Report Interpreter<Real>::substep(std::size_t i) {
     substep.history->record(value());
   }
   for (std::size_t k = 0; k < z_.numbers.size(); ++k) {
-    if (code_->has_rest()) {
+    if (!code_->has_carry()) {
+      z_.numbers[k] += dz.numbers[k];
+    } else if (code_->has_rest()) {
       NumericsOf<Real>::add_rest(z_.numbers[k], carry_.numbers[k], dz.numbers[k], rest.numbers[k]);
     } else {
       NumericsOf<Real>::add_small(z_.numbers[k], carry_.numbers[k], dz.numbers[k]);

@@ -79,7 +79,8 @@ struct Program {
   Evaluation vector_field = {};
   // What stands around the instructions.
   Sequence sequence = {};
-  bool tangent = false;  // is the tangent map wanted?
+  bool tangent = false;     // is the tangent map wanted?
+  bool plain_sums = false;  // what rounding takes from the state is lost
   // For that of a member that is solved.
   std::optional<Linearisation> linearisation = {};
   // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the

@@ -10,6 +10,7 @@
 #include "generator/program/loop_member.hpp"
 #include "generator/program/method_tangents.hpp"
 #include "generator/program/origins.hpp"
+#include "generator/program/plain_sums.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
@@ -219,10 +220,10 @@ void find_changed(StepCode& code, const Environment& environment) {
 
 }  // namespace
 
-bool StepCode::has_rest() const {
+bool StepCode::solve_takes(std::string_view argument) const {
   const Routine* solve = routine("solve");
   return solve != nullptr &&
-         std::ranges::find(solve->arguments, "rest", &Argument::name) != solve->arguments.end();
+         std::ranges::find(solve->arguments, argument, &Argument::name) != solve->arguments.end();
 }
 
 const Record* StepCode::record(std::string_view name) const {
@@ -280,6 +281,7 @@ StepCode step_code(const Program& program) {
   } else {
     code.routines.push_back(explicit_runge_kutta_routine(environment, program.sequence.stages));
   }
+  if (program.plain_sums) use_plain_sums(code);
   if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);
   trace_origins(code, environment, equations);
