@@ -39,6 +39,36 @@ Specialised make_system(const Model& model, const std::optional<SceneFacts>& sce
   return specialise(model, std::move(mechanics), std::move(scheme), scene);
 }
 
+bool is_polynomial(const Mechanics& mechanics) {
+  const auto is_free_of = [](const Expression& e, const std::set<std::string>& variables) {
+    const std::set<std::string> others = non_polynomial_symbols(e);
+    return std::ranges::none_of(
+        others, [&](const std::string& symbol) { return variables.contains(symbol); });
+  };
+  std::set<std::string> variables;
+  for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  for (const Kernel& kernel : mechanics.kernels) {
+    for (const Slot& slot : kernel.slots) variables.insert(slot.symbol);
+  }
+  return is_free_of(mechanics.energy, variables) &&
+         std::ranges::all_of(mechanics.kernels, [&](const Kernel& kernel) {
+           return is_free_of(kernel.value, variables);
+         });
+}
+
+// Does every step have a value, as far as numbers go?
+bool fails_nowhere(const Mechanics& mechanics, const SolvePlan& plan) {
+  const Method& method = plan.equations.scheme.method;
+  const auto* tableau = std::get_if<RungeKutta>(&method);
+  const auto array = plan.arrays ? plan.arrays->method : ArrayMethod::gradient_only;
+  const bool is_explicit =
+      std::holds_alternative<Splitting>(method) || (tableau != nullptr && tableau->is_explicit()) ||
+      (std::holds_alternative<Member>(method) && !plan.equations.function &&
+       (plan.arrays ? array == ArrayMethod::explicit_a || array == ArrayMethod::explicit_b
+                    : plan.is_explicit()));
+  return is_explicit && is_polynomial(mechanics);
+}
+
 }  // namespace
 
 Stages run_stages(const SourceText& source, const Request& request) {
@@ -63,8 +93,14 @@ Stages run_stages(const SourceText& source, const Request& request) {
   left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
   plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
   if (request.plain_sums)
-    plan.left_out.emplace_back("compensated sums: rounding takes up to half a unit of the state a step");
+    plan.left_out.emplace_back(
+        "compensated sums: rounding takes up to half a unit of the state a step");
+  const bool unchecked = scene && fails_nowhere(system.mechanics, plan);
+  if (unchecked)
+    plan.left_out.emplace_back(
+        "a look at every step: H is a polynomial, explicit steps leave no domain");
   Program program = build_program(plan);
+  program.unchecked = unchecked;
   program.plain_sums = request.plain_sums;
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0) require_solved_step(request);
@@ -83,7 +119,8 @@ bool is_something_left_out(const Stages& stages) {
 Expression written_out_hamiltonian(const Stages& stages) {
   const Specialised& system = stages.system;
   return system.mechanics.keeps_sums()
-             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
+             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept,
+                           system.left)
              : system.mechanics.energy;
 }
 

@@ -156,7 +156,7 @@ class CStepWriter {
       out_.line("report.iterations += wasted;");
       out_.close();
     }
-    out_.line("if (!report.converged) return report;");
+    if (!code_.unchecked) out_.line("if (!report.converged) return report;");
     for (const RuleOfNewton& rule : code_.rules) {
       out_.line(
           fmt::format("{}(&self->history[i], &self->start[i].{}, self->start[i].value, {}, {});",
@@ -219,6 +219,15 @@ class CStepWriter {
     out_.line("total.increment = report.increment;");
     out_.line("total.converged = report.converged;");
     out_.close();
+    if (code_.unchecked) {
+      out_.line("// H is a polynomial: no step fails, but where numbers end.");
+      out_.line(c_.real() + " rest = 0;");
+      for (const Place& place : code_.changed) {
+        const std::string x = to_text(place).substr(1);
+        out_.line(fmt::format("rest += self->z.{0} - self->z.{0};", x));
+      }
+      out_.line("total.converged = rest == 0;");
+    }
     out_.line("return total;");
     close();
   }

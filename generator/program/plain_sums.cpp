@@ -10,11 +10,16 @@ namespace {
 
 bool is_gone(const std::string& object) { return object == "carry" || object == "rest"; }
 
+// The carry, or what an array of stages keeps of it.
+bool is_carry(const Place& place) {
+  return place.object == "carry" || (place.object == "start" && place.field == "small");
+}
+
 class PlainSums {
  public:
   explicit PlainSums(Routine& routine) : routine_(routine) {
     for (const auto& [symbol, place] : routine.places) {
-      if (place.object == "carry") zeros_.emplace(symbol, Expression(0));
+      if (is_carry(place)) zeros_.emplace(symbol, Expression(0));
     }
   }
 
@@ -24,7 +29,9 @@ class PlainSums {
       if (line.find("z + carry") != std::string::npos) line = "dz = Z - z for one step from z.";
     }
     rewrite(routine_.body);
-    std::erase_if(routine_.places, [](const auto& entry) { return is_gone(entry.second.object); });
+    std::erase_if(routine_.places, [](const auto& entry) {
+      return is_gone(entry.second.object) || is_carry(entry.second);
+    });
   }
 
  private:
@@ -48,6 +55,11 @@ class PlainSums {
       if (nothing) zeros_.emplace(let->symbol, Expression(0));
       return nothing;
     }
+    if (const auto* assign = std::get_if<Assign>(&instruction.value)) {
+      const auto place = routine_.places.find(assign->symbol);
+      return place != routine_.places.end() && is_carry(place->second);
+    }
+    if (const auto* loop = std::get_if<For>(&instruction.value)) return loop->body.empty();
     if (auto* copy = std::get_if<Copy>(&instruction.value)) {
       if (is_gone(copy->from)) copy->from.clear();
       return is_gone(copy->to);
@@ -104,6 +116,10 @@ class PlainSums {
 
 void use_plain_sums(StepCode& code) {
   for (Routine& routine : code.routines) PlainSums(routine).run();
+  for (Record& record : code.records)
+    std::erase_if(record.fields, [&](const Field& field) {
+      return record.name == "Start" && field.name == "small";
+    });
 }
 
 }  // namespace hamgen

@@ -81,6 +81,7 @@ struct Program {
   Sequence sequence = {};
   bool tangent = false;     // is the tangent map wanted?
   bool plain_sums = false;  // what rounding takes from the state is lost
+  bool unchecked = false;   // no step fails, but where numbers end
   // For that of a member that is solved.
   std::optional<Linearisation> linearisation = {};
   // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the

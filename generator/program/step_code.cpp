@@ -218,6 +218,18 @@ void find_changed(StepCode& code, const Environment& environment) {
   }
 }
 
+// An explicit step of a polynomial has a value everywhere.
+void leave_unchecked(StepCode& code) {
+  const auto solve = std::ranges::find(code.routines, "solve", &Routine::name);
+  for (Instruction& instruction : solve->body) {
+    auto* end = std::get_if<Return>(&instruction.value);
+    if (end == nullptr || !end->success) continue;
+    end->finite.clear();
+    end->ranges.clear();
+    code.unchecked = true;
+  }
+}
+
 }  // namespace
 
 bool StepCode::solve_takes(std::string_view argument) const {
@@ -281,6 +293,7 @@ StepCode step_code(const Program& program) {
   } else {
     code.routines.push_back(explicit_runge_kutta_routine(environment, program.sequence.stages));
   }
+  if (program.unchecked) leave_unchecked(code);
   if (program.plain_sums) use_plain_sums(code);
   if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);

@@ -26,6 +26,7 @@ std::set<std::string> observed_names(const Model& model, const Mechanics& mechan
   if (scheme.has_member()) {
     for (const auto& [place, entry] : scheme.member().c) energy = energy || depends_on(entry, "E0");
   }
+  if (energy) names.insert("energy");
   if (energy) collect_symbols(mechanics.energy, names);
   return names;
 }

@@ -122,10 +122,14 @@ class SpecialisedClaims {
       claim("what moves " + name(n_ + i), flow(n_ + i), Expression(0));
   }
 
-  // What is kept moves as in the whole.  Loops are held against H on their own.
+  // What is kept moves as in the whole.  Loops are held against H on their own, here it is what they
+  // are held against.
   void claim_system() {
-    if (system_.mechanics.keeps_sums()) return;
-    const Expression& left = system_.mechanics.energy;
+    const bool loops = system_.mechanics.keeps_sums();
+    if (loops && system_.left.dropped.empty()) return;
+    const Expression left =
+        loops ? restrict_to(hamiltonian_, system_.whole, system_.kept, system_.left)
+              : system_.mechanics.energy;
     if (system_.left.dropped.empty())
       claim("H of what is left", left, substitute(hamiltonian_, zeros_));
     Slopes slopes(left);
