@@ -107,10 +107,8 @@ struct PluginSource {
   std::vector<std::string> left_out;         // what the planner left out and why
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
-  // The degrees of freedom of the model that the step has, in their order.  Variables of the others
-  // rest where they begin, but these, by their position in the state, which nobody observes.
-  std::vector<int> kept;
-  std::vector<int> unobserved;
+  StateMap state;
+  std::vector<std::pair<std::string, std::string>> same;  // parameters that others stand for
   bool whole_energy = true;  // else that of the degrees of freedom that are kept
   bool for_scene = false;    // some of the model's parameters may have the scene's values
   bool needs_energy_parameter = false;  // the last parameter is E0

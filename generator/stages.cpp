@@ -1,5 +1,7 @@
 #include "generator/stages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -32,11 +34,37 @@ void drop_unused_parameters(StepEquations& equations) {
 }
 
 Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
-                        const Request& request, bool keep_sums) {
+                        const Request& request, bool keep_sums,
+                        Variables variables = Variables::changed) {
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);
-  return specialise(model, std::move(mechanics), std::move(scheme), scene);
+  return specialise(model, std::move(mechanics), std::move(scheme), scene, variables);
+}
+
+// What a system costs a step; an integrator whose derivatives are not written out counts for
+// nothing.
+long operations(const Specialised& system, const Request& request) {
+  const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
+  return operations_per_step(build_program(
+      plan_solve(discretise(system.mechanics, system.scheme, hessian), request.solver)));
+}
+
+// The system in the variables in which a step has fewer operations.
+Specialised choose_variables(const Model& model, const std::optional<SceneFacts>& scene,
+                             const Request& request) {
+  Specialised changed = make_system(model, scene, request, may_keep_sums(request));
+  if (changed.changes.empty()) return changed;
+  Specialised plain =
+      make_system(model, scene, request, may_keep_sums(request), Variables::as_they_are);
+  const long before = operations(plain, request);
+  const long after = operations(changed, request);
+  if (after < before) return changed;
+  for (const LinearChange& change : changed.changes) {
+    plain.left_out.push_back(fmt::format("{}; not used: a step would have {} operations, not {}",
+                                         change.left_out.back(), after, before));
+  }
+  return plain;
 }
 
 bool is_polynomial(const Mechanics& mechanics) {
@@ -76,7 +104,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
   require_defaults_in_range(model, find_scalar(request.scalar));
   FoldedModel folded = fold_for_scene(model, request);
   const std::optional<SceneFacts> scene = scene_facts(model, request);
-  Specialised system = make_system(folded.model, scene, request, may_keep_sums(request));
+  Specialised system = choose_variables(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
@@ -118,10 +146,9 @@ bool is_something_left_out(const Stages& stages) {
 
 Expression written_out_hamiltonian(const Stages& stages) {
   const Specialised& system = stages.system;
-  return system.mechanics.keeps_sums()
-             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept,
-                           system.left)
-             : system.mechanics.energy;
+  return system.mechanics.keeps_sums() ? restrict_to(written_out_hamiltonian(stages.folded.model),
+                                                     system.whole, system.kept, system.left)
+                                       : system.mechanics.energy;
 }
 
 }  // namespace hamgen

@@ -10,7 +10,8 @@ namespace {
 
 RationalMatrix transposed(const RationalMatrix& matrix) {
   RationalMatrix result;
-  for (const auto& [place, entry] : matrix) result.emplace(std::pair(place.second, place.first), entry);
+  for (const auto& [place, entry] : matrix)
+    result.emplace(std::pair(place.second, place.first), entry);
   return result;
 }
 
@@ -29,12 +30,22 @@ Expression new_variable(const LinearChange& change, int i) {
   return Expression::symbol(change.variables[at_place(i)].name, kRankOfVariable + i);
 }
 
+// The symbol of that name as it stands in the expression.
+const Expression* find_symbol(const Expression& e, const std::string& name) {
+  if (e.kind() == Kind::symbol) return e.name() == name ? &e : nullptr;
+  for (const Expression& operand : e.operands()) {
+    if (const Expression* found = find_symbol(operand, name)) return found;
+  }
+  return nullptr;
+}
+
 // C by the same entries for all degrees of freedom, written out.
 SparseMatrix full_matrix(const Member& member, int n) {
   if (member.degrees_of_freedom == n) return member.c;
   SparseMatrix c;
   for (const auto& [place, entry] : member.c) {
-    for (int i = 0; i < n; ++i) c.emplace(std::pair(place.first * n + i, place.second * n + i), entry);
+    for (int i = 0; i < n; ++i)
+      c.emplace(std::pair(place.first * n + i, place.second * n + i), entry);
   }
   return c;
 }
@@ -42,8 +53,8 @@ SparseMatrix full_matrix(const Member& member, int n) {
 SparseMatrix times(const SparseMatrix& c, const RationalMatrix& l) {
   SparseMatrix result;
   for (const auto& [place, entry] : c) {
-    for (auto it = l.lower_bound({place.second, 0}); it != l.end() && it->first.first == place.second;
-         ++it) {
+    for (auto it = l.lower_bound({place.second, 0});
+         it != l.end() && it->first.first == place.second; ++it) {
       Expression& sum = result[{place.first, it->first.second}];
       sum = sum + entry * Expression(it->second);
     }
@@ -53,8 +64,8 @@ SparseMatrix times(const SparseMatrix& c, const RationalMatrix& l) {
 SparseMatrix times(const RationalMatrix& l, const SparseMatrix& c) {
   SparseMatrix result;
   for (const auto& [place, entry] : l) {
-    for (auto it = c.lower_bound({place.second, 0}); it != c.end() && it->first.first == place.second;
-         ++it) {
+    for (auto it = c.lower_bound({place.second, 0});
+         it != c.end() && it->first.first == place.second; ++it) {
       Expression& sum = result[{place.first, it->first.second}];
       sum = sum + Expression(entry) * it->second;
     }
@@ -93,11 +104,21 @@ RationalMatrix LinearChange::projection() const {
 RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b) {
   RationalMatrix result;
   for (const auto& [place, entry] : a) {
-    for (auto it = b.lower_bound({place.second, 0}); it != b.end() && it->first.first == place.second;
-         ++it)
+    for (auto it = b.lower_bound({place.second, 0});
+         it != b.end() && it->first.first == place.second; ++it)
       result[{place.first, it->first.second}] += entry * it->second;
   }
   std::erase_if(result, [](const auto& entry) { return entry.second == 0; });
+  return result;
+}
+
+Substitution united_parameters(const std::vector<std::pair<std::string, std::string>>& united,
+                               const Expression& energy) {
+  Substitution result;
+  for (const auto& [name, other] : united) {
+    const Expression* symbol = find_symbol(energy, other);
+    result.emplace(name, symbol != nullptr ? *symbol : Expression::symbol(other, kRankOfParameter));
+  }
   return result;
 }
 
@@ -108,11 +129,7 @@ Substitution new_variables(const LinearChange& change, const Mechanics& mechanic
   Substitution result;
   for (int i = 0; i < 2 * change.from; ++i)
     result.emplace(mechanics.variables[at_place(i)].name, Expression::sum(sums[i]));
-  for (const auto& [name, other] : change.united) {
-    const auto quantity = std::ranges::find(mechanics.parameters, other, &Quantity::name);
-    const auto place = static_cast<int>(quantity - mechanics.parameters.begin());
-    result.emplace(name, Expression::symbol(other, kRankOfParameter + place));
-  }
+  result.merge(united_parameters(change.united, mechanics.energy));
   return result;
 }
 
@@ -142,11 +159,16 @@ Mechanics in_new_variables(const LinearChange& change, const Mechanics& mechanic
       if (!vanishes(entry)) result.hessian.emplace(std::pair(i, j), entry);
     }
   }
+  std::erase_if(result.parameters, [&](const Quantity& parameter) {
+    return std::ranges::any_of(change.united,
+                               [&](const auto& pair) { return pair.first == parameter.name; });
+  });
   for (NamedExpression& invariant : result.invariants)
     invariant.value = substitute(invariant.value, replacements);
   for (EnergyTerm& term : result.terms) {
     std::set<std::string> variables;
-    for (const std::string& name : term.variables) collect_symbols(replacements.at(name), variables);
+    for (const std::string& name : term.variables)
+      collect_symbols(replacements.at(name), variables);
     term.variables = std::move(variables);
   }
   return result;

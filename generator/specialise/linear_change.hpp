@@ -42,6 +42,9 @@ struct LinearChange {
 };
 [[nodiscard]] RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b);
 
+// Each parameter's name with the symbol that takes its place.
+[[nodiscard]] Substitution united_parameters(
+    const std::vector<std::pair<std::string, std::string>>& united, const Expression& energy);
 // What stands for the variables of the old system in the new one.
 [[nodiscard]] Substitution new_variables(const LinearChange& change, const Mechanics& mechanics);
 [[nodiscard]] Mechanics in_new_variables(const LinearChange& change, const Mechanics& mechanics);
@@ -52,12 +55,14 @@ struct LinearChange {
 
 // Degrees of freedom that move as others do, or as their mirror images: H does not change where
 // they are exchanged, with signs, and the scene begins so.  Equal values of parameters that are not
-// kept count as equal.  Empty if there are none, and where sums stay loops.
+// kept count as equal.  Of those that are their own mirror images these are not looked for: they
+// rest anyway.  Empty if there are none, and where sums stay loops.
 [[nodiscard]] std::optional<LinearChange> by_symmetry(const Mechanics& mechanics,
-                                                      const SceneFacts& scene);
-// Coordinates relative to the last of several, where neither H nor the system's invariants change if
-// all of them move by the same, and `observed`, names of variables, has none of them.  Empty if there
-// are none, and where sums stay loops.
+                                                      const SceneFacts& scene,
+                                                      const std::vector<int>& resting);
+// Coordinates relative to the last of several, where neither H nor the system's invariants change
+// if all of them move by the same, and `observed`, names of variables, has none of them.  Empty if
+// there are none, and where sums stay loops.
 [[nodiscard]] std::optional<LinearChange> by_translation(const Mechanics& mechanics,
                                                          const std::set<std::string>& observed);
 

@@ -35,10 +35,11 @@ Expression without(const Expression& energy, const std::set<std::string>& names)
     const std::set<std::string> used = symbols(e);
     return std::ranges::any_of(used, [&](const auto& name) { return names.contains(name); });
   };
-  if (energy.kind() != Kind::sum) return mentions(energy) ? Expression(0) : energy;
+  const auto [factor, rest] = energy.split_coefficient();
+  if (rest.kind() != Kind::sum) return mentions(energy) ? Expression(0) : energy;
   std::vector<Expression> terms;
-  for (const Expression& term : energy.operands()) {
-    if (!mentions(term)) terms.push_back(term);
+  for (const Expression& term : rest.operands()) {
+    if (!mentions(term)) terms.push_back(Expression(factor) * term);
   }
   return Expression::sum(std::move(terms));
 }

@@ -95,8 +95,8 @@ class Reachability {
 // Array of a variable: "q" of "q[3]".
 std::string array_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
-// The same where sums stay loops, of arrays as a whole: C has no entries between two of them, for it
-// is one for all degrees of freedom, and a coordinate is needed with its momentum.
+// The same where sums stay loops, of arrays as a whole: C has no entries between two of them, for
+// it is one for all degrees of freedom, and a coordinate is needed with its momentum.
 class ArrayReachability {
  public:
   explicit ArrayReachability(const Mechanics& mechanics)
