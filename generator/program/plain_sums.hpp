@@ -5,8 +5,8 @@
 
 namespace hamgen {
 
-// The same routines from z alone: there is no `carry`, and `rest`, what is small of an increment, is
-// added to it.  What is left is z += dz, of which rounding takes half a unit of z at every step.
+// The same routines from z alone: there is no `carry`, and `rest`, what is small of an increment,
+// is added to it.  What is left is z += dz, of which rounding takes half a unit of z at every step.
 void use_plain_sums(StepCode& code);
 
 }  // namespace hamgen
