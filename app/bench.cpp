@@ -68,6 +68,8 @@ Command add_bench(CLI::App& app) {
       ->add_option("--schemes", options->bench.schemes,
                    "names, with options: gauss-4,alpha=1/2:beta=-h/9")
       ->type_name("A,B,...");
+  parser->add_flag("--plain-sums", options->bench.plain_sums,
+                   "of all methods: rounding is not made up for");
   parser->add_option("--h", options->bench.h, "step sizes; default: around the scene's")
       ->type_name("H1,H2,...");
   parser

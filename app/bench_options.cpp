@@ -97,7 +97,8 @@ BenchRequest read_bench(const BenchOptions& options) {
   request.observed = observed_of(options.observe);
   request.target = target_value(options.target);
   request.compiler = options.compiler;
-  request.setting = read_setting({.model = options.model}, options.scene);
+  request.setting =
+      read_setting({.model = options.model, .plain_sums = options.plain_sums}, options.scene);
   read_steps(options, request);
   specialise(options.scene, request.scene, {}, Observing::everything, request.setting);
   request.time = run_length(options, request);

@@ -15,6 +15,7 @@ struct BenchOptions {
   std::string schemes, h, time, target, compiler;
   std::string observe = "state";
   std::string rounds = "9";
+  bool plain_sums = false;
   bool quiet = false;
   const char* length = "--time 10";  // the option for a scene without steps
 };

@@ -47,6 +47,8 @@ int run_certify(const CertifyOptions& options) {
   Setting setting = read_setting(options.method, options.scene);
   const SceneValues scene = complete_scene(setting.model, setting.scene);
   take_gauge_at(scene, setting.model, setting.request);
+  specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
+  if (setting.request.scene) setting.request.scene->sees_all = true;
   const Scheme scheme = request_scheme(setting.source, setting.request);
   require_certifiable(setting.request, setting.model, scheme);
   const PluginSource plugin = generate_plugin(setting.source, setting.request);

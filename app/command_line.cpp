@@ -80,8 +80,9 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   command
       .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
       ->type_name("NAME");
-  command.add_option("--scalar", options.scalar, "float, double (default), long-double or quad")
-      ->type_name("TYPE");
+  command.add_option("--scalar", options.scalar, "")->type_name("TYPE");
+  command.add_flag("--plain-sums", options.plain_sums,
+                   "float, double, long-double, quad; rounding is not made up for");
   add_repeated(command, "--fold", options.fold,
                "put a parameter's value, the scene's or the default, in")
       ->type_name("NAME");
@@ -214,6 +215,7 @@ Request request_of(const MethodOptions& options) {
   request.solver = options.solver;
   request.scalar = options.scalar;
   request.fold = options.fold;
+  request.plain_sums = options.plain_sums;
   return request;
 }
 

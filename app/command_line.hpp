@@ -51,6 +51,7 @@ struct MethodOptions {
   std::string scheme, alpha, beta, gamma, gauge, order, solver, scalar;
   std::vector<std::string> reference;  // NAME=VALUE,... of the gauge
   std::vector<std::string> fold;
+  bool plain_sums = false;
 };
 
 // Adds MODEL and the method options, without --set, whose help differs between commands.

@@ -156,10 +156,9 @@ int run(const RunOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   const long every = record_distance(options, scene);
   take_gauge_at(scene, model, request);
-  // What is certified is the step of the model as it stands.
-  SceneOptions special = options.scene;
-  special.whole = special.whole || options.certify;
-  specialise(special, scene, {}, Observing::as_the_scene, setting);
+  specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
+  // The exact map is that of all degrees of freedom.
+  if (request.scene) request.scene->sees_all = options.certify;
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");

@@ -64,9 +64,8 @@ TuneRequest tune_request(const TuneOptions& options) {
     throw UsageError(fmt::format("{} has no coordinates", options.method.model));
   if (!options.time.empty()) request.setting.scene.steps = "1";
   request.scene = complete_scene(model, request.setting.scene, "--time 10");
-  // The gauge has entries for all degrees of freedom.
-  std::vector<std::string> all = element_names(model.coordinates);
-  specialise(options.scene, request.scene, all, Observing::everything, request.setting);
+  // The coefficients are parameters of the step: what they move does not rest.
+  specialise(options.scene, request.scene, {}, Observing::everything, request.setting);
   const Rational h = *request.scene.h;
   request.time = options.time.empty() ? own_time(request.setting, request.scene)
                                       : constant_option("--time", options.time);

@@ -16,6 +16,7 @@
 //             Eigen: the matrix has bandwidth 1
 //             32 of the unknowns: torn out
 //             masses as an array: all are 1
+//   cost      per iteration: 1087 + - *, 32 /; per step besides: 513 + - *
 #pragma once
 #include <cmath>
 

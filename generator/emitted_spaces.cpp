@@ -84,6 +84,7 @@ std::string method_space(const Scheme& scheme, const Request& request) {
         solver, [](char c) { return c == '-' || c == ':'; }, '_');
     words.push_back(solver);
   }
+  if (request.plain_sums) words.emplace_back("plain_sums");
   return identifier(joined(words));
 }
 

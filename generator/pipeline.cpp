@@ -242,13 +242,11 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   for (const Quantity& parameter : stages.system.mechanics.parameters) {
     plugin.parameter_names.push_back(parameter.name);
   }
-  plugin.kept = stages.system.kept;
-  const Unobserved& left = stages.system.left;
-  plugin.unobserved = left.cyclic;
-  for (const int i : left.dropped)
-    plugin.unobserved.insert(plugin.unobserved.end(),
-                             {i, stages.system.whole.degrees_of_freedom + i});
-  plugin.whole_energy = left.dropped.empty();
+  plugin.state = state_map(stages.system);
+  plugin.same = stages.folded.folding.same;
+  for (const LinearChange& change : stages.system.changes)
+    plugin.same.insert(plugin.same.end(), change.united.begin(), change.united.end());
+  plugin.whole_energy = stages.system.left.dropped.empty();
   plugin.for_scene = request.scene.has_value();
   plugin.needs_energy_parameter = uses_energy_parameter(stages.equations);
   if (plugin.needs_energy_parameter) plugin.parameter_names.emplace_back("E0");

@@ -44,6 +44,7 @@ struct Request {
   std::string support;                // of fixed blocks: own (of every header) or shared
   std::vector<std::string> fold;      // parameters to burn in
   bool tangent = false;               // the linearised step too, where it can be written
+  bool plain_sums = false;            // what rounding takes from the state is not carried along
   std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;  // other integer constants than the file's
   // Terms of the modified Hamiltonian, as many for a symmetric step are even powers of h: emitted
@@ -125,10 +126,8 @@ struct PluginSource {
   std::vector<std::string> left_out;         // what the planner left out and why
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
-  // The degrees of freedom of the model that the step has, in their order.  Variables of the others
-  // rest where they begin, but these, by their position in the state, which nobody observes.
-  std::vector<int> kept;
-  std::vector<int> unobserved;
+  StateMap state;
+  std::vector<std::pair<std::string, std::string>> same;  // parameters that others stand for
   bool whole_energy = true;  // else that of the degrees of freedom that are kept
   bool for_scene = false;    // some of the model's parameters may have the scene's values
   bool needs_energy_parameter = false;  // the last parameter is E0

@@ -120,6 +120,9 @@ void require_defaults_in_range(const Model& model, const ScalarType& scalar) {
 std::optional<SceneFacts> scene_facts(const Model& model, const Request& request) {
   if (!request.scene) return {};
   SceneFacts scene = *request.scene;
+  const std::vector<std::string> names = element_names(model.parameters);
+  for (std::size_t i = 0; i < std::min(names.size(), scene.values.parameters.size()); ++i)
+    scene.parameters.emplace(names[i], scene.values.parameters[i]);
   scene.kept.merge(named_by_scheme(model, request));
   if (request.watch_modified > 0) {
     scene.values.observe.clear();

@@ -1,5 +1,7 @@
 #include "generator/stages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -32,11 +34,67 @@ void drop_unused_parameters(StepEquations& equations) {
 }
 
 Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
-                        const Request& request, bool keep_sums) {
+                        const Request& request, bool keep_sums,
+                        Variables variables = Variables::changed) {
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);
-  return specialise(model, std::move(mechanics), std::move(scheme), scene);
+  return specialise(model, std::move(mechanics), std::move(scheme), scene, variables);
+}
+
+// What a system costs a step; an integrator whose derivatives are not written out counts for
+// nothing.
+long operations(const Specialised& system, const Request& request) {
+  const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
+  return operations_per_step(build_program(
+      plan_solve(discretise(system.mechanics, system.scheme, hessian), request.solver)));
+}
+
+// The system in the variables in which a step has fewer operations.
+Specialised choose_variables(const Model& model, const std::optional<SceneFacts>& scene,
+                             const Request& request) {
+  Specialised changed = make_system(model, scene, request, may_keep_sums(request));
+  if (changed.changes.empty()) return changed;
+  Specialised plain =
+      make_system(model, scene, request, may_keep_sums(request), Variables::as_they_are);
+  const long before = operations(plain, request);
+  const long after = operations(changed, request);
+  if (after < before) return changed;
+  for (const LinearChange& change : changed.changes) {
+    plain.left_out.push_back(fmt::format("{}; not used: a step would have {} operations, not {}",
+                                         change.left_out.back(), after, before));
+  }
+  return plain;
+}
+
+bool is_polynomial(const Mechanics& mechanics) {
+  const auto is_free_of = [](const Expression& e, const std::set<std::string>& variables) {
+    const std::set<std::string> others = non_polynomial_symbols(e);
+    return std::ranges::none_of(
+        others, [&](const std::string& symbol) { return variables.contains(symbol); });
+  };
+  std::set<std::string> variables;
+  for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  for (const Kernel& kernel : mechanics.kernels) {
+    for (const Slot& slot : kernel.slots) variables.insert(slot.symbol);
+  }
+  return is_free_of(mechanics.energy, variables) &&
+         std::ranges::all_of(mechanics.kernels, [&](const Kernel& kernel) {
+           return is_free_of(kernel.value, variables);
+         });
+}
+
+// Does every step have a value, as far as numbers go?
+bool fails_nowhere(const Mechanics& mechanics, const SolvePlan& plan) {
+  const Method& method = plan.equations.scheme.method;
+  const auto* tableau = std::get_if<RungeKutta>(&method);
+  const auto array = plan.arrays ? plan.arrays->method : ArrayMethod::gradient_only;
+  const bool is_explicit =
+      std::holds_alternative<Splitting>(method) || (tableau != nullptr && tableau->is_explicit()) ||
+      (std::holds_alternative<Member>(method) && !plan.equations.function &&
+       (plan.arrays ? array == ArrayMethod::explicit_a || array == ArrayMethod::explicit_b
+                    : plan.is_explicit()));
+  return is_explicit && is_polynomial(mechanics);
 }
 
 }  // namespace
@@ -46,7 +104,7 @@ Stages run_stages(const SourceText& source, const Request& request) {
   require_defaults_in_range(model, find_scalar(request.scalar));
   FoldedModel folded = fold_for_scene(model, request);
   const std::optional<SceneFacts> scene = scene_facts(model, request);
-  Specialised system = make_system(folded.model, scene, request, may_keep_sums(request));
+  Specialised system = choose_variables(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
@@ -62,7 +120,16 @@ Stages run_stages(const SourceText& source, const Request& request) {
   std::vector<std::string> left_out = folded.folding.left_out;
   left_out.insert(left_out.end(), system.left_out.begin(), system.left_out.end());
   plan.left_out.insert(plan.left_out.begin(), left_out.begin(), left_out.end());
+  if (request.plain_sums)
+    plan.left_out.emplace_back(
+        "compensated sums: rounding takes up to half a unit of the state a step");
+  const bool unchecked = scene && fails_nowhere(system.mechanics, plan);
+  if (unchecked)
+    plan.left_out.emplace_back(
+        "a look at every step: H is a polynomial, explicit steps leave no domain");
   Program program = build_program(plan);
+  program.unchecked = unchecked;
+  program.plain_sums = request.plain_sums;
   if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
   if (request.watch_modified > 0) require_solved_step(request);
   if (request.watch_modified > 0) {
@@ -79,9 +146,9 @@ bool is_something_left_out(const Stages& stages) {
 
 Expression written_out_hamiltonian(const Stages& stages) {
   const Specialised& system = stages.system;
-  return system.mechanics.keeps_sums()
-             ? restrict_to(written_out_hamiltonian(stages.folded.model), system.whole, system.kept)
-             : system.mechanics.energy;
+  return system.mechanics.keeps_sums() ? restrict_to(written_out_hamiltonian(stages.folded.model),
+                                                     system.whole, system.kept, system.left)
+                                       : system.mechanics.energy;
 }
 
 }  // namespace hamgen

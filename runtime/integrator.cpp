@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <span>
 #include <stdexcept>
@@ -25,6 +26,10 @@ std::vector<double> part(const std::vector<Wide>& values, double Wide::*member) 
   std::vector<double> parts(values.size());
   std::ranges::transform(values, parts.begin(), member);
   return parts;
+}
+
+bool is_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
 }
 
 // Before Judge::failure.
@@ -80,6 +85,20 @@ hamgen_report Integrator::call(long long steps, bool watch_energy) {
   return report;
 }
 
+hamgen_report Integrator::last_good(long long before, bool watch_energy) {
+  go_back_to(before);
+  long long good = 0;
+  while (is_finite(rounded_state())) {
+    call(1, false);
+    ++good;
+  }
+  go_back_to(before);
+  hamgen_report report = call(good - 1, watch_energy);
+  report.status = HAMGEN_NOT_FINITE;
+  report.last_increment = std::numeric_limits<double>::infinity();
+  return report;
+}
+
 Report Integrator::advance(long long steps, bool watch_energy) {
   const long long before = steps_done_;
   hamgen_report raw = call(steps, watch_energy);
@@ -92,6 +111,8 @@ Report Integrator::advance(long long steps, bool watch_energy) {
     raw.last_iterations = failed.last_iterations;
     raw.last_increment = failed.last_increment;
   }
+  if (raw.status == HAMGEN_NOT_FINITE && !is_finite(rounded_state()))
+    raw = last_good(before, watch_energy);
   Report report{.status = reason_of(raw),
                 .steps_done = raw.steps_done,
                 .iterations = raw.iterations,

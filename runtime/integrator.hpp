@@ -70,6 +70,8 @@ class Integrator {
 
   [[nodiscard]] std::vector<Wide> read(void (*get)(const hamgen_run*, double*, double*)) const;
   hamgen_report call(long long steps, bool watch_energy);
+  // Of steps that nobody looks at one by one, the last that ended in numbers.
+  hamgen_report last_good(long long before, bool watch_energy);
 
   // The run is destroyed before the code that does it is unloaded.
   std::shared_ptr<const Library> library_;

@@ -19,7 +19,8 @@ enum hamgen_status {
   HAMGEN_DONE = 0,
   HAMGEN_NOT_CONVERGED =
       1,                 /* the implicit step found no solution; the state is the last good one */
-  HAMGEN_NOT_FINITE = 2, /* the step left the domain of H or overflowed; same */
+  HAMGEN_NOT_FINITE = 2, /* the step left the domain of H or overflowed; same, unless the state is
+                          * not finite: steps of a polynomial H are not looked at one by one */
   HAMGEN_STOPPED = 3     /* the host asked to stop */
 };
 

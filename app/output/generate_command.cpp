@@ -30,6 +30,7 @@ std::string generate_command(const std::string& model, const Request& request) {
     add("--reference", fmt::format("{}={}", name, value));
   add("--solver", request.solver);
   add("--scalar", request.scalar);
+  if (request.plain_sums) words.emplace_back("--plain-sums");
   for (const std::string& name : request.fold) add("--fold", name);
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
   if (request.scene) {

@@ -163,7 +163,10 @@ PlotSeries error_over_time(const BenchMethod& method, const SceneValues& scene, 
   for (const std::vector<runtime::Wide>& exact : track) {
     if (integrator.advance(chunk, false).status != runtime::Status::done) break;
     time += to_double(*scene.h) * static_cast<double>(chunk);
-    series.points.push_back({time, distance(integrator.state(), kept_state(method.plugin, exact))});
+    series.points.push_back(
+        {time,
+         distance(known_state(method.plugin, whole_state(method.plugin, scene, integrator.state())),
+                  known_state(method.plugin, exact))});
   }
   return series;
 }

@@ -126,7 +126,9 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
     row.energy_spread = summary.energy->spread();
   }
   if (!reference.state.empty())
-    row.state_error = distance(integrator.state(), kept_state(method.plugin, reference.state));
+    row.state_error =
+        distance(known_state(method.plugin, whole_state(method.plugin, scene, integrator.state())),
+                 known_state(method.plugin, reference.state));
   row.once = clock(method, start, row.steps);
   row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/studies/initial_data.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
@@ -39,6 +40,10 @@ StepNumbers numbers_of(const CertifyRequest& request) {
     numbers.values[is_energy ? "E0" : request.plugin->parameter_names[i]] =
         in_scalar(request.start->parameters[i], numbers.scalar_digits);
   }
+  for (const auto& [name, other] : request.plugin->same) {
+    if (const auto it = numbers.values.find(other); it != numbers.values.end())
+      numbers.values[name] = it->second;
+  }
   numbers.values["h"] = in_scalar(request.start->h, numbers.scalar_digits);
   return numbers;
 }
@@ -50,6 +55,16 @@ std::vector<ExactSum> exact_state(const runtime::Integrator& integrator) {
   for (std::size_t i = 0; i < z.size(); ++i)
     result.push_back({z[i].hi, z[i].lo, carry[i].hi, carry[i].lo});
   return result;
+}
+
+ModelState model_state_of(const PluginSource& plugin, const SceneValues& scene) {
+  ModelState state;
+  for (const StateMap::Sum& sum : plugin.state.model) {
+    if (!sum.known) internal_error("a certificate of a step that does not move all variables");
+    state.factors.push_back(sum.of);
+    state.constant.push_back(value_at_start(sum, scene));
+  }
+  return state;
 }
 
 // Unknowns that are solved for in a step.
@@ -110,7 +125,8 @@ void require_certifiable(const Request& method, const Model& model, const Scheme
 
 Certificate certify(const CertifyRequest& request) {
   const Model& model = request.plugin->model;
-  StepCertifier certifier(model, *request.scheme, numbers_of(request));
+  StepCertifier certifier(model, *request.scheme, numbers_of(request),
+                          model_state_of(*request.plugin, *request.scene));
   std::vector<std::string> names = element_names(model.coordinates);
   const std::vector<std::string> momenta = element_names(model.momenta);
   names.insert(names.end(), momenta.begin(), momenta.end());

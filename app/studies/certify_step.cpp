@@ -16,9 +16,17 @@ long bits_of(int scalar_digits) { return std::max(128, 2 * scalar_digits + 32); 
 
 Ball sum_of(const ExactSum& parts, long bits) { return Ball::exact_sum(parts, bits); }
 
-BallVector balls_of(const std::vector<ExactSum>& values, long bits) {
+BallVector model_state(const ModelState& state, const std::vector<ExactSum>& values, long bits) {
   BallVector result;
-  for (const ExactSum& value : values) result.push_back(sum_of(value, bits));
+  if (state.factors.empty()) {
+    for (const ExactSum& value : values) result.push_back(sum_of(value, bits));
+  }
+  for (std::size_t i = 0; i < state.factors.size(); ++i) {
+    Ball sum(state.constant[i], bits);
+    for (const auto& [place, factor] : state.factors[i])
+      sum.add_product(Ball(factor, bits), sum_of(values[static_cast<std::size_t>(place)], bits));
+    result.push_back(std::move(sum));
+  }
   return result;
 }
 
@@ -31,12 +39,15 @@ std::map<std::string, Ball> balls_of(const std::map<std::string, ExactSum>& valu
 }  // namespace
 
 struct StepCertifier::Balls {
-  Balls(const Model& model_read, const Scheme& scheme, const StepNumbers& numbers)
-      : bits(bits_of(numbers.scalar_digits)),
+  Balls(const Model& model_read, const Scheme& scheme, const StepNumbers& numbers,
+        ModelState of_step)
+      : state(std::move(of_step)),
+        bits(bits_of(numbers.scalar_digits)),
         epsilon(std::ldexp(1.0, 1 - numbers.scalar_digits)),
         model(model_read, balls_of(numbers.values, bits), bits),
         step(model, scheme, balls_of(numbers.values, bits), sum_of(numbers.values.at("h"), bits)) {}
 
+  ModelState state;
   long bits;
   double epsilon;
   BallModel model;
@@ -52,17 +63,18 @@ void StepCertifier::require_possible(const Model& model, const Scheme& scheme) {
         "{} cannot be certified: the function {} has no derivatives in balls", model.name, name));
 }
 
-StepCertifier::StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers) {
+StepCertifier::StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers,
+                             ModelState state) {
   require_possible(model, scheme);
-  balls_ = std::make_unique<Balls>(model, scheme, numbers);
+  balls_ = std::make_unique<Balls>(model, scheme, numbers, std::move(state));
 }
 
 StepCertifier::~StepCertifier() = default;
 
 StepDistance StepCertifier::distance(const std::vector<ExactSum>& before,
                                      const std::vector<ExactSum>& after) {
-  const BallVector z = balls_of(before, balls_->bits);
-  const BallVector computed = balls_of(after, balls_->bits);
+  const BallVector z = model_state(balls_->state, before, balls_->bits);
+  const BallVector computed = model_state(balls_->state, after, balls_->bits);
   const BallSolution exact = balls_->step.step(z, computed);
   StepDistance result{.radius = exact.radius, .failure = exact.failure};
   if (!result.failure.empty()) return result;

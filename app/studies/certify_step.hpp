@@ -33,19 +33,28 @@ struct StepDistance {
   std::string failure;  // why nothing is proved; empty if all is
 };
 
+// The model's variables as the step's: the i-th is constant[i] + sum of factors[i][j] z_j.  Empty:
+// both are the same.
+struct ModelState {
+  std::vector<std::map<int, Rational>> factors;
+  std::vector<Rational> constant;
+};
+
 class StepCertifier {
  public:
   // // Throws UsageError where the method's map cannot be enclosed, with the reason, and ToolError
   // where hamgen was built without Arb.
   static void require_possible(const Model& model, const Scheme& scheme);
 
-  // Throws the same.  Model and scheme outlive this.
-  StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers);
+  // Throws the same.  Model and scheme, those of all degrees of freedom, outlive this.
+  StepCertifier(const Model& model, const Scheme& scheme, const StepNumbers& numbers,
+                ModelState state = {});
   ~StepCertifier();
   StepCertifier(const StepCertifier&) = delete;
   StepCertifier& operator=(const StepCertifier&) = delete;
 
-  // Of a step from `before` to `after`, both with what rounding took from them.
+  // Of a step from `before` to `after`, states of the step with what rounding took from them: the
+  // model's state that they stand for is compared with the exact step of the model from there.
   [[nodiscard]] StepDistance distance(const std::vector<ExactSum>& before,
                                       const std::vector<ExactSum>& after);
 

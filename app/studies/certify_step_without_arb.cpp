@@ -15,7 +15,7 @@ void StepCertifier::require_possible(const Model& /*model*/, const Scheme& /*sch
 }
 
 StepCertifier::StepCertifier(const Model& model, const Scheme& scheme,
-                             const StepNumbers& /*numbers*/) {
+                             const StepNumbers& /*numbers*/, ModelState /*state*/) {
   require_possible(model, scheme);
 }
 

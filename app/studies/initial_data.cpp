@@ -13,6 +13,16 @@
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
+
+Rational value_at_start(const StateMap::Sum& sum, const SceneValues& scene) {
+  Rational total = 0;
+  const auto n = static_cast<int>(scene.q.size());
+  for (const auto& [i, factor] : sum.at_start)
+    total += factor * (i < n ? scene.q[static_cast<std::size_t>(i)]
+                             : scene.p[static_cast<std::size_t>(i - n)]);
+  return total;
+}
+
 namespace {
 
 // A folded parameter has the model's default in the code, whatever the scene or --set says.
@@ -79,34 +89,24 @@ std::string undefined_component(const runtime::Library& library,
 
 // What a parameter of the step is in the scene: one of the model, an array of equal entries, or a
 // momentum that does not change.
-const Rational& parameter_of(const std::string& name, const Model& model,
-                             const SceneValues& scene) {
-  const std::vector<std::string> names = element_names(model.parameters);
+Rational parameter_of(const std::string& name, const PluginSource& plugin,
+                      const SceneValues& scene) {
+  const std::vector<std::string> names = element_names(plugin.model.parameters);
   const auto is_it = [&name](const std::string& each) {
     return each == name || each.starts_with(name + "[");
   };
   if (const auto found = std::ranges::find_if(names, is_it); found != names.end())
     return scene.parameters[static_cast<std::size_t>(found - names.begin())];
-  const std::vector<std::string> momenta = element_names(model.momenta);
-  const auto found = std::ranges::find(momenta, name);
-  if (found == momenta.end()) internal_error("a plugin parameter the model does not have");
-  return scene.p[static_cast<std::size_t>(found - momenta.begin())];
-}
-
-// Of the variables that the step has.
-std::vector<std::string> state_names(const PluginSource& plugin) {
-  std::vector<std::string> names;
-  for (const auto& all :
-       {element_names(plugin.model.coordinates), element_names(plugin.model.momenta)}) {
-    for (const int i : plugin.kept) names.push_back(all[static_cast<std::size_t>(i)]);
-  }
-  return names;
+  const auto constant = plugin.state.constants.find(name);
+  if (constant == plugin.state.constants.end())
+    internal_error("a plugin parameter the model does not have");
+  return value_at_start(constant->second, scene);
 }
 
 void require_defined(const PluginSource& plugin, const SceneValues& scene,
                      const runtime::Library& library, const runtime::InitialValues& values) {
   const Model& model = plugin.model;
-  const std::vector<std::string> names = state_names(plugin);
+  const std::vector<std::string>& names = plugin.state.step_names;
   const std::vector<double> state = rounded(values.state);
   const std::string component =
       undefined_component(library, names, rounded(values.parameters), state);
@@ -125,20 +125,27 @@ void require_defined(const PluginSource& plugin, const SceneValues& scene,
 
 namespace {
 
-// `whole` with these values of the kept degrees of freedom.
-template <class Number, class Values>
-std::vector<Number> with_kept(std::vector<Number> whole, const Values& values,
-                              const PluginSource& plugin) {
-  const std::size_t n = whole.size() / 2;
-  const std::size_t m = plugin.kept.size();
-  for (std::size_t i = 0; i < m; ++i) {
-    const auto place = static_cast<std::size_t>(plugin.kept[i]);
-    whole[place] = values[i];
-    whole[n + place] = values[m + i];
+__float128 quad_number(const runtime::Wide& value) {
+  return static_cast<__float128>(value.hi) + static_cast<__float128>(value.lo);
+}
+
+// sum of factor * value, to 113 digits.
+template <class Value>
+runtime::Wide wide_sum(const std::map<int, Rational>& factors, const runtime::Wide& constant,
+                       const Value& value) {
+  const bool is_one = factors.size() == 1 && constant.hi == 0.0;
+  if (is_one && abs(factors.begin()->second) == 1) {
+    const runtime::Wide same = value(factors.begin()->first);
+    return factors.begin()->second == 1 ? same
+                                        : runtime::Wide{.hi = 0.0 - same.hi, .lo = 0.0 - same.lo};
   }
-  for (const int place : plugin.unobserved)
-    whole[static_cast<std::size_t>(place)] = Number{std::numeric_limits<double>::quiet_NaN()};
-  return whole;
+  __float128 sum = quad_number(constant);
+  for (const auto& [place, factor] : factors)
+    sum += quad_number(value(place)) * static_cast<__float128>(factor.get_num().get_d()) /
+           static_cast<__float128>(factor.get_den().get_d());
+  runtime::Wide result{.hi = static_cast<double>(sum)};
+  result.lo = static_cast<double>(sum - static_cast<__float128>(result.hi));
+  return result;
 }
 
 }  // namespace
@@ -152,21 +159,33 @@ std::vector<runtime::Wide> whole_state(const PluginSource& plugin, const SceneVa
                                        const std::vector<runtime::Wide>& state) {
   const bool is_wide = std::ranges::any_of(state, [](const auto& x) { return x.lo != 0.0; });
   std::vector<runtime::Wide> whole;
-  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const Rational& value : *half) {
-      whole.push_back(wide(value));
-      if (!is_wide) whole.back().lo = 0.0;
+  for (const StateMap::Sum& sum : plugin.state.model) {
+    if (!sum.known) {
+      whole.push_back({.hi = std::numeric_limits<double>::quiet_NaN()});
+      continue;
     }
+    whole.push_back(wide_sum(sum.of, wide(value_at_start(sum, scene)),
+                             [&](int place) { return state[static_cast<std::size_t>(place)]; }));
+    if (!is_wide) whole.back().lo = 0.0;
   }
-  return with_kept(std::move(whole), state, plugin);
+  return whole;
+}
+
+std::vector<runtime::Wide> known_state(const PluginSource& plugin,
+                                       const std::vector<runtime::Wide>& whole) {
+  std::vector<runtime::Wide> state;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (plugin.state.model[i].known) state.push_back(whole[i]);
+  }
+  return state;
 }
 
 std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
                                       const std::vector<runtime::Wide>& whole) {
   std::vector<runtime::Wide> state;
-  for (const std::size_t first : {std::size_t{0}, whole.size() / 2}) {
-    for (const int i : plugin.kept) state.push_back(whole[first + static_cast<std::size_t>(i)]);
-  }
+  for (const StateMap::Sum& sum : plugin.state.step)
+    state.push_back(wide_sum(sum.at_start, {},
+                             [&](int place) { return whole[static_cast<std::size_t>(place)]; }));
   return state;
 }
 
@@ -259,12 +278,10 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   runtime::InitialValues values;
   values.defined_everywhere = is_defined_everywhere(model);
   values.h = wide(*scene.h);
-  for (const std::vector<Rational>* half : {&scene.q, &scene.p}) {
-    for (const int i : plugin.kept)
-      values.state.push_back(wide((*half)[static_cast<std::size_t>(i)]));
-  }
+  for (const StateMap::Sum& sum : plugin.state.step)
+    values.state.push_back(wide(value_at_start(sum, scene)));
   for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i)
-    values.parameters.push_back(wide(parameter_of(plugin.parameter_names[i], model, scene)));
+    values.parameters.push_back(wide(parameter_of(plugin.parameter_names[i], plugin, scene)));
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
   require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;

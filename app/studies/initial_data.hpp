@@ -52,7 +52,12 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
 [[nodiscard]] std::vector<runtime::Wide> whole_state(const PluginSource& plugin,
                                                      const SceneValues& scene,
                                                      const std::vector<runtime::Wide>& state);
-// Of a state of all degrees of freedom what the step has.
+// What of a sum does not depend on the step.
+[[nodiscard]] Rational value_at_start(const StateMap::Sum& sum, const SceneValues& scene);
+// Of a state of all degrees of freedom what is known of it from the step.
+[[nodiscard]] std::vector<runtime::Wide> known_state(const PluginSource& plugin,
+                                                     const std::vector<runtime::Wide>& whole);
+// Of a state of all degrees of freedom what the step has, in its variables.
 [[nodiscard]] std::vector<runtime::Wide> kept_state(const PluginSource& plugin,
                                                     const std::vector<runtime::Wide>& whole);
 

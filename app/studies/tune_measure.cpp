@@ -6,7 +6,6 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "generator/base/diagnostic.hpp"
 #include "runtime/trajectory.hpp"
 
 namespace hamgen::app {
@@ -21,13 +20,15 @@ GaugedIntegrator::GaugedIntegrator(const SourceText& source, const Request& base
   const GaugeTexts texts = gauge_texts(shape, request.scheme_parameters);
   request.beta = texts.beta;
   request.gamma = texts.gamma;
-  const PluginSource plugin = generate_plugin(source, request);
-  library_ = load_integrator(plugin, compiler, stop).library;
-  start_ = initial_values(plugin, complete_scene(plugin.model, scene), *library_);
+  plugin_ = generate_plugin(source, request);
+  library_ = load_integrator(plugin_, compiler, stop).library;
+  scene_ = complete_scene(plugin_.model, scene);
+  start_ = initial_values(plugin_, scene_, *library_);
   for (const std::string& name : request.scheme_parameters) {
-    const auto found = std::ranges::find(plugin.parameter_names, name);
-    if (found == plugin.parameter_names.end()) internal_error("a coefficient is no parameter");
-    places_.push_back(static_cast<std::size_t>(found - plugin.parameter_names.begin()));
+    const auto found = std::ranges::find(plugin_.parameter_names, name);
+    places_.emplace_back();
+    if (found != plugin_.parameter_names.end())
+      places_.back() = static_cast<std::size_t>(found - plugin_.parameter_names.begin());
   }
 }
 
@@ -35,8 +36,9 @@ Measurement GaugedIntegrator::measure(const std::vector<double>& coefficients, d
                                       long steps) const {
   runtime::InitialValues start = start_;
   start.h = {.hi = h};
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    start.parameters[places_[k]] = {.hi = coefficients[k]};
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (places_[k]) start.parameters[*places_[k]] = {.hi = coefficients[k]};
+  }
   runtime::Integrator integrator(library_, start);
   runtime::IntegrateOptions options;
   options.steps = steps;
@@ -50,7 +52,7 @@ Measurement GaugedIntegrator::measure(const std::vector<double>& coefficients, d
   }
   result.energy_spread = summary.energy->spread();
   result.energy_error = summary.energy->max_error();
-  result.state = integrator.state();
+  result.state = whole_state(plugin_, scene_, integrator.state());
   return result;
 }
 

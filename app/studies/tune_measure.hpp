@@ -17,7 +17,7 @@ struct Measurement {
   std::string failure;               // empty if all steps were done
   double energy_spread = 0.0;        // max H - min H over all states, the first included
   double energy_error = 0.0;         // max |H - H(0)|
-  std::vector<runtime::Wide> state;  // the last
+  std::vector<runtime::Wide> state;  // the last, of all degrees of freedom
 };
 
 // A model compiled with beta = h B, gamma = h G; the same code for all coefficients.
@@ -33,9 +33,12 @@ class GaugedIntegrator {
 
  private:
   StopFlag stop_;
+  PluginSource plugin_;
+  SceneValues scene_;
   std::shared_ptr<const runtime::Library> library_;
   runtime::InitialValues start_;
-  std::vector<std::size_t> places_;  // of the coefficients among the parameters
+  // Of the coefficients among the parameters; none of one whose degree of freedom rests.
+  std::vector<std::optional<std::size_t>> places_;
 };
 
 }  // namespace hamgen::app

@@ -154,8 +154,9 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, const std::string& t
     return text.find(dialect.block(name)) != std::string::npos;
   };
   std::vector<std::pair<std::string, std::string>> blocks = {
-      {"STEP_REPORT", block_text("c/step_report", dialect, 0)},
-      {"TWO_SUM", block_text("c/two_sum", dialect, 0)}};
+      {"STEP_REPORT", block_text("c/step_report", dialect, 0)}};
+  if (uses("two_sum") || uses("collect"))
+    blocks.emplace_back("TWO_SUM", block_text("c/two_sum", dialect, 0));
   if (uses("two_sum_with_rest")) {
     blocks.emplace_back("SUM_WITH_REST", block_text("c/sum_with_rest", dialect, 0));
   }

@@ -18,6 +18,7 @@ class CStepWriter {
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
         history_(code_.unknowns > 0),
+        carry_(code_.has_carry()),
         each_(fmt::format("[{}]", code_.substeps.size())) {}
 
   void write() {
@@ -56,12 +57,14 @@ class CStepWriter {
   }
 
   void write_record() {
-    out_.line("// Many steps: rounding errors of the updates are carried along.");
+    out_.line(carry_ ? "// Many steps: rounding errors of the updates are carried along."
+                     : "// Many steps: sums are plain.");
     out_.open("typedef struct");
     out_.line(c_.record("Parameters") + " par;");
     out_.line(c_.real() + " h;");
     out_.line(c_.record("State") + " z;");
-    out_.line(fmt::format("{} carry;  // what rounding took from z", c_.record("State")));
+    if (carry_)
+      out_.line(fmt::format("{} carry;  // what rounding took from z", c_.record("State")));
     out_.line("long long steps;  // since the first state");
     out_.line(fmt::format("{} lengths{};", c_.real(), each_));
     if (coefficients_) out_.line(fmt::format("{} k{};", c_.record("Coefficients"), each_));
@@ -80,7 +83,7 @@ class CStepWriter {
     out_.line("// Begins anew at z.");
     open("void", "reset", fmt::format(", const {}* z", c_.record("State")));
     out_.line("self->z = *z;");
-    out_.line(fmt::format("self->carry = {};", c_.empty_record("State")));
+    if (carry_) out_.line(fmt::format("self->carry = {};", c_.empty_record("State")));
     out_.line("self->steps = 0;");
     if (start_ || history_) {
       out_.open(head_of_substeps());
@@ -131,8 +134,10 @@ class CStepWriter {
   }
 
   void write_substep() {
-    out_.line("// Part i of a step, from *z + *carry.");
-    open(report_, "substep", fmt::format(", int i, {0}* z, {0}* carry", c_.record("State")));
+    out_.line(carry_ ? "// Part i of a step, from *z + *carry." : "// Part i of a step.");
+    open(report_, "substep",
+         fmt::format(fmt::runtime(carry_ ? ", int i, {0}* z, {0}* carry" : ", int i, {0}* z"),
+                     c_.record("State")));
     out_.line(c_.declaration("State", "dz"));
     if (code_.has_rest()) out_.line(c_.declaration("State", "rest"));
     if (history_) {
@@ -151,7 +156,7 @@ class CStepWriter {
       out_.line("report.iterations += wasted;");
       out_.close();
     }
-    out_.line("if (!report.converged) return report;");
+    if (!code_.unchecked) out_.line("if (!report.converged) return report;");
     for (const RuleOfNewton& rule : code_.rules) {
       out_.line(
           fmt::format("{}(&self->history[i], &self->start[i].{}, self->start[i].value, {}, {});",
@@ -163,7 +168,8 @@ class CStepWriter {
     }
     for (const Place& place : code_.changed) {
       const std::string x = to_text(place).substr(1);
-      out_.line(code_.has_rest()
+      out_.line(!carry_ ? fmt::format("z->{0} += dz.{0};", x)
+                : code_.has_rest()
                     ? fmt::format("{0}(&z->{1}, &carry->{1}, dz.{1}, rest.{1});",
                                   c_.block("two_sum_with_rest"), x)
                     : fmt::format("{0}(&z->{1}, &carry->{1}, dz.{1});", c_.block("two_sum"), x));
@@ -176,10 +182,11 @@ class CStepWriter {
     out_.line("// One step; on failure the state stays as it was.");
     open(report_, "step");
     out_.line(c_.record("State") + " z = self->z;");
-    out_.line(c_.record("State") + " carry = self->carry;");
+    if (carry_) out_.line(c_.record("State") + " carry = self->carry;");
     out_.line(report_ + " total = {0};");
     out_.open(head_of_substeps());
-    out_.line(fmt::format("const {} report = {}_substep(self, i, &z, &carry);", report_, self_));
+    out_.line(fmt::format("const {} report = {}_substep(self, i, &z{});", report_, self_,
+                          carry_ ? ", &carry" : ""));
     out_.line("total.iterations += report.iterations;");
     out_.line("total.increment = report.increment;");
     out_.open("if (!report.converged)");
@@ -193,7 +200,7 @@ class CStepWriter {
     out_.close();
     out_.close();
     out_.line("self->z = z;");
-    out_.line("self->carry = carry;");
+    if (carry_) out_.line("self->carry = carry;");
     out_.line("++self->steps;");
     out_.line("total.converged = true;");
     out_.line("return total;");
@@ -212,6 +219,15 @@ class CStepWriter {
     out_.line("total.increment = report.increment;");
     out_.line("total.converged = report.converged;");
     out_.close();
+    if (code_.unchecked) {
+      out_.line("// H is a polynomial: no step fails, but where numbers end.");
+      out_.line(c_.real() + " rest = 0;");
+      for (const Place& place : code_.changed) {
+        const std::string x = to_text(place).substr(1);
+        out_.line(fmt::format("rest += self->z.{0} - self->z.{0};", x));
+      }
+      out_.line("total.converged = rest == 0;");
+    }
     out_.line("return total;");
     close();
   }
@@ -240,7 +256,7 @@ class CStepWriter {
   const StepCode& code_;
   const CDialect& c_;
   std::string self_, report_;
-  bool coefficients_, start_, history_;
+  bool coefficients_, start_, history_, carry_;
   std::string each_;  // "[substeps]"
 };
 

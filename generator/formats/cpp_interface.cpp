@@ -149,7 +149,15 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
       }
     }
   }
-  total.energy_min = high_part(energy_min, &total.energy_min_lo);
+)");
+  if (context.code.unchecked) {
+    out.indent();
+    out.line("// No step fails, but where numbers end.");
+    out.line("const bool ends = !run->propagator.advance(0).converged;");
+    out.line("if (total.status == HAMGEN_DONE && ends) total.status = HAMGEN_NOT_FINITE;");
+    out.dedent();
+  }
+  out.lines(R"(  total.energy_min = high_part(energy_min, &total.energy_min_lo);
   total.energy_max = high_part(energy_max, &total.energy_max_lo);
   total.energy_last = high_part(energy_last, &total.energy_last_lo);
   *report = total;
@@ -172,7 +180,8 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line();
   out.open("void get_carry(const hamgen_run* run, double* carry, double* carry_lo)");
   out.line("const State& z = run->propagator.state();");
-  out.line("const State& c = run->propagator.carry();");
+  out.line(context.code.has_carry() ? "const State& c = run->propagator.carry();"
+                                    : "const State c;  // sums are plain");
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
     out.line("carry[i] = high_part(carried(z.q[i], c.q[i]), carry_lo + i);");

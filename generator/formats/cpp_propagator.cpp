@@ -25,6 +25,7 @@ class StepWriter {
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
         rest_(code_.has_rest()),
+        carry_(code_.has_carry()),
         composed_(code_.substeps.size() > 1),
         large_(context.arrays()),
         has_time_(context.mechanics.has_time) {}
@@ -71,14 +72,16 @@ class StepWriter {
   }
 
   void write_step() {
-    out_.line("// Advances z by one step of size h.  On failure z is left unchanged.");
+    out_.line(code_.unchecked
+                  ? "// Advances z by one step of size h."
+                  : "// Advances z by one step of size h.  On failure z is left unchanged.");
     out_.open("[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z)");
     if (coefficients_) out_.line("const Coefficients k = prepare(par, h);");
     if (start_) out_.line("Start start;");
     out_.line(rest_ ? "State dz, rest;" : "State dz;");
     out_.line("const StepReport report = " + call({"par", "k", "h", "z", "State()", "start", ""}) +
               ";");
-    out_.line("if (!report.converged) return report;");
+    if (!code_.unchecked) out_.line("if (!report.converged) return report;");
     write_each([this](const std::string& x) {
       return fmt::format(fmt::runtime(rest_ ? "z.{0} += dz.{0} + rest.{0};" : "z.{0} += dz.{0};"),
                          x);
@@ -101,9 +104,7 @@ class StepWriter {
   }
 
   void write_propagator() {
-    out_.line(code_.retries ? "// Many steps: start values are extrapolated, rounding errors of "
-                              "the updates carried along."
-                            : "// Many steps: rounding errors of the updates are carried along.");
+    write_remark();
     out_.open("class Propagator");
     access(" public:");
     composed_ ? write_constructor_of_composition() : write_constructor();
@@ -111,7 +112,8 @@ class StepWriter {
     if (composed_) {
       write_composed_step();
     } else {
-      out_.line("// One step; on failure the state stays as it was.");
+      out_.line(code_.unchecked ? "// One step: H is a polynomial, and has a step everywhere."
+                                : "// One step; on failure the state stays as it was.");
       out_.open("StepReport step()");
       write_solve(with_room({"par_", "k_", "h_", "z_", "carry_", "start_", "history_"}));
       out_.close();
@@ -125,8 +127,9 @@ class StepWriter {
     out_.line();
     access(" private:");
     if (composed_) {
-      out_.line("// Substep i from z + carry.");
-      out_.open("StepReport substep(int i, State& z, State& carry)");
+      out_.line(carry_ ? "// Substep i from z + carry." : "// Substep i.");
+      out_.open(carry_ ? "StepReport substep(int i, State& z, State& carry)"
+                       : "StepReport substep(int i, State& z)");
       write_solve(
           with_room({"par_", "k_[i]", "lengths_[i]", "z", "carry", "start_[i]", "history_[i]"}));
       out_.close();
@@ -135,6 +138,17 @@ class StepWriter {
     write_members();
     out_.close(";");
     out_.line();
+  }
+
+  void write_remark() {
+    if (!carry_) {
+      return out_.line(code_.retries
+                           ? "// Many steps: start values are extrapolated; sums are plain."
+                           : "// Many steps: sums are plain.");
+    }
+    out_.line(code_.retries ? "// Many steps: start values are extrapolated, rounding errors of "
+                              "the updates carried along."
+                            : "// Many steps: rounding errors of the updates are carried along.");
   }
 
   void access(const char* line) {
@@ -184,11 +198,12 @@ class StepWriter {
     if (!large_) out_.line(rest_ ? "State dz, rest;" : "State dz;");
     if (!code_.retries) {
       out_.line("const StepReport report = " + call(names) + ";");
-      out_.line("if (!report.converged) return report;");
+      if (!code_.unchecked) out_.line("if (!report.converged) return report;");
     } else {
       write_solve_with_memory(names);
     }
     write_each([&](const std::string& x) {
+      if (!carry_) return fmt::format("{0}.{2} += {1}.{2};", names.z, names.dz, x);
       return fmt::format(
           fmt::runtime(rest_ ? "two_sum_with_rest({0}.{2}, {1}.{2}, {3}.{2}, {4}.{2});"
                              : "two_sum({0}.{2}, {1}.{2}, {3}.{2});"),
@@ -238,10 +253,11 @@ class StepWriter {
     out_.line("// One step; on failure the state stays as it was before its first substep.");
     out_.open("StepReport step()");
     out_.line("State z = z_;");
-    out_.line("State carry = carry_;");
+    if (carry_) out_.line("State carry = carry_;");
     out_.line("StepReport total;");
     out_.open("for (int i = 0; i < substeps; ++i)");
-    out_.line("const StepReport report = substep(i, z, carry);");
+    out_.line(carry_ ? "const StepReport report = substep(i, z, carry);"
+                     : "const StepReport report = substep(i, z);");
     out_.line("total.iterations += report.iterations;");
     out_.line("total.increment = report.increment;");
     if (code_.unknowns > 0) {
@@ -262,7 +278,7 @@ class StepWriter {
     }
     out_.close();
     out_.line("z_ = z;");
-    out_.line("carry_ = carry;");
+    if (carry_) out_.line("carry_ = carry;");
     if (!has_time_) out_.line("++steps_;");
     out_.line("total.converged = true;");
     out_.line("return total;");
@@ -274,7 +290,7 @@ class StepWriter {
     out_.line("Parameters par_;");
     out_.line("Real h_;");
     out_.line("State z_;");
-    out_.line("State carry_;");
+    if (carry_) out_.line("State carry_;");
     if (!has_time_) out_.line("long long steps_ = 0;");
     if (composed_) out_.line("Real lengths_[substeps] = {};");
     if (coefficients_) out_.line(fmt::format("Coefficients k_{};", each));
@@ -283,7 +299,24 @@ class StepWriter {
     if (large_) out_.line(rest_ ? "State dz_, rest_;" : "State dz_;");
   }
 
+  // Without a look at every step.
+  void write_unchecked_advance() {
+    out_.lines(R"(// So many steps.  The report says whether the state is finite afterwards.
+StepReport advance(long long steps) {
+  StepReport total;
+  for (long long i = 0; i < steps; ++i) static_cast<void>(step());
+  Real rest = 0;
+)");
+    out_.indent();
+    write_each([](const std::string& x) { return fmt::format("rest += z_.{0} - z_.{0};", x); });
+    out_.line("total.converged = rest == 0;");
+    out_.line("total.increment = rest;");
+    out_.line("return total;");
+    out_.close();
+  }
+
   void write_advance() {
+    if (code_.unchecked) return write_unchecked_advance();
     out_.lines(
         R"(// Up to `steps` steps; stops at the first failure.  The report sums the iterations.
 StepReport advance(long long steps) {
@@ -307,7 +340,7 @@ StepReport advance(long long steps) {
     out_.line("// Begins anew at z, as a new Propagator would.");
     out_.open("void reset(const State& z)");
     out_.line("z_ = z;");
-    out_.line("carry_ = State();");
+    if (carry_) out_.line("carry_ = State();");
     if (!has_time_) out_.line("steps_ = 0;");
     if (start_ && composed_ && !large_) {
       out_.line("for (Start& start : start_) start = Start();");
@@ -338,9 +371,11 @@ StepReport advance(long long steps) {
 
   void write_accessors() {
     out_.line("[[nodiscard]] const State& state() const { return z_; }");
-    out_.line(
-        "// What rounding took from the state: the sum of both is what the steps go on from.");
-    out_.line("[[nodiscard]] const State& carry() const { return carry_; }");
+    if (carry_) {
+      out_.line(
+          "// What rounding took from the state: the sum of both is what the steps go on from.");
+      out_.line("[[nodiscard]] const State& carry() const { return carry_; }");
+    }
     if (has_time_) {
       const std::string& t = context_.state_field(context_.n() - 1);
       out_.line(fmt::format("[[nodiscard]] Real time() const {{ return z_.{}; }}", t));
@@ -355,7 +390,7 @@ StepReport advance(long long steps) {
   CodeWriter& out_;
   const EmitContext& context_;
   const StepCode& code_;
-  bool coefficients_, start_, rest_, composed_, large_, has_time_;
+  bool coefficients_, start_, rest_, carry_, composed_, large_, has_time_;
 };
 
 }  // namespace

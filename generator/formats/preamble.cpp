@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "generator/program/code_cost.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -28,6 +30,23 @@ void write_cost(CodeWriter& out, const Program& program) {
   } else {
     out.line(fmt::format("//   cost      per iteration: {}; per step besides: {}",
                          to_text(iteration), to_text(straight)));
+  }
+}
+
+void write_cost_of_loops(CodeWriter& out, const EmitContext& context) {
+  if (!context.equations.scheme.has_member()) {
+    const Cost gradient = context.code.routine("potential_gradient") == nullptr
+                              ? routine_cost(context.code, "gradient")
+                              : sum(routine_cost(context.code, "potential_gradient"),
+                                    routine_cost(context.code, "kinetic_gradient"));
+    return out.line("//   cost      per gradient: " + to_text(gradient));
+  }
+  const StepCost step = step_cost(context.code);
+  if (step.iteration == Cost{}) {
+    out.line("//   cost      per step: " + to_text(step.besides));
+  } else {
+    out.line(fmt::format("//   cost      per iteration: {}; per step besides: {}",
+                         to_text(step.iteration), to_text(step.besides)));
   }
 }
 
@@ -115,8 +134,9 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
     out.comment(first ? "//   left out  " : "//             ", item);
     first = false;
   }
-  if (context.arrays()) return;
-  if (scheme.has_member()) {
+  if (context.arrays()) {
+    write_cost_of_loops(out, context);
+  } else if (scheme.has_member()) {
     write_cost(out, context.program);
   } else {
     write_gradient_cost(out, context.program);

@@ -1,6 +1,7 @@
 #include "generator/interpreter/interpreter.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "generator/base/diagnostic.hpp"
 
@@ -9,6 +10,11 @@ namespace hamgen {
 namespace {
 
 using Quad = numerics_of_quad::Real;
+
+template <class Real>
+bool is_finite(const std::vector<Real>& numbers) {
+  return std::ranges::all_of(numbers, [](Real x) { return x - x == 0; });
+}
 
 }  // namespace
 
@@ -105,7 +111,9 @@ typename Interpreter<Real>::Report Interpreter<Real>::substep(std::size_t i) {
     substep.history->record(value());
   }
   for (std::size_t k = 0; k < z_.numbers.size(); ++k) {
-    if (code_->has_rest()) {
+    if (!code_->has_carry()) {
+      z_.numbers[k] += dz.numbers[k];
+    } else if (code_->has_rest()) {
       NumericsOf<Real>::add_rest(z_.numbers[k], carry_.numbers[k], dz.numbers[k], rest.numbers[k]);
     } else {
       NumericsOf<Real>::add_small(z_.numbers[k], carry_.numbers[k], dz.numbers[k]);
@@ -134,7 +142,9 @@ typename Interpreter<Real>::Report Interpreter<Real>::step() {
     const Report report = substep(i);
     total.iterations += report.iterations;
     total.increment = report.increment;
-    if (report.converged) continue;
+    const bool ends = code_->unchecked && !is_finite(z_.numbers);
+    if (ends) total.increment = Real(std::numeric_limits<double>::infinity());
+    if (report.converged && !ends) continue;
     z_.numbers = state;
     carry_.numbers = carry;
     // Those before have seen a step that will not be.

@@ -110,6 +110,38 @@ void mention(const Body& body, Mentions& found) {
   for (const Instruction& node : body) std::visit(Reader{found}, node.value);
 }
 
+// Every value of a node, to be changed.
+struct Writer {
+  const std::function<void(Expression&)>& use;
+
+  void operator()(Let& let) const { use(let.value); }
+  void operator()(Array& array) const { std::ranges::for_each(array.values, use); }
+  void operator()(Assign& assign) const { use(assign.value); }
+  void operator()(Accumulate& sum) const { use(sum.value); }
+  void operator()(Collect& sum) const { use(sum.value); }
+  void operator()(Put& put) const { use(put.value); }
+  void operator()(Iterate& iterate) const { (*this)(iterate.unknowns); }
+  void operator()(IterateArray& iterate) const {
+    for (UnknownArray& unknown : iterate.unknowns) use(unknown.beside);
+  }
+  void operator()(Refine& refine) const {
+    (*this)(refine.unknowns);
+    std::ranges::for_each(refine.gradient, use);
+  }
+  void operator()(Sweep& sweep) const { (*this)(sweep.unknowns); }
+  void operator()(Return& end) const {
+    if (end.value) use(*end.value);
+  }
+  void operator()(std::vector<Unknown>& unknowns) const {
+    for (Unknown& unknown : unknowns) {
+      use(unknown.start);
+      use(unknown.correction);
+    }
+  }
+  template <class Other>
+  void operator()(Other& /*without values*/) const {}
+};
+
 }  // namespace
 
 std::vector<const Body*> inner_bodies(const Instruction& instruction) {
@@ -131,6 +163,10 @@ std::vector<Body*> inner_bodies(Instruction& instruction) {
     bodies.push_back(const_cast<Body*>(body));  // of an instruction that is not const
   }
   return bodies;
+}
+
+void for_values(Instruction& instruction, const std::function<void(Expression&)>& use) {
+  std::visit(Writer{use}, instruction.value);
 }
 
 std::set<std::string> called_routines(const Body& body) {

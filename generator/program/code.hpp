@@ -6,6 +6,7 @@
 // at which place it stands: "z.q" in the field q of the argument z.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -263,6 +264,8 @@ struct Routine {
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
 [[nodiscard]] std::vector<Body*> inner_bodies(Instruction& instruction);
+// Every value of the instruction itself, not of the bodies inside it.
+void for_values(Instruction& instruction, const std::function<void(Expression&)>& use);
 // The names of what is called.
 [[nodiscard]] std::set<std::string> called_routines(const Body& body);
 // Every symbol that the instructions read.

@@ -19,7 +19,7 @@ void add_cost(const Expression& e, Cost& total) {
     case Kind::symbol:
       return;
     case Kind::sum:
-      total.additions += static_cast<int>(e.operands().size()) - 1;
+      total.additions += static_cast<long>(e.operands().size()) - 1;
       return;
     case Kind::function:
       if (e.name() == kProductError) {
@@ -61,9 +61,52 @@ Cost cost(const std::vector<Statement>& statements) {
   return total;
 }
 
+namespace {
+
+long operations_of(const std::vector<Statement>& statements) {
+  const Cost total = cost(statements);
+  return total.additions + total.multiplications + 10 * (total.divisions + total.functions);
+}
+
+// Of a solve: what its body takes, and elimination where that is not written out.
+long operations_of(const Solve& solve) {
+  const auto size = static_cast<long>(solve.matrix.size());
+  return operations_of(solve.body) + size * size * size / 3 + 2 * size * size;
+}
+
+long operations_of_member(const Program& program) {
+  constexpr long iterations = 2;
+  long total = 0;
+  for (const Stage& stage : program.stages) {
+    total += operations_of(stage.before) + operations_of(stage.after);
+    if (stage.solve) total += iterations * operations_of(*stage.solve);
+  }
+  return total;
+}
+
+}  // namespace
+
+long operations_per_step(const Program& program) {
+  const Scheme& scheme = program.plan.equations.scheme;
+  const auto variables = static_cast<long>(program.increments.size());
+  if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
+    const auto parts = static_cast<long>(splitting->kicks.size());
+    return parts * (operations_of(program.potential_gradient.statements) +
+                    operations_of(program.kinetic_gradient.statements) +
+                    4L * program.plan.equations.mechanics.degrees_of_freedom);
+  }
+  if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
+    const auto stages = static_cast<long>(tableau->b.size());
+    return stages * (operations_of(program.vector_field.statements) +
+                     stages * 2L * program.plan.equations.mechanics.degrees_of_freedom);
+  }
+  const auto substeps = std::max<long>(1, static_cast<long>(program.sequence.substeps.size()));
+  return substeps * (operations_of_member(program) + 6 * variables);
+}
+
 std::string to_text(const Cost& cost) {
   std::string text;
-  auto add = [&](int count, const char* what) {
+  auto add = [&](long count, const char* what) {
     if (count != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
   add(cost.additions + cost.multiplications, "+ - *");

@@ -52,10 +52,10 @@ struct Evaluation {
 };
 
 struct Cost {
-  int additions = 0;  // + and -
-  int multiplications = 0;
-  int divisions = 0;
-  int functions = 0;  // sqrt, sin, pow, ...
+  long additions = 0;  // + and -
+  long multiplications = 0;
+  long divisions = 0;
+  long functions = 0;  // sqrt, sin, pow, ...
   bool operator==(const Cost&) const = default;
 };
 
@@ -79,7 +79,9 @@ struct Program {
   Evaluation vector_field = {};
   // What stands around the instructions.
   Sequence sequence = {};
-  bool tangent = false;  // is the tangent map wanted?
+  bool tangent = false;     // is the tangent map wanted?
+  bool plain_sums = false;  // what rounding takes from the state is lost
+  bool unchecked = false;   // no step fails, but where numbers end
   // For that of a member that is solved.
   std::optional<Linearisation> linearisation = {};
   // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the
@@ -95,5 +97,8 @@ struct Program {
 [[nodiscard]] Program build_program(const SolvePlan& plan);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);
+// Of a step that is written out, with two iterations where there are any; a function counts as 10,
+// and so does a division.
+[[nodiscard]] long operations_per_step(const Program& program);
 
 }  // namespace hamgen

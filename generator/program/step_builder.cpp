@@ -148,7 +148,7 @@ Expression StepBuilder::row(int i, int section) {
     small.push_back(lost);
   }
   if (keeps_gradients_) {
-    terms[0] = named_rest("carry of " + name_of(i), Expression::sum(std::move(small)), section);
+    terms[0] = named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
   }
   return equations_.mechanics.variable(i) +
          named_rest(name_of(i), Expression::sum(std::move(terms)), section);
@@ -182,7 +182,7 @@ Expression StepBuilder::lacking(int i, const Expression& value, int section) {
     small.push_back(lost);
   }
   return difference -
-         named_rest("carry of " + name_of(i), Expression::sum(std::move(small)), section);
+         named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
 }
 
 std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, int section) {

@@ -10,6 +10,7 @@
 #include "generator/program/loop_member.hpp"
 #include "generator/program/method_tangents.hpp"
 #include "generator/program/origins.hpp"
+#include "generator/program/plain_sums.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
@@ -217,12 +218,24 @@ void find_changed(StepCode& code, const Environment& environment) {
   }
 }
 
+// An explicit step of a polynomial has a value everywhere.
+void leave_unchecked(StepCode& code) {
+  const auto solve = std::ranges::find(code.routines, "solve", &Routine::name);
+  for (Instruction& instruction : solve->body) {
+    auto* end = std::get_if<Return>(&instruction.value);
+    if (end == nullptr || !end->success) continue;
+    end->finite.clear();
+    end->ranges.clear();
+    code.unchecked = true;
+  }
+}
+
 }  // namespace
 
-bool StepCode::has_rest() const {
+bool StepCode::solve_takes(std::string_view argument) const {
   const Routine* solve = routine("solve");
   return solve != nullptr &&
-         std::ranges::find(solve->arguments, "rest", &Argument::name) != solve->arguments.end();
+         std::ranges::find(solve->arguments, argument, &Argument::name) != solve->arguments.end();
 }
 
 const Record* StepCode::record(std::string_view name) const {
@@ -280,6 +293,8 @@ StepCode step_code(const Program& program) {
   } else {
     code.routines.push_back(explicit_runge_kutta_routine(environment, program.sequence.stages));
   }
+  if (program.unchecked) leave_unchecked(code);
+  if (program.plain_sums) use_plain_sums(code);
   if (program.tangent) add_tangent(code, environment, program);
   find_changed(code, environment);
   trace_origins(code, environment, equations);

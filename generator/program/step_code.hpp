@@ -21,8 +21,8 @@ struct RuleOfNewton {
 //
 //   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
 //
-// (dz + rest where solve has a place for the rest of it), with k_i = prepare(par, h_i), and start_i
-// what substep i remembers of the step before.
+// (dz + rest where solve has a place for the rest of it; without the carry where sums are plain),
+// with k_i = prepare(par, h_i), and start_i what substep i remembers of the step before.
 struct StepCode {
   std::vector<Record> records;           // Parameters, State; Coefficients, Start where they are
   std::vector<Routine> routines;         // in the order in which they use each other
@@ -30,17 +30,23 @@ struct StepCode {
   int unknowns =
       0;  // of the implicit equations, whose solutions are extrapolated from step to step
   std::vector<RuleOfNewton> rules = {};
-  bool retries = false;  // is a step that failed tried again without what start remembers?
+  bool unchecked = false;  // no step fails: whether the state is finite is looked at by who steps
+  bool retries = false;    // is a step that failed tried again without what start remembers?
   std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
   std::vector<Place> changed;              // fields of State that a step may change
   std::vector<std::string>
       parameters;  // in the order of their record; E0 last, if the step uses it
 
   // Does solve leave what is small of an increment in `rest`?
-  [[nodiscard]] bool has_rest() const;
+  [[nodiscard]] bool has_rest() const { return solve_takes("rest"); }
+  // Is what rounding takes from the state carried along?
+  [[nodiscard]] bool has_carry() const { return solve_takes("carry"); }
   // Null if there is none of this name.
   [[nodiscard]] const Record* record(std::string_view name) const;
   [[nodiscard]] const Routine* routine(std::string_view name) const;
+
+ private:
+  [[nodiscard]] bool solve_takes(std::string_view argument) const;
 };
 
 // The routine of this name, if there is one, and those that it calls.

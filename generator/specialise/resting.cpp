@@ -195,7 +195,7 @@ std::string to_text(const std::vector<int>& resting, const Mechanics& mechanics)
     for (const int i : resting) {
       const std::string& name = mechanics.variables[at(momenta ? n + i : i)].name;
       const auto& [rest, all] = arrays[base_of(name)];
-      const std::string text = rest == all ? base_of(name) : name;
+      const std::string text = rest == all && all > 1 ? base_of(name) : name;
       if (said.insert(text).second) names.push_back(text);
     }
   }

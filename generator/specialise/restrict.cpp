@@ -35,10 +35,11 @@ Expression without(const Expression& energy, const std::set<std::string>& names)
     const std::set<std::string> used = symbols(e);
     return std::ranges::any_of(used, [&](const auto& name) { return names.contains(name); });
   };
-  if (energy.kind() != Kind::sum) return mentions(energy) ? Expression(0) : energy;
+  const auto [factor, rest] = energy.split_coefficient();
+  if (rest.kind() != Kind::sum) return mentions(energy) ? Expression(0) : energy;
   std::vector<Expression> terms;
-  for (const Expression& term : energy.operands()) {
-    if (!mentions(term)) terms.push_back(term);
+  for (const Expression& term : rest.operands()) {
+    if (!mentions(term)) terms.push_back(Expression(factor) * term);
   }
   return Expression::sum(std::move(terms));
 }
@@ -54,9 +55,10 @@ Substitution renumbered(const Mechanics& whole, const std::vector<int>& places) 
   return replacements;
 }
 
-// The kernel without the slots of what is zero.  Arrays stay or go as a whole, so that a position
-// moves by the same number in all instances.
-Kernel restricted(const Kernel& kernel, const std::vector<int>& places) {
+// The kernel without the slots of what is zero, and without terms of what nobody looks at.  Arrays
+// stay or go as a whole, so that a position moves by the same number in all instances.
+Kernel restricted(const Kernel& kernel, const std::vector<int>& places, const Mechanics& whole,
+                  const std::set<std::string>& unknown) {
   Kernel result;
   result.ranges = kernel.ranges;
   result.parameters = kernel.parameters;
@@ -65,19 +67,22 @@ Kernel restricted(const Kernel& kernel, const std::vector<int>& places) {
   for (const KernelRange& range : kernel.ranges)
     first.push_back(value_at(range.lower, kernel.ranges, first));
   Substitution zeros;
+  std::set<std::string> unknown_slots;
   std::vector<std::size_t> slots;
   for (std::size_t s = 0; s < kernel.slots.size(); ++s) {
     const long position = value_at(kernel.slots[s].position, kernel.ranges, first);
     const int place = places[static_cast<std::size_t>(position)];
     if (place < 0) {
       zeros.emplace(kernel.slots[s].symbol, Expression(0));
+      if (unknown.contains(whole.variables[place_at(static_cast<int>(position))].name))
+        unknown_slots.insert(kernel.slots[s].symbol);
       continue;
     }
     slots.push_back(s);
     result.slots.push_back(kernel.slots[s]);
     result.slots.back().position.constant += place - position;
   }
-  result.value = substitute(kernel.value, zeros);
+  result.value = substitute(without(kernel.value, unknown_slots), zeros);
   for (std::size_t i = 0; i < slots.size(); ++i) {
     result.gradient.push_back(substitute(kernel.gradient[slots[i]], zeros));
     for (std::size_t j = i; j < slots.size(); ++j) {
@@ -108,8 +113,15 @@ void restrict_member(Member& member, const std::vector<int>& kept) {
 
 }  // namespace
 
-Expression restrict_to(const Expression& e, const Mechanics& whole, const std::vector<int>& kept) {
-  return substitute(e, renumbered(whole, new_places(whole.degrees_of_freedom, kept)));
+Expression restrict_to(const Expression& e, const Mechanics& whole, const std::vector<int>& kept,
+                       const Unobserved& left) {
+  std::set<std::string> unknown;
+  for (const int i : left.dropped) {
+    unknown.insert(whole.variables[place_at(i)].name);
+    unknown.insert(whole.variables[place_at(whole.degrees_of_freedom + i)].name);
+  }
+  return substitute(without(e, unknown),
+                    renumbered(whole, new_places(whole.degrees_of_freedom, kept)));
 }
 
 Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
@@ -155,7 +167,7 @@ Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
     if (!vanishes(entry)) result.hessian.emplace(std::pair(row, column), entry);
   }
   for (const Kernel& kernel : mechanics.kernels) {
-    Kernel rest = restricted(kernel, places);
+    Kernel rest = restricted(kernel, places, mechanics, unknown);
     if (!rest.slots.empty()) result.kernels.push_back(std::move(rest));
   }
   for (NamedExpression& invariant : result.invariants) invariant.value = here(invariant.value);

@@ -12,18 +12,12 @@
 #include <vector>
 
 #include "generator/language/model.hpp"
-#include "generator/language/scene.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
+#include "generator/specialise/linear_change.hpp"
+#include "generator/specialise/scene_facts.hpp"
 
 namespace hamgen {
-
-// The scene an integrator is made for.
-struct SceneFacts {
-  SceneRequest asked;
-  SceneValues values;          // what it means
-  std::set<std::string> kept;  // variables and parameters that may get other values
-};
 
 // A parameter whose value is part of the code.
 struct FoldedParameter {
@@ -84,7 +78,9 @@ struct Unobserved {
 // A variable z_i is needed if it is observed, or stands in the component of J grad H that moves one
 // that is, or in a component that its stage value takes a multiple of by C.  A p_i whose q_i is not
 // needed is a constant if H_{q_i} = 0 and row p_i of C takes nothing that moves: pbar_i = p_i.
-// Nothing is left out where sums stay loops, and where `observed`, names of variables, is empty.
+// Where sums stay loops arrays are left out as a whole, and a momentum that is a constant stays: a
+// loop over momenta that are parameters would be another one.  Nothing is left out where
+// `observed`, names of variables and "energy", is empty.
 [[nodiscard]] Unobserved unobserved(const Mechanics& mechanics, const Scheme& scheme,
                                     const std::set<std::string>& observed);
 [[nodiscard]] std::vector<std::string> to_text(const Unobserved& left, const Mechanics& mechanics);
@@ -95,24 +91,44 @@ struct Unobserved {
 [[nodiscard]] Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
                                     const Unobserved& left = {});
 [[nodiscard]] Scheme restrict_to(const Scheme& scheme, const std::vector<int>& kept);
-// An expression in the variables of the whole system in those of the restricted one.
+// H in the variables of the whole system in those of the restricted one, without the terms of what
+// is not observed.
 [[nodiscard]] Expression restrict_to(const Expression& e, const Mechanics& whole,
-                                     const std::vector<int>& kept);
+                                     const std::vector<int>& kept, const Unobserved& left);
 
 // A system and its scheme as a scene needs them.
 struct Specialised {
-  Mechanics whole;  // all degrees of freedom
+  Mechanics given;  // all degrees of freedom, as the model has them
+  Scheme given_scheme;
+  std::vector<LinearChange> changes;  // of variables, one after the other
+  Mechanics whole;                    // after these
   Scheme whole_scheme;
   Mechanics mechanics;
   Scheme scheme;
-  // Degrees of freedom of the whole system.
+  // Degrees of freedom of `whole`.
   std::vector<int> kept, resting;
   Unobserved left;
   std::vector<std::string> left_out;  // one line each
 };
 // All of them without a scene.  `model` is that of `whole`.
+enum class Variables { changed, as_they_are };
 [[nodiscard]] Specialised specialise(const Model& model, Mechanics whole, Scheme scheme,
-                                     const std::optional<SceneFacts>& scene);
+                                     const std::optional<SceneFacts>& scene,
+                                     Variables variables = Variables::changed);
+
+// How the model's variables are those of the step, and the other way round.
+struct StateMap {
+  struct Sum {
+    bool known = true;                      // else nothing observed depends on it
+    std::map<int, Rational> of = {};        // variables of the step
+    std::map<int, Rational> at_start = {};  // variables of the model, where the scene begins
+  };
+  std::vector<Sum> model;  // 2n
+  std::vector<Sum> step;   // 2m, where the scene begins
+  std::vector<std::string> step_names;
+  std::map<std::string, Sum> constants;  // momenta that are parameters of the step
+};
+[[nodiscard]] StateMap state_map(const Specialised& system);
 
 // "z, pz: they start at 0 and nothing moves them", one line for arrays that rest as a whole.
 [[nodiscard]] std::string to_text(const std::vector<int>& resting, const Mechanics& mechanics);

@@ -92,10 +92,72 @@ class Reachability {
   std::set<int> needed_;
 };
 
+// Array of a variable: "q" of "q[3]".
+std::string array_of(const std::string& name) { return name.substr(0, name.find('[')); }
+
+// The same where sums stay loops, of arrays as a whole: C has no entries between two of them, for
+// it is one for all degrees of freedom, and a coordinate is needed with its momentum.
+class ArrayReachability {
+ public:
+  explicit ArrayReachability(const Mechanics& mechanics)
+      : mechanics_(mechanics), n_(mechanics.degrees_of_freedom) {
+    for (const Kernel& kernel : mechanics.kernels) {
+      std::vector<std::string> arrays;
+      for (const Slot& slot : kernel.slots) arrays.push_back(array_of_slot(slot, kernel));
+      for (std::size_t s = 0; s < arrays.size(); ++s) {
+        const std::set<std::string> used = symbols(kernel.gradient[s]);
+        for (std::size_t t = 0; t < arrays.size(); ++t) {
+          if (used.contains(kernel.slots[t].symbol)) movers_[arrays[s]].insert(arrays[t]);
+        }
+      }
+    }
+  }
+
+  // By the name of a coordinate or of a momentum, or of an element.
+  void need(const std::string& name) {
+    for (int v = 0; v < 2 * n_; ++v) {
+      const std::string& each = mechanics_.variables[static_cast<std::size_t>(v)].name;
+      if (each == name || array_of(each) == name) need_array(coordinates_of(v));
+    }
+  }
+
+  [[nodiscard]] Unobserved run() const {
+    Unobserved result;
+    for (int i = 0; i < n_; ++i) {
+      if (!needed_.contains(coordinates_of(i))) result.dropped.push_back(i);
+    }
+    return result;
+  }
+
+ private:
+  // The array of the coordinate that z_v belongs to.
+  [[nodiscard]] std::string coordinates_of(int v) const {
+    return array_of(mechanics_.variables[static_cast<std::size_t>(v % n_)].name);
+  }
+  [[nodiscard]] std::string array_of_slot(const Slot& slot, const Kernel& kernel) const {
+    std::vector<long> first;
+    for (const KernelRange& range : kernel.ranges)
+      first.push_back(value_at(range.lower, kernel.ranges, first));
+    return coordinates_of(static_cast<int>(value_at(slot.position, kernel.ranges, first)));
+  }
+  void need_array(const std::string& array) {
+    if (!needed_.insert(array).second) return;
+    for (const std::string& other : movers_[array]) need_array(other);
+  }
+
+  const Mechanics& mechanics_;
+  int n_;
+  std::map<std::string, std::set<std::string>> movers_;  // what moves the variables of an array
+  std::set<std::string> needed_;
+};
+
 std::string names_of(const std::vector<int>& pairs, int first, const Mechanics& mechanics) {
   std::vector<std::string> names;
-  for (const int i : pairs)
-    names.push_back(mechanics.variables[static_cast<std::size_t>(first + i)].name);
+  for (const int i : pairs) {
+    const std::string& name = mechanics.variables[static_cast<std::size_t>(first + i)].name;
+    const std::string text = mechanics.keeps_sums() ? array_of(name) : name;
+    if (std::ranges::find(names, text) == names.end()) names.push_back(text);
+  }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -103,10 +165,18 @@ std::string names_of(const std::vector<int>& pairs, int first, const Mechanics& 
 
 Unobserved unobserved(const Mechanics& mechanics, const Scheme& scheme,
                       const std::set<std::string>& observed) {
-  if (mechanics.keeps_sums() || observed.empty()) return {};
-  Reachability reachability(mechanics, scheme);
-  reachability.need(observed);
-  Unobserved left = reachability.run();
+  if (observed.empty()) return {};
+  Unobserved left;
+  if (mechanics.keeps_sums()) {
+    if (observed.contains("energy")) return {};
+    ArrayReachability reachability(mechanics);
+    for (const std::string& name : observed) reachability.need(name);
+    left = reachability.run();
+  } else {
+    Reachability reachability(mechanics, scheme);
+    reachability.need(observed);
+    left = reachability.run();
+  }
   const std::size_t all = left.dropped.size() + left.cyclic.size();
   if (all == static_cast<std::size_t>(mechanics.degrees_of_freedom)) return {};
   return left;

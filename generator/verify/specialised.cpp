@@ -43,7 +43,9 @@ class SpecialisedClaims {
         system_(system),
         scene_(scene),
         n_(system.whole.degrees_of_freedom),
-        hamiltonian_(written_out_hamiltonian(folded.model)),
+        given_(written_out_hamiltonian(folded.model)),
+        start_(system_start()),
+        hamiltonian_(in_new_variables(given_)),
         slopes_(hamiltonian_) {
     for (const int i : system.resting) {
       zeros_.emplace(name(i), Expression(0));
@@ -70,15 +72,24 @@ class SpecialisedClaims {
       if (value(each) != value(other))
         return fmt::format("{} and {} are not equal in the scene", each, other);
     }
+    for (const LinearChange& change : system_.changes) {
+      for (const auto& [each, other] : change.united) {
+        if (value(each) != value(other))
+          return fmt::format("{} and {} are not equal in the scene", each, other);
+      }
+    }
+    if (const std::string wrong = wrong_change(); !wrong.empty()) return wrong;
     for (const int i : system_.resting) {
-      if (scene_.values.q[position(i)] != 0) return name(i) + " does not start at 0";
-      if (scene_.values.p[position(i)] != 0) return name(n_ + i) + " does not start at 0";
+      for (const int v : {i, n_ + i}) {
+        if (start_[position(v)] != 0) return name(v) + " does not start at 0";
+      }
     }
     return "";
   }
 
   Identities run() {
     claim_values();
+    claim_changes();
     claim_motion();
     claim_system();
     if (system_.whole_scheme.has_member()) claim_matrix();
@@ -97,6 +108,139 @@ class SpecialisedClaims {
   // (J grad H)_i there.
   Expression flow(int i) { return i < n_ ? slope(i + n_) : -slope(i - n_); }
 
+  // Where the scene begins, in the variables of the whole system.
+  [[nodiscard]] std::vector<Rational> system_start() const {
+    std::vector<Rational> start = scene_.values.q;
+    start.insert(start.end(), scene_.values.p.begin(), scene_.values.p.end());
+    for (const LinearChange& change : system_.changes)
+      start = times(change.projection(), start, 2 * change.to);
+    return start;
+  }
+  static std::vector<Rational> times(const RationalMatrix& matrix, const std::vector<Rational>& z,
+                                     int rows) {
+    std::vector<Rational> result(position(rows));
+    for (const auto& [place, entry] : matrix)
+      result[position(place.first)] += entry * z[position(place.second)];
+    return result;
+  }
+
+  // A^T B is not 1, or the scene does not begin in the image of L.
+  [[nodiscard]] std::string wrong_change() const {
+    std::vector<Rational> start = scene_.values.q;
+    start.insert(start.end(), scene_.values.p.begin(), scene_.values.p.end());
+    const Mechanics* before = &system_.given;
+    for (const LinearChange& change : system_.changes) {
+      RationalMatrix unit;
+      for (int i = 0; i < 2 * change.to; ++i) unit[{i, i}] = 1;
+      if (product(change.projection(), change.embedding()) != unit)
+        return "the new variables have another symplectic form";
+      const std::vector<Rational> there = times(change.projection(), start, 2 * change.to);
+      const std::vector<Rational> back = times(change.embedding(), there, 2 * change.from);
+      for (std::size_t i = 0; i < back.size() && change.from != change.to; ++i) {
+        if (!is_same_number(back[i], start[i]))
+          return fmt::format("{} does not begin as the new variables have it",
+                             old_name(*before, change, static_cast<int>(i)));
+      }
+      start = there;
+    }
+    return "";
+  }
+  // Of the variables before a change: those of the model, or those of the change before.
+  [[nodiscard]] std::string old_name(const Mechanics& given, const LinearChange& change,
+                                     int i) const {
+    const LinearChange* first = system_.changes.data();
+    return &change == first ? given.variables[position(i)].name
+                            : (&change - 1)->variables[position(i)].name;
+  }
+
+  // z -> L Z, and parameters that are one.
+  [[nodiscard]] Substitution substitution(const LinearChange& change,
+                                          const Expression& energy) const {
+    Substitution result = united_parameters(change.united, energy);
+    std::map<int, std::vector<Expression>> sums;
+    for (const auto& [place, entry] : change.embedding())
+      sums[place.first].push_back(Expression(entry) *
+                                  Expression::symbol(change.variables[position(place.second)].name,
+                                                     kRankOfVariable + place.second));
+    for (int i = 0; i < 2 * change.from; ++i)
+      result.emplace(old_name(system_.given, change, i), Expression::sum(sums[i]));
+    return result;
+  }
+  [[nodiscard]] Expression in_new_variables(Expression energy) const {
+    for (const LinearChange& change : system_.changes)
+      energy = substitute(energy, substitution(change, energy));
+    return energy;
+  }
+
+  // Note [a step in new variables]: grad H(L Z) = (B, A) grad H'(Z) and C L = L C'.
+  void claim_changes() {
+    Expression energy = given_;
+    std::optional<SparseMatrix> c;
+    if (system_.given_scheme.has_member())
+      c = full(system_.given_scheme.member(), system_.given.degrees_of_freedom);
+    for (const LinearChange& change : system_.changes) {
+      const Substitution here = substitution(change, energy);
+      const Expression image = substitute(energy, here);
+      claim_gradient(change, substitute(energy, united_parameters(change.united, energy)), image,
+                     here);
+      energy = image;
+    }
+    if (c && !system_.changes.empty()) claim_changed_matrix(*c);
+  }
+  void claim_gradient(const LinearChange& change, const Expression& energy, const Expression& image,
+                      const Substitution& here) {
+    Slopes before(energy);
+    Slopes after(image);
+    const auto rows = [](const RationalMatrix& matrix, int row) {
+      std::vector<std::pair<int, Rational>> entries;
+      for (auto it = matrix.lower_bound({row, 0}); it != matrix.end() && it->first.first == row;
+           ++it)
+        entries.emplace_back(it->first.second, it->second);
+      return entries;
+    };
+    for (int i = 0; i < 2 * change.from; ++i) {
+      const bool is_p = i >= change.from;
+      Expression sum(0);
+      for (const auto& [k, entry] : rows(is_p ? change.a : change.b, is_p ? i - change.from : i))
+        sum = sum + Expression(entry) *
+                        after.by(change.variables[position(is_p ? k + change.to : k)].name);
+      const std::string name = old_name(system_.given, change, i);
+      claim("dH/d" + name + " where the scene is", substitute(before.by(name), here), sum);
+    }
+  }
+  static SparseMatrix full(const Member& member, int n) {
+    SparseMatrix c;
+    for (const auto& [place, entry] : member.c) {
+      if (member.degrees_of_freedom == n) c.emplace(place, entry);
+      for (int i = 0; i < n && member.degrees_of_freedom < n; ++i)
+        c.emplace(std::pair(place.first * n + i, place.second * n + i), entry);
+    }
+    return c;
+  }
+  // Over all changes at once.
+  void claim_changed_matrix(const SparseMatrix& c) {
+    RationalMatrix l;
+    for (int i = 0; i < 2 * system_.given.degrees_of_freedom; ++i) l[{i, i}] = 1;
+    for (const LinearChange& change : system_.changes) l = product(l, change.embedding());
+    std::map<std::pair<int, int>, std::vector<Expression>> difference;
+    for (const auto& [place, entry] : c) {
+      for (const auto& [other, factor] : l) {
+        if (other.first == place.second)
+          difference[{place.first, other.second}].push_back(entry * Expression(factor));
+      }
+    }
+    for (const auto& [place, entry] : system_.whole_scheme.member().c) {
+      for (const auto& [other, factor] : l) {
+        if (other.second == place.first)
+          difference[{other.first, place.second}].push_back(-(entry * Expression(factor)));
+      }
+    }
+    for (const auto& [place, terms] : difference)
+      claim(fmt::format("C moves {} by {}", system_.given.variables[position(place.first)].name,
+                        name(place.second)),
+            Expression::sum(terms), Expression(0));
+  }
+
   // H with the scene's values is the H that was made of it.
   void claim_values() {
     Substitution values;
@@ -108,8 +252,7 @@ class SpecialisedClaims {
                               known == values.end() ? Expression::symbol(other) : known->second);
     }
     if (values.empty()) return;
-    claim("H with the scene's values", hamiltonian_,
-          substitute(written_out_hamiltonian(model_), values));
+    claim("H with the scene's values", given_, substitute(written_out_hamiltonian(model_), values));
   }
 
   // What rests is not moved, and a cyclic coordinate does not occur.
@@ -122,10 +265,14 @@ class SpecialisedClaims {
       claim("what moves " + name(n_ + i), flow(n_ + i), Expression(0));
   }
 
-  // What is kept moves as in the whole.  Loops are held against H on their own.
+  // What is kept moves as in the whole.  Loops are held against H on their own, here it is what
+  // they are held against.
   void claim_system() {
-    if (system_.mechanics.keeps_sums()) return;
-    const Expression& left = system_.mechanics.energy;
+    const bool loops = system_.mechanics.keeps_sums();
+    if (loops && system_.left.dropped.empty()) return;
+    const Expression left =
+        loops ? restrict_to(hamiltonian_, system_.whole, system_.kept, system_.left)
+              : system_.mechanics.energy;
     if (system_.left.dropped.empty())
       claim("H of what is left", left, substitute(hamiltonian_, zeros_));
     Slopes slopes(left);
@@ -180,7 +327,9 @@ class SpecialisedClaims {
   const Specialised& system_;
   const SceneFacts& scene_;
   int n_;
-  Expression hamiltonian_;  // with the values that were put in
+  Expression given_;  // H with the values that were put in
+  std::vector<Rational> start_;
+  Expression hamiltonian_;  // after the changes of variables
   Slopes slopes_;
   Substitution zeros_;
   Identities identities_;

@@ -24,7 +24,9 @@ struct StepUnderProof {
   [[nodiscard]] const std::string& name(int i) const {
     return mechanics.variables[static_cast<std::size_t>(i)].name;
   }
+  // 0 where sums are plain.
   [[nodiscard]] Expression carry(int i) const {
+    if (!code.has_carry()) return Expression(0);
     return Expression::symbol("carry(" + name(i) + ")", kRankOfVariable + i);
   }
   // With z, the carry and the parameters where the routines look for them, and no step yet.

@@ -3,7 +3,7 @@ hamgen_generate(TARGET target MODEL model.ham
                 [SCHEME name] [ALPHA x] [BETA x] [GAMMA x] [ORDER n]
                 [GAUGE locally-exact or C] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
-                [SCENE name] [OBSERVE list] [KEEP name...]
+                [SCENE name] [OBSERVE list] [KEEP name...] [PLAIN_SUMS]
                 [NAMESPACE name] [SUPPORT own or shared] [PREFIX folder])
 
 Emits the integrator of a Hamiltonian as a header when the target is built, and again whenever the
@@ -26,7 +26,7 @@ Nothing is linked, except libquadmath for SCALAR quad.  A header whose plan need
 function(hamgen_generate)
   set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE SUPPORT
                 SCENE OBSERVE PREFIX)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "${one_value}" "FOLD;SIZES;KEEP")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "PLAIN_SUMS" "${one_value}" "FOLD;SIZES;KEEP")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hamgen_generate: unexpected ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -69,6 +69,9 @@ function(hamgen_generate)
       list(APPEND options --${flag}=${arg_${option}})
     endif()
   endforeach()
+  if(arg_PLAIN_SUMS)
+    list(APPEND options --plain-sums)
+  endif()
   foreach(parameter IN LISTS arg_FOLD)
     list(APPEND options --fold=${parameter})
   endforeach()

@@ -175,5 +175,25 @@ TEST(Tune, NamesItsOwnOptionForTheTime) {
   EXPECT_FALSE(contains(result.err, "--steps")) << result.err;
 }
 
+// A motion in a plane of space: what rests moves no energy, and has no say in the gauge.
+TEST(Tune, WhatRestsIsLeftOutOfTheStepThatIsTuned) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("plane.ham",
+                    "system plane\ncoordinate x, y, z\nmomentum px, py, pz\n"
+                    "H = (px^2 + py^2 + pz^2)/2 + (x^2 + y^2)/2 + x^2*y + z^2*(1 + x)\n"
+                    "scene s {\n  x = 1/10\n  py = 2/5\n  h = 1/10\n  steps = 200\n}\n");
+  for (const char* form : {"scalar", "diagonal"}) {
+    const std::vector<std::string> arguments = {model, "--samples", "100", "--gauge-form", form};
+    std::vector<std::string> whole = arguments;
+    whole.emplace_back("--whole");
+    const json special = tuned(arguments);
+    const json all = tuned(whole);
+    EXPECT_EQ(special["gauges"].back()["beta"], all["gauges"].back()["beta"]) << form;
+    const double spread = all["gauges"].back()["energy_spread"];
+    EXPECT_NEAR(special["gauges"].back()["energy_spread"].get<double>(), spread, 1e-15) << form;
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::app_test

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "app/output/certify_output.hpp"
+#include "app/studies/initial_data.hpp"
+#include "app/studies/interpreted.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "tests/certify/taken_step.hpp"
@@ -122,6 +124,34 @@ TEST(Certify, AStepThatIsOffByAThousandUnitsIsSaidToBe) {
       EXPECT_EQ(found.component, i);
     }
   }
+}
+
+// Of two bodies of which the step has one the other is its mirror image, and not its copy.
+TEST(Certify, AnotherEmbeddingOfTheStepIsSeen) {
+  const SourceText source = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/two_bodies.ham");
+  const Model model = read_request(source, {});
+  const SceneValues scene = scene_values(model, {.scene = "mirror", .steps = "5"});
+  Request request;
+  request.scene = SceneFacts{.asked = {.scene = "mirror"}, .values = scene, .kept = {}};
+  PluginSource plugin = generate_plugin(source, request);
+  ASSERT_EQ(plugin.state.step.size(), 4U);
+  const Scheme scheme = request_scheme(source, {});
+  const runtime::LoadedPlugin loaded = app::interpreted_integrator(source, request, plugin);
+  const runtime::InitialValues start = app::initial_values(plugin, scene, *loaded.library);
+  const auto certificate = [&] {
+    return app::certify({.plugin = &plugin,
+                         .library = loaded.library,
+                         .scene = &scene,
+                         .scheme = &scheme,
+                         .start = &start,
+                         .every = 1});
+  };
+  const Certificate good = certificate();
+  EXPECT_EQ(good.certified, 5) << good.failure;
+  EXPECT_LT(good.units, kRounding);
+  for (auto& [place, factor] : plugin.state.model[2].of) factor = -factor;  // x2 = x1
+  const Certificate bad = certificate();
+  EXPECT_TRUE(bad.failed > 0 || bad.units > 1e6) << bad.units;
 }
 
 // Rounding is carried along: a step that forgot the carry is seen by its size, up to half a unit.

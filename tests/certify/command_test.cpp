@@ -84,6 +84,20 @@ TEST(CertifyCommand, RefusesWithTheReason) {
   EXPECT_TRUE(contains(run.err, "a function K derived from H")) << run.err;
 }
 
+// The step that was specialised against the exact map of all that the model has.
+TEST(CertifyCommand, OfASceneThatNeedsLess) {
+  for (const auto& [model, scene] :
+       {std::pair{"oblate_kepler.ham", "equatorial"}, std::pair{"two_bodies.ham", "mirror"},
+        std::pair{"two_bodies.ham", "apart"}, std::pair{"beads.ham", "second_mode"}}) {
+    const Result result =
+        certify(models + model, {"--scene", scene, "--steps", "20", "--interpret", "--json"});
+    EXPECT_EQ(result.status, 0) << scene << result.err << result.out;
+    const json found = json::parse(result.out);
+    EXPECT_EQ(found["certified"], 20) << scene;
+    EXPECT_TRUE(found["holds"].get<bool>()) << scene;
+  }
+}
+
 // The compiled integrator this time.
 TEST(CertifyCommand, ARunSaysItWithItsResult) {
   const Result result =

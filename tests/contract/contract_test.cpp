@@ -46,6 +46,22 @@ TEST(CompiledSteps, HaveTheDefectsOfInterpretedOnes) {
   }
 }
 
+// A step without the carry solves its equations as well: it rounds the state, and no more.
+TEST(PlainSums, KeepTheContract) {
+  for (const Request& request :
+       {Request{.plain_sums = true}, Request{.solver = "fixed-point", .plain_sums = true},
+        Request{.scheme = "gauss-4", .plain_sums = true},
+        Request{.scheme = "stormer-verlet", .plain_sums = true}}) {
+    for (const auto& [name, scene] : {std::pair{"wall", "bounce"}, std::pair{"box", "soft"}}) {
+      const Case c = case_of(name, scene, request, 500);
+      const Defects d = Interpretable(c.model).measure(c);
+      EXPECT_FALSE(d.failed) << d.name;
+      EXPECT_LE(d.worst, kAllowed) << d.name << " at step " << d.worst_step;
+      EXPECT_EQ(d.broken, 0) << d.name;
+    }
+  }
+}
+
 // Negative controls, of emitted text that is changed.
 TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
   // It learns its contraction in free flight and believes it at the wall.

@@ -88,7 +88,7 @@ TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
 // step.
 TEST(Drift, ATornMomentumIsSolvedForWhatItsRowLacks) {
   expect_drift_only_with(
-      {{" + k.c2 * (rest_carry", " + 0 * k.c2 * (rest_carry"}},
+      {{" + k.c2 * (rest_beside", " + 0 * k.c2 * (rest_beside"}},
       {.model = chain(6), .request = {.alpha = "3/10", .beta = "1/7", .gamma = "-1/9"}});
 }
 

@@ -208,6 +208,63 @@ TEST(Observe, ACyclicMomentumUnderBetaStays) {
             "phi: cyclic and not observed; pphi is a parameter\n");
 }
 
+// Where sums stay loops arrays go as a whole.
+TEST(Observe, LeavesOutArraysOfLoops) {
+  const auto model = [](const std::string& coupling, const std::string& observe) {
+    return "size N = 30\ncoordinate x[1..N], y[1..N] with x[0] = 0, x[N+1] = 0, y[0] = 0, y[N+1] = "
+           "0\nmomentum px[1..N], py[1..N]\n"
+           "H = sum(i = 1..N, (px[i]^2 + py[i]^2)/2) + sum(i = 0..N, (x[i+1] - x[i])^4/4 + (y[i+1] "
+           "- "
+           "y[i])^2/2" +
+           coupling + ")\nscene s { x[i] = sin(i); y[i] = cos(i); h = 0.1; steps = 1; observe " +
+           observe + " }\n";
+  };
+  EXPECT_EQ(left_out(model("", "x[3]")), "y, py: nothing observed depends on them\n");
+  EXPECT_EQ(left_out(model("", "total = sum(i = 1..30, px[i])")),
+            "y, py: nothing observed depends on them\n");
+  EXPECT_EQ(left_out(model("", "x[3], y[1]")), "");
+  EXPECT_EQ(left_out(model("", "x[3], energy")), "");
+  EXPECT_EQ(left_out(model(" + x[i]*y[i]^2", "x[3]")), "");
+}
+
+// The proof that it may be, and that what is coupled may not.
+TEST(Observe, OfLoopsIsProved) {
+  const SourceText source = make_source(
+      "m.ham",
+      "size N = 26\ncoordinate x[1..N], y[1..N] with x[0] = 0, x[N+1] = 0, y[0] = 0, y[N+1] = 0\n"
+      "momentum px[1..N], py[1..N]\n"
+      "H = sum(i = 1..N, (px[i]^2 + py[i]^2)/2) + sum(i = 0..N, (x[i+1] - x[i])^4/4 + (y[i+1] - "
+      "y[i])^2/2)\nscene s { x[i] = sin(i); y[i] = cos(i); h = 0.1; steps = 1; observe x[3] }\n");
+  const Proof proof = verify_step(source, for_scene(source));
+  for (const char* property : {"emitted code", "specialised"}) {
+    const auto found = std::ranges::find(proof, property, &Finding::property);
+    ASSERT_NE(found, proof.end());
+    EXPECT_EQ(found->verdict, Verdict::proved) << found->detail;
+  }
+}
+
+// Explicit steps of a polynomial leave no domain: nobody looks at each of them.
+TEST(Look, AtEveryStepIsLeftOutForPolynomials) {
+  const auto says = [](const std::string& potential, const std::string& scheme) {
+    const SourceText source =
+        make_source("m.ham", "coordinate q\nmomentum p\nparameter a = 2\nH = p^2/2 + " + potential +
+                                 "\nscene s { q = 1; h = 0.1; steps = 1 }\n");
+    const PluginSource plugin =
+        generate_plugin(source, for_scene(source, {.request = {.scheme = scheme}}));
+    const bool said = std::ranges::any_of(plugin.left_out, [](const std::string& line) {
+      return line.starts_with("a look at every step");
+    });
+    EXPECT_EQ(said, plugin.header.text.find("length <=") == std::string::npos);
+    return said;
+  };
+  for (const char* scheme : {"stormer-verlet", "symplectic-euler-a", "rk4", "forest-ruth-4"})
+    EXPECT_TRUE(says("q^4/(4*a) + q^3/3", scheme)) << scheme;
+  EXPECT_FALSE(says("q^4", "implicit-midpoint"));
+  EXPECT_FALSE(says("q^4", "gauss-4"));
+  for (const char* potential : {"1/q", "sqrt(1 + q^2)", "q^(3/2)", "log(q)", "exp(q)"})
+    EXPECT_FALSE(says(potential, "stormer-verlet")) << potential;
+}
+
 // Ht is made of all of H, whatever else is looked at.
 TEST(Observe, TheModifiedHamiltonianTakesEverything) {
   EXPECT_EQ(left_out(kPolar + "; observe r }\n",

@@ -21,67 +21,70 @@ using Quad = __float128;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Rational value_of(const std::string& name, const Model& model, const SceneValues& scene) {
-  const std::vector<std::string> names = element_names(model.parameters);
+// What of a sum of variables does not depend on the step.
+Rational at_start(const StateMap::Sum& sum, const SceneValues& scene) {
+  Rational total = 0;
+  const auto n = static_cast<int>(scene.q.size());
+  for (const auto& [i, factor] : sum.at_start)
+    total += factor * (i < n ? scene.q[at(i)] : scene.p[at(i - n)]);
+  return total;
+}
+
+Rational value_of(const std::string& name, const PluginSource& plugin, const SceneValues& scene) {
+  const std::vector<std::string> names = element_names(plugin.model.parameters);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name || names[i].starts_with(name + "[")) return scene.parameters[i];
   }
-  const std::vector<std::string> momenta = element_names(model.momenta);
-  return scene.p.at(at(static_cast<int>(std::ranges::find(momenta, name) - momenta.begin())));
+  return at_start(plugin.state.constants.at(name), scene);
 }
 
 template <class Real>
-std::vector<Real> parameters_of(const StepCode& code, const Model& model,
+std::vector<Real> parameters_of(const StepCode& code, const PluginSource& plugin,
                                 const SceneValues& scene) {
   std::vector<Real> values;
   for (const std::string& name : code.parameters)
-    values.push_back(static_cast<Real>(to_double(value_of(name, model, scene))));
+    values.push_back(static_cast<Real>(to_double(value_of(name, plugin, scene))));
   return values;
+}
+
+// The model's variables that the step's are, from its state or from what rounding took of it.
+std::vector<Quad> embedded(const StateMap& map, const std::vector<double>& values,
+                           const SceneValues& scene, bool carry) {
+  std::vector<Quad> result;
+  for (const StateMap::Sum& sum : map.model) {
+    Quad value = carry ? 0 : to_double(at_start(sum, scene));
+    for (const auto& [place, factor] : sum.of)
+      value +=
+          Quad(values[at(place)]) * Quad(factor.get_num().get_d()) / Quad(factor.get_den().get_d());
+    result.push_back(value);
+  }
+  return result;
 }
 
 // The largest difference of a step, in units of rounding of the largest component.  The whole step
 // is in quad, from the state and the carry of the other one; what was left out rests.
 double worst_step(const SourceText& source, const Request& whole, const Request& special,
                   const SceneValues& scene, int steps) {
-  const Model model = read_request(source, special);
   const PluginSource plugin = generate_plugin(source, special);
+  const StateMap& map = plugin.state;
   const StepCode code = make_step_code(source, special);
   const StepCode all = make_step_code(source, whole);
-  const std::size_t n = scene.q.size();
-  const std::size_t m = plugin.kept.size();
-  std::vector<double> start(2 * m);
-  std::vector<Quad> rest(2 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    rest[i] = to_double(scene.q[i]);
-    rest[n + i] = to_double(scene.p[i]);
-  }
-  for (std::size_t i = 0; i < m; ++i) {
-    start[i] = to_double(scene.q[at(plugin.kept[i])]);
-    start[m + i] = to_double(scene.p[at(plugin.kept[i])]);
-  }
+  std::vector<double> start;
+  for (const StateMap::Sum& sum : map.step) start.push_back(to_double(at_start(sum, scene)));
   const double h = to_double(*scene.h);
-  Interpreter<double> run(code, parameters_of<double>(code, model, scene), h, start);
-  Interpreter<Quad> exact(all, parameters_of<Quad>(all, model, scene), Quad(h), rest);
-  const auto embedded = [&](const std::vector<double>& values, bool carry) {
-    std::vector<Quad> result = carry ? std::vector<Quad>(2 * n) : rest;
-    for (std::size_t i = 0; i < m; ++i) {
-      result[at(plugin.kept[i])] = values[i];
-      result[n + at(plugin.kept[i])] = values[m + i];
-    }
-    return result;
-  };
+  Interpreter<double> run(code, parameters_of<double>(code, plugin, scene), h, start);
+  Interpreter<Quad> exact(all, parameters_of<Quad>(all, plugin, scene), Quad(h),
+                          embedded(map, start, scene, false));
   double worst = 0;
   for (int step = 0; step < steps; ++step) {
-    exact.reset(embedded(run.state(), false), embedded(run.carry(), true));
+    exact.reset(embedded(map, run.state(), scene, false), embedded(map, run.carry(), scene, true));
     if (!run.step().converged || !exact.step().converged) return HUGE_VAL;
+    const std::vector<Quad> state = embedded(map, run.state(), scene, false);
+    const std::vector<Quad> carry = embedded(map, run.carry(), scene, true);
     double size = 0;
-    for (const double x : run.state()) size = std::max(size, std::abs(x));
-    const std::vector<Quad> state = embedded(run.state(), false);
-    const std::vector<Quad> carry = embedded(run.carry(), true);
-    for (std::size_t i = 0; i < 2 * n; ++i) {
-      const bool unknown =
-          std::ranges::find(plugin.unobserved, static_cast<int>(i)) != plugin.unobserved.end();
-      if (unknown) continue;
+    for (const Quad x : state) size = std::max(size, std::abs(static_cast<double>(x)));
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (!map.model[i].known) continue;
       const Quad error = (state[i] - exact.state()[i]) + (carry[i] - exact.carry()[i]);
       worst = std::max(worst, std::abs(static_cast<double>(error)) / (size * 0x1p-52));
     }

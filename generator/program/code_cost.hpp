@@ -1,0 +1,18 @@
+// What routines cost, their loops counted out.
+#pragma once
+
+#include "generator/program/program.hpp"
+#include "generator/program/step_code.hpp"
+
+namespace hamgen {
+
+struct StepCost {
+  Cost iteration;  // what is done once an iteration of solve
+  Cost besides;    // and once a step
+};
+// Elimination within a band, or of a full matrix, is counted too, that by Eigen is not.
+[[nodiscard]] StepCost step_cost(const StepCode& code);
+// Of a call of the routine of this name, nothing if there is none.
+[[nodiscard]] Cost routine_cost(const StepCode& code, const std::string& name);
+
+}  // namespace hamgen

@@ -1,0 +1,120 @@
+// --plain-sums: no carry anywhere, and everything that is proved of a step still is.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "generator/interpreter/interpreter.hpp"
+#include "generator/stages.hpp"
+#include "generator/verify/proof.hpp"
+#include "tests/verify/mutants.hpp"
+
+namespace hamgen::verify_test {
+namespace {
+
+const std::string kPendulum =
+    "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
+const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
+const std::string kOscillator = "coordinate q\nmomentum p\nH = p^2/2 + 169/200*q^2\n";
+const std::string kChain =
+    "size N = 26\ncoordinate x[1..N] with x[0] = 0, x[N+1] = 0\nmomentum p[1..N]\n"
+    "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (x[i+1] - x[i])^2/2 + (x[i+1] - x[i])^3/12)\n";
+
+// One of each kind of a step, for both storages.
+const std::vector<Request> kMethods = {
+    {},
+    {.solver = "fixed-point"},
+    {.solver = "sweeps:2"},
+    {.alpha = "0"},
+    {.alpha = "2/3", .beta = "h/7"},
+    {.scheme = "stormer-verlet"},
+    {.scheme = "yoshida-4"},
+    {.scheme = "gauss-4"},
+    {.scheme = "gauss-4", .solver = "newton"},
+    {.scheme = "rk4"},
+};
+
+std::string name_of(const Request& request) {
+  return request.scheme + request.solver + request.alpha + request.beta;
+}
+
+TEST(PlainSums, AreProvedAndNameNoCarry) {
+  for (const std::string& text : {kPendulum, kProduct, kOscillator, kChain}) {
+    const SourceText source = make_source("m.ham", text);
+    for (Request request : kMethods) {
+      if (text == kProduct && request.scheme == "stormer-verlet") continue;
+      request.plain_sums = true;
+      request.tangent = text != kChain;
+      const Stages stages = run_stages(source, request);
+      const Proof proof = prove(source, request, stages);
+      const auto found = std::ranges::find(proof, "emitted code", &Finding::property);
+      ASSERT_NE(found, proof.end());
+      EXPECT_EQ(found->verdict, Verdict::proved)
+          << text << name_of(request) << ": " << found->detail;
+      EXPECT_EQ(to_text(step_code(stages.program)).find("carry"), std::string::npos);
+      const std::string header = generate_plugin(source, request).header.text;
+      for (const char* word : {"carry", "two_sum", "collect(", "rest."})
+        EXPECT_EQ(header.find(word), std::string::npos) << name_of(request) << " " << word;
+      EXPECT_NE(header.find("compensated sums"), std::string::npos);
+    }
+  }
+}
+
+TEST(PlainSums, InCToo) {
+  const SourceText source = make_source("m.ham", kPendulum);
+  for (const char* scheme : {"implicit-midpoint", "stormer-verlet", "yoshida-4"}) {
+    const OutputFiles files =
+        generate(source, {.scheme = scheme, .format = "c-header", .plain_sums = true});
+    for (const char* word : {"carry", "two_sum", "collect"})
+      EXPECT_EQ(files.front().text.find(word), std::string::npos) << scheme << " " << word;
+  }
+}
+
+// What is small of an increment belongs to it: left out, the step is another.
+TEST(PlainSums, WithoutTheSmallPartOfAnIncrementAreRefuted) {
+  const SourceText source = make_source("m.ham", kPendulum);
+  for (const char* solver : {"", "fixed-point"}) {
+    Stages stages = run_stages(source, {.solver = solver, .plain_sums = true});
+    StepCode code = step_code(stages.program);
+    const Mechanics& mechanics = stages.system.mechanics;
+    const Scheme& scheme = stages.equations.scheme;
+    const auto finding = [&] {
+      return prove_emitted(mechanics, scheme, stages.program, code, mechanics.energy);
+    };
+    EXPECT_EQ(finding().verdict, Verdict::proved);
+    bool changed = false;
+    for (Routine& routine : code.routines) {
+      if (routine.name != "solve") continue;
+      for (Instruction& instruction : routine.body) {
+        auto* assign = std::get_if<Assign>(&instruction.value);
+        if (assign == nullptr || assign->symbol != "dz.p") continue;
+        const auto [coefficient, sum] = assign->value.split_coefficient();
+        ASSERT_EQ(sum.kind(), Kind::sum);
+        assign->value = Expression(coefficient) * sum.operands()[0];
+        changed = true;
+      }
+    }
+    EXPECT_TRUE(changed);
+    EXPECT_EQ(finding().verdict, Verdict::refuted) << solver;
+  }
+}
+
+// What they are for, and what they cost: after 20000 steps the state has lost digits that the
+// compensated one has.
+TEST(PlainSums, LoseWhatRoundingTakes) {
+  const SourceText source = make_source("m.ham", kPendulum);
+  const auto error_of = [&](bool plain) {
+    const StepCode code = make_step_code(source, {.plain_sums = plain});
+    Interpreter<double> run(code, {0.03}, 0.1, {1.3, 0.0});
+    Interpreter<__float128> exact(code, {__float128(0.03)}, __float128(0.1), {1.3, 0});
+    for (int step = 0; step < 20000; ++step) {
+      if (!run.step().converged || !exact.step().converged) return HUGE_VAL;
+    }
+    return std::abs(static_cast<double>(run.state()[0] - exact.state()[0]));
+  };
+  const double compensated = error_of(false);
+  EXPECT_LE(compensated, 1e-13);
+  EXPECT_GE(error_of(true), 3 * compensated);
+}
+
+}  // namespace
+}  // namespace hamgen::verify_test
