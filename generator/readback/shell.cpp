@@ -29,6 +29,7 @@ class PropagatorText {
       : facts_(facts),
         code_(facts.code),
         rest_(code_.has_rest()),
+        carry_(code_.has_carry()),
         composed_(code_.substeps.size() > 1),
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
@@ -43,7 +44,8 @@ class PropagatorText {
     accessors();
     text_ += "private: ";
     if (composed_) {
-      text_ += "StepReport substep(int i, State& z, State& carry) {";
+      text_ += carry_ ? "StepReport substep(int i, State& z, State& carry) {"
+                      : "StepReport substep(int i, State& z) {";
       part(
           {"par_", "k_[i]", "lengths_[i]", "z", "carry", "start_[i]", "history_[i]", "dz", "rest"});
       text_ += "}";
@@ -65,8 +67,8 @@ class PropagatorText {
     if (start_) text_ += "Start start;";
     text_ += rest_ ? "State dz, rest;" : "State dz;";
     text_ += "const StepReport report = " +
-             solve_call(code_, {"par", "k", "h", "z", "State()", "start", "", "dz", "rest"}) +
-             "; if (!report.converged) return report;";
+             solve_call(code_, {"par", "k", "h", "z", "State()", "start", "", "dz", "rest"}) + ";" +
+             (code_.unchecked ? "" : "if (!report.converged) return report;");
     each([this](const std::string& x) {
       return fmt::format("z.{0} += dz.{0}{1};", x, rest_ ? " + rest." + x : "");
     });
@@ -120,9 +122,11 @@ class PropagatorText {
     if (code_.retries) {
       tries(names, call);
     } else {
-      text_ += "const StepReport report = " + call + "; if (!report.converged) return report;";
+      text_ += "const StepReport report = " + call + ";";
+      if (!code_.unchecked) text_ += "if (!report.converged) return report;";
     }
     each([&](const std::string& x) {
+      if (!carry_) return fmt::format("{0}.{2} += {1}.{2};", names.z, names.dz, x);
       return rest_ ? fmt::format("two_sum_with_rest({1}.{0}, {2}.{0}, {3}.{0}, {4}.{0});", x,
                                  names.z, names.carry, names.dz, names.rest)
                    : fmt::format("two_sum({1}.{0}, {2}.{0}, {3}.{0});", x, names.z, names.carry,
@@ -163,11 +167,12 @@ class PropagatorText {
   }
 
   void composed_step() {
-    text_ +=
-        "StepReport step() { State z = z_; State carry = carry_; StepReport total;"
-        "for (int i = 0; i < substeps; ++i) { const StepReport report = substep(i, z, carry);"
+    text_ += fmt::format(
+        "StepReport step() {{ State z = z_; {} StepReport total;"
+        "for (int i = 0; i < substeps; ++i) {{ const StepReport report = substep(i, z{});"
         "total.iterations += report.iterations; total.increment = report.increment;"
-        "if (!report.converged)";
+        "if (!report.converged)",
+        carry_ ? "State carry = carry_;" : "", carry_ ? ", carry" : "");
     if (extrapolates_) {
       text_ += "{";
       if (facts_.arrays) {
@@ -180,12 +185,21 @@ class PropagatorText {
     } else {
       text_ += "return total;";
     }
-    text_ += "} z_ = z; carry_ = carry;";
+    text_ += carry_ ? "} z_ = z; carry_ = carry;" : "} z_ = z;";
     if (facts_.time.empty()) text_ += "++steps_;";
     text_ += "total.converged = true; return total; }";
   }
 
+  void unchecked_advance() {
+    text_ +=
+        "StepReport advance(long long steps) { StepReport total;"
+        "for (long long i = 0; i < steps; ++i) static_cast<void>(step()); Real rest = 0;";
+    each([](const std::string& x) { return fmt::format("rest += z_.{0} - z_.{0};", x); });
+    text_ += "total.converged = rest == 0; total.increment = rest; return total; }";
+  }
+
   void advance() {
+    if (code_.unchecked) return unchecked_advance();
     text_ +=
         "StepReport advance(long long steps) { StepReport total; total.converged = true;"
         "for (long long i = 0; i < steps; ++i) { const StepReport report = step();"
@@ -194,7 +208,8 @@ class PropagatorText {
   }
 
   void reset() {
-    text_ += "void reset(const State& z) { z_ = z; carry_ = State();";
+    text_ += "void reset(const State& z) { z_ = z;";
+    if (carry_) text_ += "carry_ = State();";
     if (facts_.time.empty()) text_ += "steps_ = 0;";
     if (start_) start_anew();
     if (extrapolates_)
@@ -220,10 +235,9 @@ class PropagatorText {
   }
 
   void accessors() {
-    text_ +=
-        "[[nodiscard]] const State& state() const { return z_; }"
-        "[[nodiscard]] const State& carry() const { return carry_; }"
-        "[[nodiscard]] Real time() const { return ";
+    text_ += "[[nodiscard]] const State& state() const { return z_; }";
+    if (carry_) text_ += "[[nodiscard]] const State& carry() const { return carry_; }";
+    text_ += "[[nodiscard]] Real time() const { return ";
     text_ += facts_.time.empty() ? "static_cast<Real>(steps_) * h_" : "z_." + facts_.time;
     text_ +=
         "; } [[nodiscard]] Real h() const { return h_; }"
@@ -232,7 +246,8 @@ class PropagatorText {
 
   void members() {
     const std::string each_part = composed_ ? "[substeps];" : ";";
-    text_ += "Parameters par_; Real h_; State z_; State carry_;";
+    text_ += "Parameters par_; Real h_; State z_;";
+    if (carry_) text_ += "State carry_;";
     if (facts_.time.empty()) text_ += "long long steps_ = 0;";
     if (composed_) text_ += "Real lengths_[substeps] = {};";
     if (coefficients_) text_ += "Coefficients k_" + each_part;
@@ -243,7 +258,7 @@ class PropagatorText {
 
   const ShellFacts& facts_;
   const StepCode& code_;
-  bool rest_, composed_, coefficients_, start_, extrapolates_;
+  bool rest_, carry_, composed_, coefficients_, start_, extrapolates_;
   std::string text_;
 };
 
