@@ -13,7 +13,8 @@ namespace hamgen {
 namespace {
 
 constexpr std::string_view kConserved = " conserved by the step";
-constexpr std::string_view kWords = "symplectic, symmetric, order:P, conserves:NAME, emitted-code";
+constexpr std::string_view kWords =
+    "symplectic, symmetric, order:P, conserves:NAME, program, emitted-code";
 
 const Finding* find(const Proof& proof, std::string_view property) {
   const auto it = std::ranges::find(proof, property, &Finding::property);
@@ -54,13 +55,13 @@ void require_one(const Proof& proof, const std::string& word) {
     if (find(proof, name + " invariant") == nullptr) {
       throw UsageError(fmt::format("--require {}: the model has no invariant '{}'", word, name));
     }
-  } else if (word != "symplectic" && word != "symmetric") {
+  } else if (word != "symplectic" && word != "symmetric" && word != kProgram) {
     throw UsageError(fmt::format("--require {}: there are {}", word, kWords));
   }
   const Finding* finding = find(proof, property);
   if (finding != nullptr && finding->verdict == Verdict::proved) return;
   const bool tested = finding != nullptr && finding->verdict == Verdict::tested;
-  if (tested && word == "emitted-code") return;
+  if (tested && (word == "emitted-code" || word == kProgram)) return;
   fail(word, finding);
 }
 

@@ -14,9 +14,9 @@ class ProofError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// `list` is "symplectic,symmetric,order:P,conserves:NAME,emitted-code", any of these.  Throws
-// ProofError for the first that is not proved (emitted-code: proved or tested), UsageError for a
-// word that is none of them.
+// `list` is "symplectic,symmetric,order:P,conserves:NAME,program,emitted-code", any of these.
+// Throws ProofError for the first that is not proved (the last two: proved or tested), UsageError
+// for a word that is none of them.
 void require(const Proof& proof, const std::string& list);
 // Whatever the user wants, code that is not the mathematics is not handed out.
 void require_emitted(const Proof& proof);
