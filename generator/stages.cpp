@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/base/budget.hpp"
 #include "generator/choose_scheme.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
@@ -97,10 +98,7 @@ bool fails_nowhere(const Mechanics& mechanics, const SolvePlan& plan) {
   return is_explicit && is_polynomial(mechanics);
 }
 
-}  // namespace
-
-Stages run_stages(const SourceText& source, const Request& request) {
-  Model model = read_request(source, request);
+Stages stages_of(Model model, const Request& request) {
   require_defaults_in_range(model, find_scalar(request.scalar));
   FoldedModel folded = fold_for_scene(model, request);
   const std::optional<SceneFacts> scene = scene_facts(model, request);
@@ -138,6 +136,18 @@ Stages run_stages(const SourceText& source, const Request& request) {
   }
   return {std::move(model),     std::move(folded), std::move(system),
           std::move(equations), std::move(plan),   std::move(program)};
+}
+
+}  // namespace
+
+Stages run_stages(const SourceText& source, const Request& request) {
+  const Budget budget;
+  const Model model = read_request(source, request);
+  try {
+    return stages_of(model, request);
+  } catch (const OverBudget& error) {
+    throw over_budget(error, model.hamiltonian->span, source);
+  }
 }
 
 bool is_something_left_out(const Stages& stages) {

@@ -1,10 +1,14 @@
 #include "generator/algebra/expression.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/base/budget.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -16,9 +20,45 @@ struct Expression::Node {
   int rank = 0;
   std::vector<Expression> operands;
   std::size_t hash = 0;
+  std::uint64_t serial = 0;  // of no other node, ever
 };
 
 namespace {
+
+// Words of numerator and denominator.
+double words(const Rational& value) {
+  return static_cast<double>(mpz_size(value.get_num_mpz_t()) + mpz_size(value.get_den_mpz_t()));
+}
+
+// Comparisons already made, as many as there is room for: in sums of products of nested functions
+// the same two are compared again and again, each time down to where they differ.
+class Comparisons {
+ public:
+  static Comparisons& mine() {
+    thread_local Comparisons comparisons;
+    return comparisons;
+  }
+  [[nodiscard]] std::optional<std::strong_ordering> find(std::uint64_t a, std::uint64_t b) const {
+    const Made& made = made_[place(a, b)];
+    if (made.a == a && made.b == b) return made.order;
+    return std::nullopt;
+  }
+  void add(std::uint64_t a, std::uint64_t b, std::strong_ordering order) {
+    made_[place(a, b)] = {.a = a, .b = b, .order = order};
+  }
+
+ private:
+  struct Made {
+    std::uint64_t a = 0;  // no node
+    std::uint64_t b = 0;
+    std::strong_ordering order = std::strong_ordering::equal;
+  };
+  static constexpr std::size_t room = 1U << 16U;
+  static std::size_t place(std::uint64_t a, std::uint64_t b) {
+    return (a * 0x9e3779b97f4a7c15ULL + b * 0xc2b2ae3d27d4eb4fULL) >> 48U;
+  }
+  std::vector<Made> made_ = std::vector<Made>(room);
+};
 
 std::size_t mix(std::size_t seed, std::size_t value) {
   return seed ^ (value + 0x9e3779b97f4a7c15ULL + (seed << 6) + (seed >> 2));
@@ -97,6 +137,10 @@ Expression Expression::make(Kind kind, Rational number, std::string name, int ra
   node->rank = rank;
   node->operands = std::move(operands);
   node->hash = hash;
+  spend(Resource::nodes, 1 + static_cast<double>(node->operands.size()));
+  spend(Resource::work, 8 + 2 * static_cast<double>(node->operands.size()));
+  static std::atomic<std::uint64_t> serials = 0;
+  node->serial = ++serials;
   return Expression(Pool::instance().intern(std::move(node)));
 }
 
@@ -149,10 +193,14 @@ std::strong_ordering operator<=>(const Expression& a, const Expression& b) {
   if (auto c = a.node_->rank <=> b.node_->rank; c != 0) return c;
   if (auto c = a.node_->name.compare(b.node_->name) <=> 0; c != 0) return c;
   if (auto c = a.node_->operands.size() <=> b.node_->operands.size(); c != 0) return c;
-  for (std::size_t i = 0; i < a.node_->operands.size(); ++i) {
-    if (auto c = a.node_->operands[i] <=> b.node_->operands[i]; c != 0) return c;
-  }
-  return std::strong_ordering::equal;
+  if (a.node_->operands.empty()) return std::strong_ordering::equal;
+  if (const auto known = Comparisons::mine().find(a.node_->serial, b.node_->serial)) return *known;
+  spend(Resource::work, 1);
+  std::strong_ordering order = std::strong_ordering::equal;
+  for (std::size_t i = 0; i < a.node_->operands.size() && order == 0; ++i)
+    order = a.node_->operands[i] <=> b.node_->operands[i];
+  Comparisons::mine().add(a.node_->serial, b.node_->serial, order);
+  return order;
 }
 
 std::pair<Rational, Expression> Expression::split_coefficient() const {
@@ -178,6 +226,7 @@ Expression Expression::sum(std::vector<Expression> terms) {
     }
     auto [coefficient, rest] = term.split_coefficient();
     coefficient *= factor;
+    spend(Resource::work, 1 + words(coefficient));
     if (rest.is_one()) {
       constant += coefficient;
     } else if (rest.kind() == Kind::sum) {
@@ -229,7 +278,9 @@ Expression Expression::product(std::vector<Expression> factors) {
   std::map<Expression, Rational> exponents;
   std::vector<Expression> others;
   auto multiply = [&](auto&& self, const Expression& factor) -> void {
+    spend(Resource::work, 1);
     if (factor.is_number()) {
+      spend(Resource::work, words(factor.number()) + words(coefficient));
       coefficient *= factor.number();
     } else if (factor.kind() == Kind::product) {
       for (const Expression& inner : factor.operands()) self(self, inner);

@@ -5,6 +5,8 @@
 
 #include "generator/algebra/functions.hpp"
 #include "generator/algebra/ginac_functions.hpp"
+#include "generator/algebra/ginac_parts.hpp"
+#include "generator/base/budget.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -13,29 +15,40 @@ namespace {
 
 constexpr double kMostTerms = 10'000;
 
-using TermCounts = std::map<GiNaC::ex, double, GiNaC::ex_is_less>;
+// To look a subexpression up and to remember what it became.
+constexpr double steps_of_conversion = 20;
 
-// At most so many terms has the expanded expression: of t terms, the n-th power has as many as
-// there are monomials of degree n in t variables, (t + n - 1 over n).
+using TermCounts = ByIdentity<double>;
+
+double expanded_terms(const GiNaC::ex& e, TermCounts& known);
+
+// At most so many terms has the expanded power: of t terms, the n-th power has as many as there are
+// monomials of degree n in t variables, (t + n - 1 over n).
+double expanded_terms(const GiNaC::ex& base, const GiNaC::ex& exponent, TermCounts& known) {
+  const double terms = expanded_terms(base, known);
+  if (!exponent.info(GiNaC::info_flags::integer)) return terms * expanded_terms(exponent, known);
+  const double n = std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double());
+  double result = terms;
+  for (double i = 2; terms > 1 && i <= n && result <= kMostTerms; ++i)
+    result *= (terms + i - 1) / i;
+  return result;
+}
+
 double expanded_terms(const GiNaC::ex& e, TermCounts& known) {
   if (e.nops() == 0 || GiNaC::is_a<GiNaC::function>(e)) return 1;
-  if (const auto it = known.find(e); it != known.end()) return it->second;
-  const bool sum = GiNaC::is_a<GiNaC::add>(e);
-  double terms = sum ? 0 : 1;
-  if (GiNaC::is_a<GiNaC::power>(e)) {
-    const double base = expanded_terms(e.op(0), known);
-    const GiNaC::ex exponent = e.op(1);
-    terms = base * expanded_terms(exponent, known);
-    if (exponent.info(GiNaC::info_flags::integer)) {
-      const double n = std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double());
-      for (double i = 1; base > 1 && i <= n && (i == 1 || terms <= kMostTerms); ++i)
-        terms = i == 1 ? base : terms * (base + i - 1) / i;
-    }
-  } else {
-    for (std::size_t i = 0; i < e.nops(); ++i) {
-      const double part = expanded_terms(e.op(i), known);
-      terms = sum ? terms + part : terms * part;
-    }
+  spend(Resource::work, 1);
+  if (const double* const count = known.find(e)) return *count;
+  double terms = 1;
+  if (GiNaC::is_a<GiNaC::add>(e)) {
+    const auto& sum = GiNaC::ex_to<GiNaC::add>(e);
+    terms = GinacSum::number(sum).is_zero() ? 0 : 1;
+    for (const GiNaC::expair& term : GinacSum::pairs(sum))
+      terms += expanded_terms(term.rest, known);
+  } else if (GiNaC::is_a<GiNaC::mul>(e)) {
+    for (const GiNaC::expair& factor : GinacProduct::pairs(GiNaC::ex_to<GiNaC::mul>(e)))
+      terms *= expanded_terms(factor.rest, factor.coeff, known);
+  } else if (GiNaC::is_a<GiNaC::power>(e)) {
+    terms = expanded_terms(e.op(0), e.op(1), known);
   }
   known.emplace(e, terms);
   return terms;
@@ -61,8 +74,11 @@ const GiNaC::symbol& SymbolTable::find(const std::string& name) const {
   return it->second.first;
 }
 
-// Integers cross as text in base 10: neither side depends on the other's representation.
+// Integers that are long cross as text in base 10: neither side depends on the other's
+// representation.
 Rational to_rational(const GiNaC::numeric& value) {
+  constexpr int short_length = 60;  // bits
+  if (value.is_integer() && value.int_length() < short_length) return Rational(value.to_long());
   if (!value.is_rational()) throw std::domain_error("a number that is not rational");
   auto integer = [](const GiNaC::numeric& n) {
     std::ostringstream out;
@@ -85,42 +101,56 @@ GiNaC::numeric to_ginac(const Rational& value) {
 // GiNaC cannot know that log(q) is real where H has a value.  So it takes abs(u) for the absolute
 // value of a complex number, whose derivative has the conjugate of u, and abs(exp(u)) for the
 // exponential of the real part.  All values are real here: u is its own conjugate and real part.
-Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table) {
-  std::map<GiNaC::ex, Expression, GiNaC::ex_is_less> done;
-  auto convert = [&](auto&& self, const GiNaC::ex& node) -> Expression {
-    if (GiNaC::is_a<GiNaC::numeric>(node)) {
-      return Expression(to_rational(GiNaC::ex_to<GiNaC::numeric>(node)));
-    }
-    if (GiNaC::is_a<GiNaC::symbol>(node)) {
-      const std::string name = GiNaC::ex_to<GiNaC::symbol>(node).get_name();
-      return Expression::symbol(name, table.rank(name));
-    }
-    if (node.is_equal(GiNaC::Pi)) return Expression::symbol("pi", -1);
-    if (const auto it = done.find(node); it != done.end()) return it->second;
-    std::vector<Expression> operands;
-    for (std::size_t i = 0; i < node.nops(); ++i) operands.push_back(self(self, node.op(i)));
-    Expression result;
-    if (GiNaC::is_a<GiNaC::add>(node)) {
-      result = Expression::sum(std::move(operands));
-    } else if (GiNaC::is_a<GiNaC::mul>(node)) {
-      result = Expression::product(std::move(operands));
-    } else if (GiNaC::is_a<GiNaC::power>(node)) {
-      result = Expression::power(operands[0], operands[1]);
-    } else if (GiNaC::is_a<GiNaC::function>(node)) {
-      const std::string name = GiNaC::ex_to<GiNaC::function>(node).get_name();
-      // See Note [real values].
-      if (name == "conjugate" || name == "real_part") return operands[0];
-      if (name == "imag_part") return Expression(0);
-      if (find_function(name) == nullptr) throw std::domain_error("the function " + name);
-      result = Expression::apply(name, std::move(operands));
-    } else {
-      throw std::domain_error("something that is not a real scalar expression");
-    }
-    done.emplace(node, result);
-    return result;
-  };
-  return convert(convert, e);
+Expression FromGinac::operator()(const GiNaC::ex& node) {
+  spend(Resource::work, 1);
+  if (GiNaC::is_a<GiNaC::numeric>(node)) return number(node);
+  if (GiNaC::is_a<GiNaC::symbol>(node)) {
+    const std::string name = GiNaC::ex_to<GiNaC::symbol>(node).get_name();
+    return Expression::symbol(name, table_.rank(name));
+  }
+  if (node.is_equal(GiNaC::Pi)) return Expression::symbol("pi", -1);
+  if (const Expression* const known = done_.find(node)) return *known;
+  spend(Resource::work, steps_of_conversion);
+  Expression result;
+  if (GiNaC::is_a<GiNaC::add>(node)) {
+    const auto& sum = GiNaC::ex_to<GiNaC::add>(node);
+    std::vector<Expression> terms{number(GinacSum::number(sum))};
+    for (const GiNaC::expair& term : GinacSum::pairs(sum))
+      terms.push_back(Expression::product({number(term.coeff), (*this)(term.rest)}));
+    result = Expression::sum(std::move(terms));
+  } else if (GiNaC::is_a<GiNaC::mul>(node)) {
+    const auto& product = GiNaC::ex_to<GiNaC::mul>(node);
+    std::vector<Expression> factors{number(GinacProduct::number(product))};
+    for (const GiNaC::expair& factor : GinacProduct::pairs(product))
+      factors.push_back(Expression::power((*this)(factor.rest), number(factor.coeff)));
+    result = Expression::product(std::move(factors));
+  } else if (GiNaC::is_a<GiNaC::power>(node)) {
+    result = Expression::power((*this)(node.op(0)), (*this)(node.op(1)));
+  } else if (GiNaC::is_a<GiNaC::function>(node)) {
+    result = function(node);
+  } else {
+    throw std::domain_error("something that is not a real scalar expression");
+  }
+  done_.emplace(node, result);
+  return result;
 }
+
+Expression FromGinac::number(const GiNaC::ex& value) {
+  return Expression(to_rational(GiNaC::ex_to<GiNaC::numeric>(value)));
+}
+
+Expression FromGinac::function(const GiNaC::ex& node) {
+  const std::string name = GiNaC::ex_to<GiNaC::function>(node).get_name();
+  std::vector<Expression> arguments;
+  for (std::size_t i = 0; i < node.nops(); ++i) arguments.push_back((*this)(node.op(i)));
+  // See Note [real values].
+  if (name == "conjugate" || name == "real_part") return arguments[0];
+  if (name == "imag_part") return Expression(0);
+  if (find_function(name) == nullptr) throw std::domain_error("the function " + name);
+  return Expression::apply(name, std::move(arguments));
+}
+
+Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table) { return FromGinac(table)(e); }
 
 GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
   std::map<const void*, GiNaC::ex> done;
@@ -158,8 +188,12 @@ GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
 }
 
 bool vanishes_when_expanded(const GiNaC::ex& e) {
+  if (e.is_zero()) return true;
   TermCounts known;
-  return e.is_zero() || (expanded_terms(e, known) <= kMostTerms && e.expand().is_zero());
+  const double terms = expanded_terms(e, known);
+  if (terms > kMostTerms) return false;
+  spend(Resource::work, terms);
+  return e.expand().is_zero();
 }
 
 bool vanishes(const Expression& e) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "generator/algebra/expression.hpp"
+#include "generator/algebra/ginac_parts.hpp"
 
 namespace hamgen {
 
@@ -23,7 +24,21 @@ class SymbolTable {
   std::map<std::string, std::pair<GiNaC::realsymbol, int>> symbols_;
 };
 
-// Throws std::domain_error if the expression holds something that is not real or not a scalar.
+// Converts expressions that share parts, each part once.
+class FromGinac {
+ public:
+  explicit FromGinac(const SymbolTable& table) : table_(table) {}
+  // Throws std::domain_error if the expression holds something that is not real or not a scalar.
+  [[nodiscard]] Expression operator()(const GiNaC::ex& e);
+
+ private:
+  [[nodiscard]] static Expression number(const GiNaC::ex& value);
+  [[nodiscard]] Expression function(const GiNaC::ex& node);
+
+  const SymbolTable& table_;
+  ByIdentity<Expression> done_;
+};
+
 [[nodiscard]] Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table);
 [[nodiscard]] GiNaC::ex to_ginac(const Expression& e, SymbolTable& table);
 // Is it identically 0, as far as expanding shows?

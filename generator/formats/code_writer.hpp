@@ -19,29 +19,32 @@ class CodeWriter {
   // outermost operator or comma that fits, going on under what the operand began with.
   void line(const std::string& text = "") {
     const std::size_t depth = static_cast<std::size_t>(2 * depth_);
-    std::string rest = text;
+    std::string_view rest = text;
     std::size_t indent = depth;
     std::vector<std::size_t> columns{
         first_operand(text, depth)};  // where each bracket level goes on
     if (text.find("//") == std::string::npos && text.find('"') == std::string::npos) {
+      std::size_t equals = rest.find(" = ");
       while (indent + rest.size() > kColumns) {
-        const std::size_t equals = rest.find(" = ");
-        if (equals != std::string::npos && depth + 4 + rest.size() - equals - 3 <= kColumns) {
+        if (equals != std::string_view::npos && depth + 4 + rest.size() - equals - 3 <= kColumns) {
           text_.append(indent, ' ');
-          text_ += rest.substr(0, equals + 2) + '\n';
+          text_.append(rest.substr(0, equals + 2)) += '\n';
           rest = rest.substr(equals + 3);
           indent = depth + 4;
           break;
         }
-        const std::size_t cut = break_point(rest, kColumns - indent, columns.size());
-        if (cut == std::string::npos) break;
+        const std::size_t cut = break_point(rest, equals, kColumns - indent, columns.size());
+        if (cut == std::string_view::npos) break;
         for (std::size_t i = 0; i < cut; ++i) {
           if (rest[i] == '(' || rest[i] == '{') columns.push_back(indent + i + 1);
           if ((rest[i] == ')' || rest[i] == '}') && columns.size() > 1) columns.pop_back();
         }
         text_.append(indent, ' ');
-        text_ += rest.substr(0, cut) + '\n';
+        text_.append(rest.substr(0, cut)) += '\n';
         rest = rest.substr(cut + 1);
+        // Sought anew only once it is behind: a line may have a thousand breaks.
+        if (equals != std::string_view::npos)
+          equals = equals > cut ? equals - cut - 1 : rest.find(" = ");
         indent = columns.back();
       }
     }
@@ -126,11 +129,12 @@ class CodeWriter {
   }
 
   // The blank to break at: within the width, at the outermost bracket level that has one, after
-  // a comma, plus or minus rather than after times or divided by, as late as possible.
-  static std::size_t break_point(const std::string& text, std::size_t width, std::size_t level) {
+  // a comma, plus or minus rather than after times or divided by, as late as possible; behind the
+  // " = " that starts at `start`, if there is one.
+  static std::size_t break_point(std::string_view text, std::size_t start, std::size_t width,
+                                 std::size_t level) {
     std::size_t best = std::string::npos;
     std::pair<std::size_t, int> least{1000, 0};
-    const std::size_t start = std::max<std::size_t>(text.find(" = "), 0);
     for (std::size_t i = 1; i < std::min(width + 1, text.size()); ++i) {
       const char before = text[i - 1];
       if (before == '(' || before == '{' || before == '[') ++level;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "generator/language/check_names.hpp"
@@ -63,16 +64,14 @@ void check_shape(const Setting& setting, const Symbol& symbol, const KnownValues
 }
 
 void check_twice(const Scene& scene, Symbols& symbols) {
-  const auto whole = [](const Setting& setting) { return !setting.element; };
-  for (std::size_t i = 0; i < scene.settings.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const Setting& first = scene.settings[k];
-      const Setting& second = scene.settings[i];
-      if (first.name != second.name || !whole(first) || !whole(second)) continue;
-      symbols.report(
-          second.span, fmt::format("'{}' is set twice", second.name),
-          fmt::format("line {} sets it first", position(symbols.source(), first.span.begin).line));
-    }
+  std::map<std::string, Span> whole;  // set so far
+  for (const Setting& setting : scene.settings) {
+    if (setting.element) continue;
+    const auto [first, is_new] = whole.emplace(setting.name, setting.span);
+    if (is_new) continue;
+    symbols.report(
+        setting.span, fmt::format("'{}' is set twice", setting.name),
+        fmt::format("line {} sets it first", position(symbols.source(), first->second.begin).line));
   }
 }
 

@@ -16,18 +16,9 @@ namespace {
 constexpr long most_constant_terms = 1'000'000;
 constexpr long largest_integer = 999'999'999'999'999;
 
-// Squares of exact numbers have twice their digits: after 16 of them, as in parameters that are
-// made of each other, a hundred thousand.
-constexpr std::size_t most_digits = 20'000;
-
 // About as many decimal digits have numerator and denominator together.
 std::size_t digits(const Rational& value) {
   return mpz_sizeinbase(value.get_num_mpz_t(), 10) + mpz_sizeinbase(value.get_den_mpz_t(), 10);
-}
-
-Undefined too_long() {
-  return {fmt::format("this constant has more than {} digits", most_digits),
-          "it is exact: round what it is made of, 0.33333333333333333 for 1/3"};
 }
 
 Constant in_range(Rational value) {
@@ -140,6 +131,11 @@ class Evaluator {
 };
 
 }  // namespace
+
+Undefined too_long() {
+  return {fmt::format("this constant has more than {} digits", most_digits),
+          "it is exact: round what it is made of, 0.33333333333333333 for 1/3"};
+}
 
 std::optional<Undefined> check_exponent(const Rational& exponent) {
   if (abs(exponent) <= largest_exponent) return std::nullopt;

@@ -15,12 +15,17 @@ namespace hamgen {
 
 // An exponent that is a number lies between -largest_exponent and largest_exponent.
 inline constexpr long largest_exponent = 1000;
+// Squares of exact numbers have twice their digits: after 16 of them, as in parameters that are
+// made of each other, a hundred thousand.
+inline constexpr std::size_t most_digits = 20'000;
 
 struct Undefined {
   std::string message;
   std::string help;
 };
 using Constant = std::variant<Rational, Undefined>;
+// What is said of a number of more digits.
+[[nodiscard]] Undefined too_long();
 
 // Exact for rationals, else to 50 digits; Undefined where the value does not exist, is not real or
 // is outside the range of a double.

@@ -162,17 +162,17 @@ class ModelReader {
 
   void evaluate_scenes() {
     if (degrees_of_freedom(model_) > largest_checked_scene) return;
-    std::vector<SceneRequest> requests;
-    for (const Scene& scene : model_.scenes) requests.push_back({.scene = scene.name});
-    if (requests.empty()) requests.emplace_back();
-    for (const SceneRequest& request : requests) {
+    const auto collect = [this](const auto& evaluate) {
       try {
-        static_cast<void>(scene_values(model_, request));
+        static_cast<void>(evaluate());
       } catch (const ModelError& error) {
         diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(),
                             error.diagnostics().end());
       }
-    }
+    };
+    for (const Scene& scene : model_.scenes)
+      collect([&] { return values_of_scene(model_, scene); });
+    if (model_.scenes.empty()) collect([&] { return scene_values(model_, SceneRequest{}); });
   }
 
   void warn(Span span, std::string message, std::string help) {

@@ -67,8 +67,10 @@ class SceneReader {
       symbols_.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
   }
 
-  SceneValues run() {
-    scene_ = find_scene();
+  SceneValues run() { return run(find_scene()); }
+
+  SceneValues run(const Scene* scene) {
+    scene_ = scene;
     if (scene_ != nullptr && !scene_->mistakes.empty()) {
       throw ModelError(scene_->mistakes, model_.source);
     }
@@ -103,11 +105,10 @@ class SceneReader {
 
   const Scene* find_scene() const {
     if (request_.scene.empty()) return model_.scenes.empty() ? nullptr : &model_.scenes.front();
+    const auto found = std::ranges::find(model_.scenes, request_.scene, &Scene::name);
+    if (found != model_.scenes.end()) return &*found;
     std::vector<std::string> names;
-    for (const Scene& each : model_.scenes) {
-      if (each.name == request_.scene) return &each;
-      names.push_back(each.name);
-    }
+    for (const Scene& each : model_.scenes) names.push_back(each.name);
     const std::string near = nearest(request_.scene, names);
     std::string help = fmt::format("it has {}", fmt::join(names, ", "));
     if (names.empty()) help = "it has none";
@@ -310,6 +311,11 @@ class SceneReader {
 
 SceneValues scene_values(const Model& model, const SceneRequest& request) {
   return SceneReader(model, request).run();
+}
+
+SceneValues values_of_scene(const Model& model, const Scene& scene) {
+  const SceneRequest request{.scene = scene.name};
+  return SceneReader(model, request).run(&scene);
 }
 
 bool observes(const SceneValues& scene, const std::string& name) {

@@ -56,6 +56,8 @@ struct SceneValues {
 // name with its nearest, nan, inf, a wrong count, h = 0, steps < 0 or > 1e15), ModelError for a
 // wrong line of the scene.
 [[nodiscard]] SceneValues scene_values(const Model& model, const SceneRequest& request);
+// Of one of the model's scenes, without overrides.
+[[nodiscard]] SceneValues values_of_scene(const Model& model, const Scene& scene);
 
 // These names, and the parameters and variables whose values the run computes from them.
 [[nodiscard]] std::set<std::string> names_computed_from(const Model& model,

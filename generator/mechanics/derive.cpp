@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "generator/algebra/ginac_derivatives.hpp"
+#include "generator/algebra/ginac_parts.hpp"
+#include "generator/base/budget.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive_kernels.hpp"
@@ -18,16 +21,11 @@ namespace {
 // for small expressions; for large ones only GiNaC's own automatic simplification is used.
 constexpr std::size_t kSmall = 300;
 
+// Counting further would not make a formula longer in anybody's eyes.
+constexpr std::size_t kLong = 100'000;
+
 // Of a sum that was written out by hand nobody looks up its thousandth term.
 constexpr std::size_t kMostTraced = 200;
-
-std::size_t node_count(const GiNaC::ex& e, std::size_t limit) {
-  std::size_t count = 1;
-  for (std::size_t i = 0; i < e.nops() && count < limit; ++i) {
-    count += node_count(e.op(i), limit - count);
-  }
-  return count;
-}
 
 bool vanishes(const GiNaC::ex& e) {
   if (e.is_zero()) return true;
@@ -80,6 +78,38 @@ auto with_place(const Model& model, const Span& span, const Work& work) {
                        .message = fmt::format("undefined or not real: {}", error.what()),
                        .help = "it, or a derivative of it, has no real value at any state"}},
                      model.source);
+  } catch (const OverBudget& error) {
+    throw over_budget(error, span, model.source);
+  }
+}
+
+// The first and second derivatives of H, into the mechanics.
+void differentiate(const GiNaC::ex& energy, const std::map<std::string, int>& places,
+                   const SymbolTable& table, FromGinac& expression, Mechanics& mechanics) {
+  Differentiator differentiator;
+  std::vector<GiNaC::ex> gradient;
+  const auto symbol = [&](std::size_t i) -> const GiNaC::symbol& {
+    return table.find(mechanics.variables[i].name);
+  };
+  for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
+    GiNaC::ex derivative = differentiator(energy, symbol(i));
+    if (vanishes(derivative)) derivative = 0;
+    mechanics.gradient.push_back(expression(derivative));
+    gradient.push_back(std::move(derivative));
+  }
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    std::set<std::size_t> columns;
+    for (const std::string& name : symbols(mechanics.gradient[i])) {
+      const auto place = places.find(name);
+      if (place != places.end() && place->second >= static_cast<int>(i))
+        columns.insert(static_cast<std::size_t>(place->second));
+    }
+    for (const std::size_t j : columns) {
+      const GiNaC::ex entry = differentiator(gradient[i], symbol(j));
+      if (vanishes(entry)) continue;
+      mechanics.hessian.emplace(std::pair(static_cast<int>(i), static_cast<int>(j)),
+                                expression(entry));
+    }
   }
 }
 
@@ -98,14 +128,12 @@ Mechanics derived(const Model& model, bool keep_sums) {
   mechanics.parameters = parameters_of(model, false);
   mechanics.constants = parameters_of(model, true);
 
-  const int size = 2 * mechanics.degrees_of_freedom;
-  std::vector<const GiNaC::symbol*> symbols;
-  for (int i = 0; i < size; ++i) {
-    const std::string& name = mechanics.variables[static_cast<std::size_t>(i)].name;
-    table.symbol(name, kRankOfVariable + i);
+  std::map<std::string, int> places;
+  for (const Quantity& variable : mechanics.variables) {
+    const int place = static_cast<int>(places.size());
+    table.symbol(variable.name, kRankOfVariable + place);
+    places[variable.name] = place;
   }
-  for (const Quantity& variable : mechanics.variables)
-    symbols.push_back(&table.find(variable.name));
 
   const std::vector<WrittenTerm> terms = written_terms(model);
   for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
@@ -116,30 +144,24 @@ Mechanics derived(const Model& model, bool keep_sums) {
     }
   }
   const GiNaC::ex energy = hamiltonian(model, converter, table);
-  mechanics.energy = from_ginac(energy, table);
+  FromGinac expression(table);
+  mechanics.energy = expression(energy);
+  std::size_t longest = 0;
+  Span span_of_longest = model.hamiltonian->span;
   for (std::size_t t = 0; t < terms.size() && terms.size() <= kMostTraced; ++t) {
     const GiNaC::ex value = converter.convert(terms[t].node);
-    for (int i = 0; i < size; ++i) {
-      if (!value.has(*symbols[static_cast<std::size_t>(i)])) continue;
-      mechanics.terms[t].variables.insert(mechanics.variables[static_cast<std::size_t>(i)].name);
+    for (const std::string& name : symbols(expression(value))) {
+      if (places.contains(name)) mechanics.terms[t].variables.insert(name);
     }
+    const std::size_t length = node_count(value, kLong);
+    if (length <= longest) continue;
+    longest = length;
+    span_of_longest = terms[t].node->span;
   }
-  std::vector<GiNaC::ex> gradient;
-  for (int i = 0; i < size; ++i) {
-    GiNaC::ex derivative = energy.diff(*symbols[static_cast<std::size_t>(i)]);
-    if (vanishes(derivative)) derivative = 0;
-    mechanics.gradient.push_back(from_ginac(derivative, table));
-    gradient.push_back(std::move(derivative));
-  }
-  for (int i = 0; i < size; ++i) {
-    std::set<std::string> present;
-    collect_symbols(mechanics.gradient[static_cast<std::size_t>(i)], present);
-    for (int j = i; j < size; ++j) {
-      const auto column = static_cast<std::size_t>(j);
-      if (!present.contains(mechanics.variables[column].name)) continue;
-      const GiNaC::ex entry = gradient[static_cast<std::size_t>(i)].diff(*symbols[column]);
-      if (!vanishes(entry)) mechanics.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
-    }
+  try {
+    differentiate(energy, places, table, expression, mechanics);
+  } catch (const OverBudget& error) {
+    throw over_budget(error, span_of_longest, model.source);
   }
   return mechanics;
 }
@@ -147,6 +169,7 @@ Mechanics derived(const Model& model, bool keep_sums) {
 }  // namespace
 
 Mechanics derive(const Model& model, bool keep_sums) {
+  const Budget budget;
   Mechanics mechanics =
       with_place(model, model.hamiltonian->span, [&] { return derived(model, keep_sums); });
   // The ranks of the symbols are those of their declarations, see TreeConverter.

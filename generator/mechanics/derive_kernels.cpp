@@ -6,6 +6,7 @@
 #include <list>
 #include <set>
 
+#include "generator/algebra/ginac_derivatives.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/energy_terms.hpp"
 #include "generator/mechanics/mechanics.hpp"
@@ -290,17 +291,19 @@ class KernelBuilder {
         internal_error("a variable of a kernel has no slot: " + symbol);
       }
     }
+    Differentiator derivative;
+    FromGinac expression(table);
     std::vector<GiNaC::ex> gradient;
     for (const Slot& slot : kernel.slots) {
-      gradient.push_back(value.diff(table.find(slot.symbol)));
-      kernel.gradient.push_back(from_ginac(gradient.back(), table));
+      gradient.push_back(derivative(value, table.find(slot.symbol)));
+      kernel.gradient.push_back(expression(gradient.back()));
     }
     for (std::size_t i = 0; i < kernel.slots.size(); ++i) {
       const std::set<std::string> present = symbols(kernel.gradient[i]);
       for (std::size_t j = i; j < kernel.slots.size(); ++j) {
         if (!present.contains(kernel.slots[j].symbol)) continue;
-        const GiNaC::ex entry = gradient[i].diff(table.find(kernel.slots[j].symbol));
-        if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), from_ginac(entry, table));
+        const GiNaC::ex entry = derivative(gradient[i], table.find(kernel.slots[j].symbol));
+        if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), expression(entry));
       }
     }
     kernels_.push_back(std::move(kernel));

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "generator/algebra/evaluate.hpp"
 #include "generator/algebra/ginac_functions.hpp"
+#include "generator/algebra/ginac_parts.hpp"
+#include "generator/base/budget.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/mechanics.hpp"
 
@@ -11,15 +16,12 @@ namespace hamgen {
 
 namespace {
 
-// Of all sums of a model: as many as one index has at most.
-constexpr long kMostSummands = 1'000'000;
+constexpr double bits_of_digits = 3.33;  // log2(10), rounded up
 
 bool is_constant(const GiNaC::ex& e) {
+  spend(Resource::work, 1);
   if (GiNaC::is_a<GiNaC::symbol>(e)) return false;
-  for (std::size_t i = 0; i < e.nops(); ++i) {
-    if (!is_constant(e.op(i))) return false;
-  }
-  return true;
+  return std::ranges::all_of(operands_of(e), is_constant);
 }
 
 }  // namespace
@@ -60,9 +62,16 @@ void TreeConverter::fail(const Span& span, std::string message, std::string help
                    model_.source);
 }
 
-GiNaC::ex TreeConverter::convert(const NodePtr& node) { return convert(node, {}); }
+GiNaC::ex TreeConverter::convert(const NodePtr& node) {
+  try {
+    return convert(node, {});
+  } catch (const OverBudget& error) {
+    throw over_budget(error, node->span, model_.source);
+  }
+}
 
 GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
+  spend(Resource::work, 1);
   try {
     if (const auto* number = std::get_if<NumberNode>(&node->value)) {
       return to_ginac(number->value);
@@ -88,6 +97,8 @@ GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
     }
     return convert_sum(std::get<SumNode>(node->value), 0, indices);
   } catch (const ModelError&) {
+    throw;
+  } catch (const OverBudget&) {
     throw;
   } catch (const GiNaC::pole_error&) {
     fail(node->span, "division by zero", "this is undefined for every state");
@@ -130,7 +141,7 @@ GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
   for (const Definition& definition : model_.definitions) {
     if (definition.name != name.name) continue;
     if (const auto it = definitions_.find(name.name); it != definitions_.end()) return it->second;
-    const GiNaC::ex value = convert(definition.value, {});
+    const GiNaC::ex value = convert(definition.value);
     definitions_.emplace(name.name, value);
     return value;
   }
@@ -178,14 +189,14 @@ GiNaC::ex TreeConverter::convert_binary(const Node& place, const BinaryNode& nod
   const GiNaC::ex right = convert(node.right, indices);
   switch (node.operation) {
     case BinaryOperator::add:
-      return left + right;
+      return moderate(place.span, left + right);
     case BinaryOperator::subtract:
-      return left - right;
+      return moderate(place.span, left - right);
     case BinaryOperator::multiply:
-      return left * right;
+      return moderate(place.span, left * right);
     case BinaryOperator::divide:
       if (vanishes_when_expanded(right)) fail(node.right->span, "division by zero");
-      return left / right;
+      return moderate(place.span, left / right);
     case BinaryOperator::power: {
       const bool negative =
           GiNaC::is_a<GiNaC::numeric>(right) && right.info(GiNaC::info_flags::negative);
@@ -197,7 +208,8 @@ GiNaC::ex TreeConverter::convert_binary(const Node& place, const BinaryNode& nod
           return combine(BinaryOperator::power, values[0], values[1]);
         });
       }
-      return GiNaC::pow(left, right);
+      require_moderate_power(place, left, right);
+      return moderate(place.span, GiNaC::pow(left, right));
     }
   }
   internal_error("unknown operator");
@@ -214,24 +226,58 @@ long TreeConverter::integer(const NodePtr& node, const Indices& indices) const {
   return value.get_num().get_si();
 }
 
+// The value, if its coefficients are of moderate length: 1/1 + 1/2 + ... + 1/n has about n digits.
+GiNaC::ex TreeConverter::moderate(const Span& span, const GiNaC::ex& value) const {
+  if (longest_coefficient(value) > bits_of_digits * most_digits) {
+    const Undefined mistake = too_long();
+    fail(span, mistake.message, mistake.help);
+  }
+  return value;
+}
+
+// (c x)^n is c^n x^n.
+void TreeConverter::require_moderate_power(const Node& place, const GiNaC::ex& base,
+                                           const GiNaC::ex& exponent) const {
+  if (GiNaC::is_a<GiNaC::add>(base) || !exponent.info(GiNaC::info_flags::integer)) return;
+  const double n = std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double());
+  if (longest_coefficient(base) * n <= bits_of_digits * most_digits) return;
+  const Undefined mistake = too_long();
+  fail(place.span, mistake.message, mistake.help);
+}
+
 GiNaC::ex TreeConverter::convert_sum(const SumNode& node, std::size_t depth, Indices indices) {
   if (depth == node.ranges.size()) {
-    if (++terms_ > kMostSummands) {
-      fail(node.body->span, fmt::format("this is written out more than {} times", kMostSummands),
-           "the terms of nested ranges multiply: sum over fewer, or give the inner sum as a "
-           "formula");
+    try {
+      spend(Resource::terms, 1);
+      return convert(node.body, indices);
+    } catch (const OverBudget& error) {
+      throw over_budget(error, node.body->span, model_.source);
     }
-    return convert(node.body, indices);
   }
   const SumRange& range = node.ranges[depth];
-  const long lower = integer(range.lower, indices);
-  const long upper = integer(range.upper, indices);
+  const long first = integer(range.lower, indices);
+  const long last = integer(range.upper, indices);
+  return first > last ? GiNaC::ex(0) : add_up(node, depth, indices, first, last);
+}
+
+// By halves: fractions that are added one by one are reduced a thousand times at full length.
+GiNaC::ex TreeConverter::add_up(const SumNode& node, std::size_t depth, Indices& indices,
+                                long first, long last) {
+  constexpr long few = 32;
   GiNaC::exvector terms;
-  for (long i = lower; i <= upper; ++i) {
-    indices[range.index] = i;
-    terms.push_back(convert_sum(node, depth + 1, indices));
+  if (last - first >= few) {
+    const long middle = first + (last - first) / 2;
+    terms.push_back(add_up(node, depth, indices, first, middle));
+    terms.push_back(add_up(node, depth, indices, middle + 1, last));
+  } else {
+    for (long i = first; i <= last; ++i) {
+      indices[node.ranges[depth].index] = i;
+      terms.push_back(convert_sum(node, depth + 1, indices));
+    }
   }
-  return GiNaC::add(terms);
+  const GiNaC::ex sum = GiNaC::add(terms);
+  spend(Resource::nodes, static_cast<double>(sum.nops()));
+  return moderate(node.body->span, sum);
 }
 
 }  // namespace hamgen

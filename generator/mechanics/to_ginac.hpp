@@ -19,7 +19,8 @@ namespace hamgen {
 class TreeConverter {
  public:
   TreeConverter(const Model& model, SymbolTable& table);
-  // Throws ModelError with the place of what is undefined: 1/(q - q), log(-1).
+  // Throws ModelError with the place of what is undefined, 1/(q - q), log(-1), and of what passes
+  // the limits of budget.hpp.
   [[nodiscard]] GiNaC::ex convert(const NodePtr& node);
 
   using Indices = std::map<std::string, long>;
@@ -41,13 +42,17 @@ class TreeConverter {
   void require_real(const Node& node, const GiNaC::exvector& operands,
                     const ConstantFunction& function) const;
   [[nodiscard]] GiNaC::ex convert_sum(const SumNode& node, std::size_t depth, Indices indices);
+  [[nodiscard]] GiNaC::ex add_up(const SumNode& node, std::size_t depth, Indices& indices,
+                                 long first, long last);
+  [[nodiscard]] GiNaC::ex moderate(const Span& span, const GiNaC::ex& value) const;
+  void require_moderate_power(const Node& place, const GiNaC::ex& base,
+                              const GiNaC::ex& exponent) const;
   [[nodiscard]] GiNaC::ex element(const Variable& variable, long index, const Span& span);
   [[nodiscard]] long integer(const NodePtr& node, const Indices& indices) const;
   [[noreturn]] void fail(const Span& span, std::string message, std::string help = {}) const;
 
   const Model& model_;
   SymbolTable& table_;
-  long terms_ = 0;  // of sums, so far
   std::map<std::string, GiNaC::ex> definitions_;
   std::map<std::string, std::pair<const Variable*, int>> variables_;  // first rank
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;

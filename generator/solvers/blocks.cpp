@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <utility>
+
+#include "generator/base/budget.hpp"
 
 namespace hamgen {
 
@@ -90,6 +94,20 @@ std::vector<std::vector<int>> strongly_connected_components(const std::vector<in
   return Tarjan(nodes, depends).run();
 }
 
+Dependency tabulated(const std::vector<int>& nodes, const Dependency& depends) {
+  if (nodes.empty()) return depends;
+  const std::size_t size = static_cast<std::size_t>(*std::ranges::max_element(nodes)) + 1;
+  std::vector<std::vector<bool>> table(size, std::vector<bool>(size));
+  for (const int i : nodes) {
+    for (const int j : nodes)
+      table[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = depends(i, j);
+  }
+  return [table = std::make_shared<const std::vector<std::vector<bool>>>(std::move(table))](int i,
+                                                                                            int j) {
+    return (*table)[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  };
+}
+
 std::vector<int> tear(const std::vector<int>& preference, const Dependency& depends,
                       const std::function<bool(int)>& may_self) {
   std::vector<int> torn;
@@ -97,6 +115,7 @@ std::vector<int> tear(const std::vector<int>& preference, const Dependency& depe
     if (depends(candidate, candidate) && !may_self(candidate)) continue;
     std::vector<int> trial = torn;
     trial.push_back(candidate);
+    spend(Resource::work, 0.1 * static_cast<double>(trial.size() * trial.size()));
     if (strongly_connected_components(trial, depends).size() == trial.size()) torn = trial;
   }
   std::ranges::sort(torn);

@@ -13,6 +13,9 @@ using Dependency = std::function<bool(int row, int column)>;
 [[nodiscard]] std::vector<std::vector<int>> strongly_connected_components(
     const std::vector<int>& nodes, const Dependency& depends);
 
+// The same for these nodes, from a table: tearing asks for each pair again and again.
+[[nodiscard]] Dependency tabulated(const std::vector<int>& nodes, const Dependency& depends);
+
 // A set of nodes of the block that do not depend on each other in a cycle, taken greedily in the
 // order of preference, returned in the order of evaluation.  may_self(i) allows i to depend on
 // itself (it is then solved for).

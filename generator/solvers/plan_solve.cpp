@@ -138,7 +138,8 @@ Block plan_simplified_newton(const StepEquations& equations, const std::vector<i
 
 Block plan_block(const StepEquations& equations, const std::vector<int>& component,
                  bool fixed_point) {
-  const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
+  const Dependency depends =
+      tabulated(component, [&](int i, int j) { return equations.depends(i, j); });
   if (component.size() == 1 && !depends(component[0], component[0])) {
     return {.kind = BlockKind::assign, .unknowns = component};
   }
