@@ -8,17 +8,17 @@ namespace hamgen {
 
 namespace {
 
-RationalMatrix transposed(const RationalMatrix& matrix) {
-  RationalMatrix result;
+SparseRationalMatrix transposed(const SparseRationalMatrix& matrix) {
+  SparseRationalMatrix result;
   for (const auto& [place, entry] : matrix)
     result.emplace(std::pair(place.second, place.first), entry);
   return result;
 }
 
 // Two blocks, the second below and to the right of the first, which is rows x columns.
-RationalMatrix blocks(const RationalMatrix& first, const RationalMatrix& second, int rows,
-                      int columns) {
-  RationalMatrix result = first;
+SparseRationalMatrix blocks(const SparseRationalMatrix& first, const SparseRationalMatrix& second,
+                            int rows, int columns) {
+  SparseRationalMatrix result = first;
   for (const auto& [place, entry] : second)
     result.emplace(std::pair(rows + place.first, columns + place.second), entry);
   return result;
@@ -50,7 +50,7 @@ SparseMatrix full_matrix(const Member& member, int n) {
   return c;
 }
 
-SparseMatrix times(const SparseMatrix& c, const RationalMatrix& l) {
+SparseMatrix times(const SparseMatrix& c, const SparseRationalMatrix& l) {
   SparseMatrix result;
   for (const auto& [place, entry] : c) {
     for (auto it = l.lower_bound({place.second, 0});
@@ -61,7 +61,7 @@ SparseMatrix times(const SparseMatrix& c, const RationalMatrix& l) {
   }
   return result;
 }
-SparseMatrix times(const RationalMatrix& l, const SparseMatrix& c) {
+SparseMatrix times(const SparseRationalMatrix& l, const SparseMatrix& c) {
   SparseMatrix result;
   for (const auto& [place, entry] : l) {
     for (auto it = c.lower_bound({place.second, 0});
@@ -75,7 +75,7 @@ SparseMatrix times(const RationalMatrix& l, const SparseMatrix& c) {
 
 // C' with C L = L C'.
 std::optional<SparseMatrix> in_new_variables(const LinearChange& change, const SparseMatrix& c) {
-  const RationalMatrix embedding = change.embedding();
+  const SparseRationalMatrix embedding = change.embedding();
   const SparseMatrix image = times(c, embedding);
   SparseMatrix result = times(change.projection(), image);
   std::erase_if(result, [](const auto& entry) { return vanishes(entry.second); });
@@ -96,13 +96,13 @@ bool change_member(const LinearChange& change, Member& member) {
 
 }  // namespace
 
-RationalMatrix LinearChange::embedding() const { return blocks(a, b, from, to); }
-RationalMatrix LinearChange::projection() const {
+SparseRationalMatrix LinearChange::embedding() const { return blocks(a, b, from, to); }
+SparseRationalMatrix LinearChange::projection() const {
   return blocks(transposed(b), transposed(a), to, from);
 }
 
-RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b) {
-  RationalMatrix result;
+SparseRationalMatrix product(const SparseRationalMatrix& a, const SparseRationalMatrix& b) {
+  SparseRationalMatrix result;
   for (const auto& [place, entry] : a) {
     for (auto it = b.lower_bound({place.second, 0});
          it != b.end() && it->first.first == place.second; ++it)
@@ -186,7 +186,7 @@ std::optional<Scheme> in_new_variables(const LinearChange& change, const Scheme&
 }
 
 SceneFacts in_new_variables(const LinearChange& change, SceneFacts scene) {
-  const auto image = [&](const RationalMatrix& matrix, const std::vector<Rational>& old) {
+  const auto image = [&](const SparseRationalMatrix& matrix, const std::vector<Rational>& old) {
     std::vector<Rational> values(at_place(change.to));
     for (const auto& [place, entry] : matrix)
       values[at_place(place.second)] += entry * old[at_place(place.first)];

@@ -16,7 +16,7 @@
 namespace hamgen {
 
 // The nonzero entries by (row, column), from 0.
-using RationalMatrix = std::map<std::pair<int, int>, Rational>;
+using SparseRationalMatrix = std::map<std::pair<int, int>, Rational>;
 
 // Note [a step in new variables]
 // z = L Z with q = A Q, p = B P and A^T B = 1, so that R = (B^T, A^T) takes Z from z, and L carries
@@ -30,17 +30,18 @@ using RationalMatrix = std::map<std::pair<int, int>, Rational>;
 // the flow, and with C each stage, does not leave.
 struct LinearChange {
   int from = 0, to = 0;             // degrees of freedom
-  RationalMatrix a, b;              // from x to
+  SparseRationalMatrix a, b;        // from x to
   std::vector<Quantity> variables;  // 2 to: the new ones
   // A parameter, and one of the same value in the scene that takes its place.
   std::vector<std::pair<std::string, std::string>> united = {};
   std::vector<std::string> left_out = {};  // one line each
 
   // L, 2 from x 2 to, and R.
-  [[nodiscard]] RationalMatrix embedding() const;
-  [[nodiscard]] RationalMatrix projection() const;
+  [[nodiscard]] SparseRationalMatrix embedding() const;
+  [[nodiscard]] SparseRationalMatrix projection() const;
 };
-[[nodiscard]] RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b);
+[[nodiscard]] SparseRationalMatrix product(const SparseRationalMatrix& a,
+                                           const SparseRationalMatrix& b);
 
 // Each parameter's name with the symbol that takes its place.
 [[nodiscard]] Substitution united_parameters(

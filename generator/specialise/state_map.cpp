@@ -6,14 +6,14 @@ namespace hamgen {
 
 namespace {
 
-RationalMatrix unit_matrix(int size) {
-  RationalMatrix result;
+SparseRationalMatrix unit_matrix(int size) {
+  SparseRationalMatrix result;
   for (int i = 0; i < size; ++i) result[{i, i}] = 1;
   return result;
 }
 
 // Variables of the model where the scene begins: row `i` of a projection.
-std::map<int, Rational> row_of(const RationalMatrix& matrix, int i) {
+std::map<int, Rational> row_of(const SparseRationalMatrix& matrix, int i) {
   std::map<int, Rational> row;
   for (auto it = matrix.lower_bound({i, 0}); it != matrix.end() && it->first.first == i; ++it)
     row[it->first.second] = it->second;
@@ -33,8 +33,8 @@ void add_multiple(std::map<int, Rational>& sum, const Rational& factor,
 StateMap state_map(const Specialised& system) {
   const int n = system.given.degrees_of_freedom;
   const int w = system.whole.degrees_of_freedom;
-  RationalMatrix embedding = unit_matrix(2 * n);
-  RationalMatrix projection = embedding;
+  SparseRationalMatrix embedding = unit_matrix(2 * n);
+  SparseRationalMatrix projection = embedding;
   for (const LinearChange& change : system.changes) {
     embedding = product(embedding, change.embedding());
     projection = product(change.projection(), projection);

@@ -116,8 +116,8 @@ class SpecialisedClaims {
       start = times(change.projection(), start, 2 * change.to);
     return start;
   }
-  static std::vector<Rational> times(const RationalMatrix& matrix, const std::vector<Rational>& z,
-                                     int rows) {
+  static std::vector<Rational> times(const SparseRationalMatrix& matrix,
+                                     const std::vector<Rational>& z, int rows) {
     std::vector<Rational> result(position(rows));
     for (const auto& [place, entry] : matrix)
       result[position(place.first)] += entry * z[position(place.second)];
@@ -130,7 +130,7 @@ class SpecialisedClaims {
     start.insert(start.end(), scene_.values.p.begin(), scene_.values.p.end());
     const Mechanics* before = &system_.given;
     for (const LinearChange& change : system_.changes) {
-      RationalMatrix unit;
+      SparseRationalMatrix unit;
       for (int i = 0; i < 2 * change.to; ++i) unit[{i, i}] = 1;
       if (product(change.projection(), change.embedding()) != unit)
         return "the new variables have another symplectic form";
@@ -191,7 +191,7 @@ class SpecialisedClaims {
                       const Substitution& here) {
     Slopes before(energy);
     Slopes after(image);
-    const auto rows = [](const RationalMatrix& matrix, int row) {
+    const auto rows = [](const SparseRationalMatrix& matrix, int row) {
       std::vector<std::pair<int, Rational>> entries;
       for (auto it = matrix.lower_bound({row, 0}); it != matrix.end() && it->first.first == row;
            ++it)
@@ -219,7 +219,7 @@ class SpecialisedClaims {
   }
   // Over all changes at once.
   void claim_changed_matrix(const SparseMatrix& c) {
-    RationalMatrix l;
+    SparseRationalMatrix l;
     for (int i = 0; i < 2 * system_.given.degrees_of_freedom; ++i) l[{i, i}] = 1;
     for (const LinearChange& change : system_.changes) l = product(l, change.embedding());
     std::map<std::pair<int, int>, std::vector<Expression>> difference;
