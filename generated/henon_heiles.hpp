@@ -3,7 +3,7 @@
 //   made by   hamgen 0.1.0, in C++17
 //   command   hamgen generate hamiltonians/henon_heiles.ham --scheme symplectic-euler-a
 //   model     hamiltonians/henon_heiles.ham
-//   sha256    dbe775485a2b36ac25eaeb9c1024e491c13c3ce2bf5809910de181f8fb289982
+//   sha256    f75a53ebb72441b825d60836e9fcaf27d8e66aed55482ee8005894e2d6112f72
 //   H(q, p) = (p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3
 //   scheme    alpha = 0, beta = 0, gamma = 0: order 1, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = q, pbar = P

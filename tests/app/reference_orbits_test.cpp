@@ -18,7 +18,7 @@ TEST(Reference, OfHenonAndHeiles) {
                        {3, "0.0133018927609798237"}}},
                      {"Henon-Heiles, H = 1/6",
                       "henon_heiles",
-                      {"--scene", "chaotic"},
+                      {"--scene", "island"},
                       "100",
                       {{0, "-0.529151960964035324"},
                        {1, "-0.12307872732645366"},
