@@ -68,7 +68,7 @@ namespace {
 
 // What the front end has read; a scene's own values are put in later, and proved by "specialised".
 Finding prove_front_end(const Stages& stages, const Surroundings& around) {
-  const Mechanics& mechanics = stages.system.whole;
+  const Mechanics& mechanics = stages.system.given;
   DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(stages.model)};
   const bool folded = !stages.folded.folding.left_out.empty();
   if (!folded && !mechanics.keeps_sums()) {
