@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "generator/base/source_text.hpp"
 #include "tests/specialise/specialised_request.hpp"
@@ -10,17 +11,18 @@ namespace hamgen {
 namespace {
 
 TEST(ShippedScenes, AreProvedFromTheTextOfTheModelToThatOfTheHeader) {
-  for (const auto& [model, scene] : {std::pair{"two_bodies", "mirror"},
-                                     {"two_bodies", "apart"},
-                                     {"beads", "plucked"},
-                                     {"oblate_kepler", "equatorial"},
-                                     {"spring_pendulum", "hanging"}}) {
+  // H of the hanging spring is left with sqrt(q2^2), which has a corner.
+  for (const auto& [model, scene, known] : {std::tuple{"two_bodies", "mirror", Verdict::proved},
+                                            {"two_bodies", "apart", Verdict::proved},
+                                            {"beads", "plucked", Verdict::proved},
+                                            {"oblate_kepler", "equatorial", Verdict::proved},
+                                            {"spring_pendulum", "hanging", Verdict::tested}}) {
     const std::string path = std::string(HAMGEN_SOURCE_DIR "/hamiltonians/") + model + ".ham";
     const SourceText source = read_source(path);
     const Proof proof = verify_step(source, for_scene(source, {.scene = scene}));
-    for (const auto& [property, verdict] : {std::pair{"program", Verdict::proved},
-                                            {"emitted code", Verdict::proved},
-                                            {"specialised", Verdict::proved},
+    for (const auto& [property, verdict] : {std::pair{"program", known},
+                                            {"emitted code", known},
+                                            {"specialised", known},
                                             {"model", Verdict::tested}}) {
       const auto found = std::ranges::find(proof, property, &Finding::property);
       ASSERT_NE(found, proof.end()) << model << scene << property;
