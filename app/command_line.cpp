@@ -308,7 +308,13 @@ void specialise(const SceneOptions& options, const SceneValues& values,
       facts.kept.insert(name);
     }
   }
-  if (!options.whole) setting.request.scene = std::move(facts);
+  if (!options.whole) {
+    setting.request.scene = std::move(facts);
+  } else if (!facts.values.formulas.empty()) {
+    // What a scene defines to look at it is computed, and nothing left out for that.
+    facts.kept = std::move(known);
+    setting.request.scene = std::move(facts);
+  }
 }
 
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request) {

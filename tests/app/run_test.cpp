@@ -146,6 +146,18 @@ TEST(Run, WritesATrajectory) {
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"out.csv", "two.ham"}));
 }
 
+// What the scene defines to look at it is computed where nothing is left out, too.
+TEST(Run, WritesTheFormulasOfAScene) {
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/two_bodies.ham";
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--whole"}}) {
+    std::vector<std::string> words{"run", model, "--scene", "apart", "--steps", "3", "-o", "-"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "step,t,distance\n")) << result.out;
+  }
+}
+
 TEST(Run, DoesNotOverwriteTheModel) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
