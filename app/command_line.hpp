@@ -30,6 +30,7 @@ struct Command {
   std::function<int()> run;
 };
 
+[[nodiscard]] Command add_new(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_show(CLI::App& app);
 [[nodiscard]] Command add_generate(CLI::App& app);

@@ -75,10 +75,10 @@ class ShortHelp : public CLI::FormatterBase {
 void use_short_help(CLI::App& app) {
   const auto help = std::make_shared<ShortHelp>();
   app.formatter(help);
-  app.set_help_flag("-?,--help", "this text");
+  app.set_help_flag("-h,--help", "this text; help COMMAND or COMMAND --help: that of a command");
   for (CLI::App* command : app.get_subcommands({})) {
     command->formatter(help);
-    command->set_help_flag("--help", "this text");
+    command->set_help_flag("-h,--help", "this text");
   }
 }
 
