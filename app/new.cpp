@@ -29,9 +29,10 @@ parameter m = 1 [kg]     # changed for a run by --set m=2, without compiling aga
 parameter k = 0.5        # of the force across
 
 let r2 = x^2 + y^2       # a name for what occurs often
+let wells = (x^2 - 1)^2/4
 
-H = (px^2 + py^2)/(2*m)  # kinetic energy: + - * / ^, sin, exp, sqrt, ... (hamgen list functions)
-  + (x^2 - 1)^2/4 + k*y^2/2 + r2^2/20
+# + - * / ^, sin, exp, sqrt, ...: hamgen list functions
+H = (px^2 + py^2)/(2*m) + wells + k*y^2/2 + r2^2/20
 
 # invariant L = x*py - y*px    is watched along a run, and verify says whether H conserves it
 
@@ -69,7 +70,8 @@ int make_model(const std::string& name) {
                               .exit_status = {},
                               .output_tail = {}});
   }
-  print(fmt::format("{0}\nhelp: look into it, then: hamgen run {0}\n", path.string()));
+  print(path.string() + "\n");
+  print_error(fmt::format("help: look into it, then: hamgen run {}\n", path.string()));
   return done;
 }
 
