@@ -45,6 +45,8 @@ struct Command {
 [[nodiscard]] Command add_tune(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);
+[[nodiscard]] Command add_completion(CLI::App& app);
+[[nodiscard]] Command add_man(CLI::App& app);
 
 // Which integrator is meant; the texts are kept as typed.
 struct MethodOptions {

@@ -47,7 +47,8 @@ class ShortHelp : public CLI::FormatterBase {
                         CLI::AppFormatMode /*mode*/) const override {
     std::vector<Row> rows;
     for (const CLI::App* command : app->get_subcommands({}))
-      rows.push_back({command->get_name(), command->get_description()});
+      if (!command->get_group().empty())
+        rows.push_back({command->get_name(), command->get_description()});
     for (const bool positional : {true, false}) {
       for (const CLI::Option* option : app->get_options()) {
         if (option->get_positional() != positional) continue;
