@@ -214,12 +214,13 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    const bool of_code = finding.property == kProgram || finding.property == kEmittedCode ||
+    const bool of_text = finding.property == kEmittedCode || finding.property == kPlugin;
+    const bool of_code = of_text || finding.property == kProgram ||
                          finding.property == kModelRead || finding.property == "specialised";
     if (of_code && is_refuted(finding)) holds = false;
     // What is emitted can be read.
     const bool unread = finding.detail.find("not understood") != std::string::npos;
-    if (finding.property == kEmittedCode && unread) holds = false;
+    if (of_text && unread) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }
