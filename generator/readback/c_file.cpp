@@ -32,11 +32,23 @@ constexpr CBlock kCBlocks[] = {{"STEP_REPORT", "c/step_report"},
                                {"NEWTON_RULE", "c/newton_rule"}};
 
 // Words of the tested headers that an emitted one calls otherwise.
-constexpr std::string_view kOfBlocks[] = {
-    "StepReport",          "two_sum",          "two_sum_with_rest", "collect", "product_error",
-    "magnitude",           "largest",          "epsilon",           "Verdict", "go_on",
-    "done",                "failed",           "NewtonRule",        "NewtonRule_of_power",
-    "NewtonRule_power",    "NewtonRule_begin", "NewtonRule_check"};
+constexpr std::string_view kOfBlocks[] = {"StepReport",
+                                          "two_sum",
+                                          "two_sum_with_rest",
+                                          "collect",
+                                          "product_error",
+                                          "magnitude",
+                                          "largest",
+                                          "epsilon",
+                                          "Verdict",
+                                          "go_on",
+                                          "done",
+                                          "failed",
+                                          "NewtonRule",
+                                          "NewtonRule_of_power",
+                                          "NewtonRule_power",
+                                          "NewtonRule_begin",
+                                          "NewtonRule_check"};
 
 // Ends with an underscore: "HAMGEN_C_FLOAT64_"
 std::string guard_of_blocks(const Precision& precision) {
@@ -51,8 +63,8 @@ std::string_view tested_text(std::string_view name) {
 
 class CFileReader {
  public:
-  CFileReader(std::span<const CppToken> tokens, const Precision& precision,
-              const ShellFacts& facts, ReadBack& found)
+  CFileReader(std::span<const CppToken> tokens, const Precision& precision, const ShellFacts& facts,
+              ReadBack& found)
       : tokens_(tokens),
         cursor_(tokens),
         precision_(precision),
@@ -112,15 +124,16 @@ class CFileReader {
 
   void read_text(const std::string& macro, int line) {
     const std::string blocks = guard_of_blocks(precision_);
-    if (macro == "HAMGEN_C_SYSTEM_" + names_.system || macro == "HAMGEN_C_METHOD_" + names_.method) {
+    if (macro == "HAMGEN_C_SYSTEM_" + names_.system ||
+        macro == "HAMGEN_C_METHOD_" + names_.method) {
       while (cursor_.peek().kind != CppToken::Kind::directive) read_item();
     } else if (macro == "HAMGEN_C_" + names_.block("pi")) {
       expect({"static const Real hamgen::pi = " + std::string(kConstant) + ";",
               {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
              "pi");
     } else if (macro.starts_with(blocks)) {
-      const auto* const block =
-          std::ranges::find(kCBlocks, std::string_view(macro).substr(blocks.size()), &CBlock::guard);
+      const auto* const block = std::ranges::find(
+          kCBlocks, std::string_view(macro).substr(blocks.size()), &CBlock::guard);
       if (block == std::end(kCBlocks)) throw TextDifference(line, macro + " guards no fixed block");
       read_block(*block);
     } else {
@@ -152,7 +165,7 @@ class CFileReader {
     std::string text;
     for (const CppToken& token : tokens_of(tested_text(numerics))) {
       const bool of_blocks = std::ranges::find(kOfBlocks, token.text) != std::end(kOfBlocks);
-      text += of_blocks                            ? names_.block(token.text)
+      text += of_blocks                           ? names_.block(token.text)
               : token.text.starts_with("History") ? names_.named(token.text)
               : token.is("Unknowns")              ? unknowns
               : token.is("Degrees")               ? degrees
@@ -208,6 +221,8 @@ class CFileReader {
     const Routine* routine = code_.routine(name);
     if (routine == nullptr)
       throw TextDifference(cursor_.line(), fmt::format("'{}' is nothing that the step has", name));
+    if (!cursor_.peek().is("static") || !cursor_.peek(1).is("inline"))
+      throw TextDifference(cursor_.line(), name + " is not static and inline");
     const CppFunction function = without_addresses(take_function(), code_);
     RoutineReader reader(function, *routine, precision_, 0);
     reader.compare();

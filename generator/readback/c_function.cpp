@@ -30,7 +30,8 @@ bool begins_with_zeros(const Record& record) {
 
 class AddressReader {
  public:
-  AddressReader(const CppFunction& written, const StepCode& code) : function_(written), code_(code) {}
+  AddressReader(const CppFunction& written, const StepCode& code)
+      : function_(written), code_(code) {}
 
   CppFunction run() {
     function_.name = of_header(function_.name);
@@ -258,9 +259,9 @@ class AddressReader {
     for (std::size_t i = 0; i < routine.arguments.size(); ++i) {
       const Argument& argument = routine.arguments[i];
       CppExpression& given = result.parts[i + 1];
-      given = !argument.record.empty()                       ? record_argument(given)
+      given = !argument.record.empty()                     ? record_argument(given)
               : !argument.sizes.empty() || argument.decays ? array_argument(given)
-                                                             : value(given);
+                                                           : value(given);
     }
     return result;
   }

@@ -26,9 +26,9 @@ constexpr std::string_view kBlocks[] = {"StepReport",
                                         "NewtonRule_power",
                                         "NewtonRule_begin",
                                         "NewtonRule_check"};
-constexpr std::string_view kMathematics[] = {
-    "fabs", "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cos",
-    "cosh", "exp",  "log",   "sin",  "sinh",  "sqrt", "tan",   "tanh",  "pow"};
+constexpr std::string_view kMathematics[] = {"fabs",  "acos",  "acosh", "asin", "asinh", "atan",
+                                             "atan2", "atanh", "cos",   "cosh", "exp",   "log",
+                                             "sin",   "sinh",  "sqrt",  "tan",  "tanh",  "pow"};
 
 constexpr std::string_view kFixed = "hamgen_";
 

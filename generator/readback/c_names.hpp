@@ -28,8 +28,8 @@ struct CNames {
 // What stands before a name of the header in `cpp_words`: no word of C begins with it.
 inline constexpr char kOfHeader = '@';
 
-// The words of functions as those of C++: "@solve", "@State", "@two_sum" for names of the header and
-// of the fixed blocks, "@Real", "std::sin", State() for (State){0}.  Without "(void)par;".
+// The words of functions as those of C++: "@solve", "@State", "@two_sum" for names of the header
+// and of the fixed blocks, "@Real", "std::sin", State() for (State){0}.  Without "(void)par;".
 [[nodiscard]] std::vector<CppToken> cpp_words(std::span<const CppToken> tokens,
                                               const CNames& names);
 

@@ -96,8 +96,7 @@ class CPropagatorText {
         "static inline N::Propagator N::Propagator_make(const N::Parameters* par, Real h,"
         "const N::State* z) {";
     text += fmt::format("const Real fractions[{}] = {{", parts_);
-    for (std::size_t i = 0; i < parts_; ++i)
-      text += (i == 0 ? "" : ", ") + std::string(kConstant);
+    for (std::size_t i = 0; i < parts_; ++i) text += (i == 0 ? "" : ", ") + std::string(kConstant);
     text += "}; N::Propagator self = {0}; self.par = *par; self.h = h;" + for_parts("i") +
             "self.lengths[i] = h * fractions[i];";
     if (coefficients_) text += "self.k[i] = N::prepare(par, self.lengths[i]);";
@@ -105,10 +104,14 @@ class CPropagatorText {
   }
 
   [[nodiscard]] std::string solve() const {
-    const std::map<std::string, std::string> given = {
-        {"par", "&self->par"},   {"k", "&self->k[i]"},         {"h", "self->lengths[i]"},
-        {"z", "z"},              {"carry", "carry"},           {"start", "&self->start[i]"},
-        {"dz", "&dz"},           {"rest", "&rest"}};
+    const std::map<std::string, std::string> given = {{"par", "&self->par"},
+                                                      {"k", "&self->k[i]"},
+                                                      {"h", "self->lengths[i]"},
+                                                      {"z", "z"},
+                                                      {"carry", "carry"},
+                                                      {"start", "&self->start[i]"},
+                                                      {"dz", "&dz"},
+                                                      {"rest", "&rest"}};
     std::string list;
     for (const Argument& argument : code_.routine("solve")->arguments) {
       const auto found = given.find(argument.name);
@@ -119,9 +122,9 @@ class CPropagatorText {
 
   // One solve and the update; from an extrapolation, and where that fails from the state.
   [[nodiscard]] Pattern substep() const {
-    std::string text = method(kReport, "substep",
-                              carry_ ? ", int i, N::State* z, N::State* carry"
-                                     : ", int i, N::State* z");
+    std::string text =
+        method(kReport, "substep",
+               carry_ ? ", int i, N::State* z, N::State* carry" : ", int i, N::State* z");
     text += "N::State dz = {0};";
     if (rest_) text += "N::State rest = {0};";
     if (extrapolates_) {
@@ -177,8 +180,9 @@ class CPropagatorText {
         kReport);
     if (code_.unchecked) {
       text += "Real rest = 0;";
-      text += each(
-          [](const std::string& x) { return fmt::format("rest += self->z.{0} - self->z.{0};", x); });
+      text += each([](const std::string& x) {
+        return fmt::format("rest += self->z.{0} - self->z.{0};", x);
+      });
       text += "total.converged = rest == 0;";
     }
     return {text + "return total; }"};
@@ -193,12 +197,12 @@ class CPropagatorText {
   }
 
   [[nodiscard]] static Pattern one_step() {
-    return {fmt::format(
-        "static inline {0} N::step(const N::Parameters* par, Real h, N::State* z) {{"
-        "N::Propagator self = N::Propagator_make(par, h, z);"
-        "const {0} report = N::Propagator_step(&self);"
-        "if (report.converged) *z = self.z; return report; }}",
-        kReport)};
+    return {
+        fmt::format("static inline {0} N::step(const N::Parameters* par, Real h, N::State* z) {{"
+                    "N::Propagator self = N::Propagator_make(par, h, z);"
+                    "const {0} report = N::Propagator_step(&self);"
+                    "if (report.converged) *z = self.z; return report; }}",
+                    kReport)};
   }
 
   const ShellFacts& facts_;

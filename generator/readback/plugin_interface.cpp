@@ -80,9 +80,8 @@ class InterfaceText {
   }
 
   Pattern parameters() {
-    std::string text =
-        fmt::format("Parameters read_parameters({}) {{ Parameters result;",
-                    arguments("parameters", !facts_.parameters.empty()));
+    std::string text = fmt::format("Parameters read_parameters({}) {{ Parameters result;",
+                                   arguments("parameters", !facts_.parameters.empty()));
     for (std::size_t i = 0; i < facts_.parameters.size(); ++i)
       text += fmt::format("result.{} = {};", facts_.parameters[i],
                           read("parameters", std::to_string(i)));
@@ -93,9 +92,8 @@ class InterfaceText {
     std::string text =
         fmt::format("State read_state({}) {{ State result;", arguments("state", size_ > 0));
     if (arrays_) {
-      text += fmt::format(
-          "for (int i = 0; i < n; ++i) {{ result.q[i] = {}; result.p[i] = {}; }}",
-          read("state", "i"), read("state", "n + i"));
+      text += fmt::format("for (int i = 0; i < n; ++i) {{ result.q[i] = {}; result.p[i] = {}; }}",
+                          read("state", "i"), read("state", "n + i"));
     }
     for (int i = 0; i < (arrays_ ? 0 : size_); ++i)
       text += fmt::format("result.{} = {};", place(i), read("state", std::to_string(i)));

@@ -1,5 +1,5 @@
-// The emitted file read back: a header in C++ or C, or a plugin, is turned into functions again, and
-// these are compared with the routines of the program, operation by operation.
+// The emitted file read back: a header in C++ or C, or a plugin, is turned into functions again,
+// and these are compared with the routines of the program, operation by operation.
 //
 // Independent of what writes it: formats/ has no part in it.  Comments, the width of lines, the
 // names of locals, brackets and digits of numbers are free, nothing else is: what is not the
