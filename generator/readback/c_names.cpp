@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "generator/readback/findings.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -52,6 +54,7 @@ class WordReader {
       if (skip_unused() || take_type() || take_zeros()) continue;
       result_.push_back(tokens_[at_++]);
       CppToken& token = result_.back();
+      if (token.is("::")) throw TextDifference(token.line, "a namespace, which C has not");
       if (token.kind == CppToken::Kind::word) token.text = word(token.text);
     }
     return std::move(result_);

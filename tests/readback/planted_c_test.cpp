@@ -53,6 +53,7 @@ TEST(PlantedFaultInC, OfAddressesAndNamesIsFound) {
   const std::vector<Fault> faults = {
       {"in double", "pendulum", single, "par->eps * sinf(q)", "par->eps * sin(q)"},
       {"of another scalar", "pendulum", single, "hamgen_two_sumf(&z->q", "hamgen_two_sum(&z->q"},
+      {"in C++", "pendulum", in_c(), "par->eps * sin(q)", "par->eps * std::sin(q)"},
       {"another literal", "pendulum", single, "0.5f * (p * p)", "0.5 * (p * p)"},
       {"another type", "pendulum", in_c(), "const double p_bar =", "const float p_bar ="},
       {"integers' magnitude", "pendulum", in_c(), "{ return fabs(x); }", "{ return abs(x); }"},
