@@ -30,6 +30,7 @@ struct Command {
   std::function<int()> run;
 };
 
+[[nodiscard]] Command add_new(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_show(CLI::App& app);
 [[nodiscard]] Command add_generate(CLI::App& app);
@@ -46,6 +47,8 @@ class Crew;
 [[nodiscard]] Command add_tune(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);
+[[nodiscard]] Command add_completion(CLI::App& app);
+[[nodiscard]] Command add_man(CLI::App& app);
 
 // Which integrator is meant; the texts are kept as typed.
 struct MethodOptions {

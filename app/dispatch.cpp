@@ -27,6 +27,14 @@ void refuse_empty_values(const std::vector<std::string>& words) {
   }
 }
 
+// "help run" is "run --help".
+std::vector<std::string> with_help_as_option(std::vector<std::string> words) {
+  if (words.empty() || words[0] != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 std::string_view without_line_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of('\n') + 1);
 }
@@ -40,7 +48,7 @@ const CLI::App& chosen(const CLI::App& app) {
 std::string suggestion(const CLI::App& command, const std::string& word) {
   std::vector<std::string> candidates;
   for (const CLI::App* subcommand : command.get_subcommands({}))
-    candidates.push_back(subcommand->get_name());
+    if (!subcommand->get_group().empty()) candidates.push_back(subcommand->get_name());
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) candidates.push_back("--" + name);
   }
@@ -69,10 +77,15 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
 int run_command(const std::vector<std::string>& words, Crew& crew) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
-  const std::vector<Command> commands = {
-      add_check(app),   add_show(app),   add_generate(app),       add_run(app),    add_bench(app),
-      add_report(app),  add_stress(app), add_tune(app),           add_verify(app), add_certify(app),
-      add_section(app), add_chaos(app),  add_ensemble(app, crew), add_list(app),   add_cache(app)};
+  const std::vector<Command> commands = {add_new(app),        add_check(app),
+                                         add_show(app),       add_generate(app),
+                                         add_run(app),        add_bench(app),
+                                         add_report(app),     add_stress(app),
+                                         add_tune(app),       add_verify(app),
+                                         add_certify(app),    add_section(app),
+                                         add_chaos(app),      add_ensemble(app, crew),
+                                         add_list(app),       add_cache(app),
+                                         add_completion(app), add_man(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
@@ -81,8 +94,9 @@ int run_command(const std::vector<std::string>& words, Crew& crew) {
   use_short_help(app);
   try {
     refuse_empty_values(words);
+    const std::vector<std::string> asked = with_help_as_option(words);
     app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+        std::vector<std::string>(asked.rbegin(), asked.rend()));  // it takes them from the end
   } catch (const CLI::CallForHelp&) {
     print(app.help());
     return done;

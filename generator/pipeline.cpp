@@ -18,6 +18,7 @@
 #include "generator/program/names.hpp"
 #include "generator/read_request.hpp"
 #include "generator/stages.hpp"
+#include "generator/verify/model_text.hpp"
 
 namespace hamgen {
 
@@ -207,6 +208,11 @@ ProofCertificate certificate_of(const SourceText& source, const Request& request
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
   return corners_of_hamiltonian(derive(read_request(source, request)));
+}
+
+std::string point_beyond_text(const SourceText& source, const Request& request) {
+  const Model model = read_request(source, request);
+  return point_beyond_text(model, derive(model, may_keep_sums(request)), surroundings_of(model));
 }
 
 Scheme request_scheme(const SourceText& source, const Request& request) {
