@@ -40,6 +40,8 @@ struct Command {
 [[nodiscard]] Command add_stress(CLI::App& app);
 [[nodiscard]] Command add_chaos(CLI::App& app);
 [[nodiscard]] Command add_section(CLI::App& app);
+class Crew;
+[[nodiscard]] Command add_ensemble(CLI::App& app, Crew& crew);
 [[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);
