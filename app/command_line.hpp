@@ -41,6 +41,7 @@ struct Command {
 [[nodiscard]] Command add_chaos(CLI::App& app);
 [[nodiscard]] Command add_section(CLI::App& app);
 [[nodiscard]] Command add_plot(CLI::App& app);
+[[nodiscard]] Command add_plugin(CLI::App& app);
 [[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);

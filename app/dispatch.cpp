@@ -73,7 +73,7 @@ int run_command(const std::vector<std::string>& words) {
       add_check(app),  add_show(app),    add_generate(app), add_run(app),
       add_bench(app),  add_report(app),  add_stress(app),   add_tune(app),
       add_verify(app), add_certify(app), add_section(app),  add_chaos(app),
-      add_plot(app),    add_list(app),     add_cache(app)};
+      add_plot(app),   add_plugin(app),  add_list(app),     add_cache(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
