@@ -162,6 +162,7 @@ Json parameters_json(const RunReport& report) {
 Json invariants_json(const RunReport& report) {
   Json result = Json::object();
   for (std::size_t i = 0; i < report.plugin->invariant_names.size(); ++i) {
+    if (is_watched(*report.scene, report.plugin->invariant_names[i])) continue;
     const runtime::Wide before = report.initial_invariants[i];
     const runtime::Wide after = report.final_invariants[i];
     Json& values = result[report.plugin->invariant_names[i]];
@@ -175,7 +176,85 @@ Json invariants_json(const RunReport& report) {
   return result;
 }
 
+bool has_ended(const RunReport& report) {
+  return report.watch != nullptr && report.watch->ending().has_value();
+}
+
+std::string ending_text(const RunReport& report) {
+  if (!has_ended(report)) return "";
+  const auto& [event, point] = *report.watch->ending();
+  const EndCondition& what = (*report.events)[event].what;
+  if (what.holds)
+    return fmt::format("{} holds at t = {:.10g}, after step {}", what.event.text, point.time,
+                       point.steps);
+  return fmt::format("{}: at t = {:.16g}, in step {}", what.event.text, point.time,
+                     point.steps + (point.fraction > 0.0 ? 1 : 0));
+}
+
+Json ending_json(const RunReport& report) {
+  if (!has_ended(report)) return nullptr;
+  const auto& [event, point] = *report.watch->ending();
+  return {{"by", (*report.events)[event].what.event.text},
+          {"t", number(point.time)},
+          {"steps", point.steps},
+          {"fraction", number(point.fraction)}};
+}
+
+std::vector<std::string> event_texts(const RunReport& report) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; report.watch != nullptr && i < report.events->size(); ++i) {
+    const ModelEvent& event = (*report.events)[i].what.event;
+    const Sighting& seen = report.watch->sightings()[i];
+    if ((*report.events)[i].ends_run) continue;
+    if (seen.count == 0)
+      texts.push_back(fmt::format("{}: never; after each step it was between {:.6g} and {:.6g}",
+                                  event.name, seen.least, seen.largest));
+    else if (seen.count == 1)
+      texts.push_back(fmt::format("{}: once, at t = {:.16g}", event.name, seen.first));
+    else
+      texts.push_back(fmt::format("{}: {} times, from t = {:.16g} to t = {:.16g}", event.name,
+                                  seen.count, seen.first, seen.last));
+  }
+  return texts;
+}
+
+Json events_json(const RunReport& report) {
+  Json result = Json::object();
+  for (std::size_t i = 0; report.watch != nullptr && i < report.events->size(); ++i) {
+    if ((*report.events)[i].ends_run) continue;
+    const Sighting& seen = report.watch->sightings()[i];
+    const bool met = seen.count > 0;
+    result[(*report.events)[i].what.event.name] = {
+        {"count", seen.count},
+        {"first", met ? number(seen.first) : Json(nullptr)},
+        {"last", met ? number(seen.last) : Json(nullptr)},
+        {"min", number(seen.least)},
+        {"max", number(seen.largest)}};
+  }
+  return result;
+}
+
 }  // namespace
+
+std::vector<std::string> missed_ends(const RunReport& report) {
+  std::vector<std::string> texts;
+  if (report.watch == nullptr || has_ended(report)) return texts;
+  for (std::size_t i = 0; i < report.events->size(); ++i) {
+    const WatchedEvent& each = (*report.events)[i];
+    if (!each.ends_run) continue;
+    const Sighting& seen = report.watch->sightings()[i];
+    const ModelEvent& event = each.what.event;
+    const std::string steps = fmt::format("in {} steps", report.summary.steps_done);
+    if (each.what.holds) {
+      texts.push_back(fmt::format("--until {} never held {}", event.text, steps));
+    } else {
+      texts.push_back(fmt::format(
+          "--until {} never crossed zero {}: after each it was between {:.6g} and {:.6g}",
+          event.text, steps, seen.least, seen.largest));
+    }
+  }
+  return texts;
+}
 
 std::string failure_text(const RunReport& report) {
   const runtime::RunSummary& summary = report.summary;
@@ -187,9 +266,11 @@ std::string failure_text(const RunReport& report) {
   const std::string where = fmt::format("at t = {:.10g}, h = {}", t, number_text(h));
   switch (summary.status) {
     case runtime::Status::done:
-    case runtime::Status::out_of_time:  // a run has no limits of time,
-    case runtime::Status::undefined:    // and begins where there are values
+    case runtime::Status::undefined:  // a run begins where there are values
       return "";
+    case runtime::Status::out_of_time:
+      return fmt::format("out of time: {:.6g} s were over after {} of {} steps, at t = {:.10g}",
+                         report.seconds.value_or(0.0), summary.steps_done, *report.scene->steps, t);
     case runtime::Status::jumped:
       return fmt::format(
           "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times the "
@@ -236,8 +317,12 @@ std::string summary_text(const RunReport& report) {
     solver += fmt::format("; {:.3g} iterations/step", summary.iterations_per_step());
   text += entry("solver", solver);
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
+  for (const std::string& line : event_texts(report)) text += entry("event", line);
+  if (const std::string ending = ending_text(report); !ending.empty())
+    text += entry("ended", ending);
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
+    if (is_watched(*report.scene, plugin.invariant_names[i])) continue;
     const bool formula = is_formula(plugin.invariant_names[i], *report.scene);
     text += entry(formula ? "observed" : "invariant", invariant_text(report, i));
   }
@@ -262,6 +347,8 @@ std::string json_text(const RunReport& report) {
                  {"steps_done", summary.steps_done},
                  {"status", runtime::to_text(summary.status)}};
   if (summary.status != runtime::Status::done) result["reason"] = failure_text(report);
+  if (const Json events = events_json(report); !events.empty()) result["events"] = events;
+  if (const Json ending = ending_json(report); !ending.is_null()) result["ended"] = ending;
   result["energy"] = energy_json(report);
   result["invariants"] = invariants_json(report);
   result["state"] = state_json(report.state, is_wide(report));

@@ -53,18 +53,9 @@ class SceneReader {
  public:
   SceneReader(const Model& model, const SceneRequest& request)
       : model_(model), request_(request), symbols_(model.source, mistakes_) {
-    for (const Size& each : model.sizes) {
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::size, .span = each.span});
-      values_[each.name] = each.value;
-    }
+    declare_names(model, symbols_);
+    for (const Size& each : model.sizes) values_[each.name] = each.value;
     known_ = values_;
-    declare(model.coordinates, SymbolKind::coordinate);
-    declare(model.momenta, SymbolKind::momentum);
-    declare(model.parameters, SymbolKind::parameter);
-    for (const Definition& each : model.definitions)
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::definition, .span = each.span});
-    for (const Invariant& each : model.invariants)
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
   }
 
   SceneValues run() { return run(find_scene()); }
@@ -90,15 +81,6 @@ class SceneReader {
   }
 
  private:
-  template <typename Declared>
-  void declare(const std::vector<Declared>& declared, SymbolKind kind) {
-    for (const Declared& each : declared) {
-      if (symbols_.find(each.name) != nullptr) continue;
-      symbols_.declare({each.name, each.span},
-                       {.kind = kind, .span = each.span, .range = each.range});
-    }
-  }
-
   void stop_if_wrong() const {
     if (!mistakes_.empty()) throw ModelError(mistakes_, model_.source);
   }

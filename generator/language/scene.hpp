@@ -43,6 +43,8 @@ struct SceneValues {
   // "energy", invariants, elements of the state, names of formulas; empty: all there is.
   std::vector<std::string> observe = {};
   std::vector<ObservedFormula> formulas = {};
+  // Computed for the run itself: not observed, and in none of its results.
+  std::vector<ObservedFormula> watched = {};
 };
 
 // Is it observed?
