@@ -231,6 +231,7 @@ Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
   setting.scene.initial = all_assignments("--initial", scene.initial);
   setting.scene.h = scene.h;
   setting.scene.steps = scene.steps;
+  setting.scene.time = scene.time;
   setting.scene.observe = scene.observe;
   return setting;
 }

@@ -75,6 +75,7 @@ struct SceneOptions {
   std::string scene;
   std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
   std::optional<std::string> h, steps;    // in place of the scene's
+  std::optional<std::string> time;        // in place of steps
   bool whole = false;                     // leave in what the scene does not need
   std::vector<std::string> keep;          // NAME,...
   std::optional<std::string> observe;     // in place of the scene's

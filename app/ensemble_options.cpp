@@ -179,10 +179,10 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
       ->type_name("LIST");
   parser.add_option("--every", options.every, "")->type_name("K");
   parser.add_option("--h", options.scene.h, "")->type_name("H");
+  parser.add_option("--steps", options.scene.steps, "")->type_name("N");
   parser
-      .add_option("--steps", options.scene.steps,
-                  "statistics of every K steps; default: the scene's")
-      ->type_name("N");
+      .add_option("--time", options.scene.time, "statistics of every K steps; default: the scene's")
+      ->type_name("T");
   parser.add_option("-o,--output", options.output, "")->type_name("FILE");
   parser.add_flag("--resume", options.resume, "results: .csv, .h5; go on with what is missing");
   parser.add_option("--threads", options.threads, "")->type_name("N");

@@ -359,9 +359,10 @@ Command add_run(CLI::App& app) {
   add_observe_option(*parser, options->scene);
   parser->add_option("--h", options->scene.h, "")->type_name("H");
   parser->add_option("--steps", options->scene.steps, "")->type_name("N");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
   parser
       ->add_option("--every", options->every,
-                   "step size, their number, rows every K steps; default: the scene's")
+                   "step size, number or time of steps, rows every K; default: the scene's")
       ->type_name("K");
   parser->add_option("--at", options->watch.at, "")->type_name("T,T");
   parser

@@ -62,14 +62,27 @@ std::string value_text(const RunReport& report, const runtime::Wide& value) {
                          : fmt::format("{:.10g}", value.hi);
 }
 
-std::string numbers(const RunReport& report, std::size_t begin, std::size_t end) {
-  const std::vector<runtime::Wide>& state = report.state;
+// "q[1] = 0.5, q[2] = 1, ...": the variables, of which the first is number `begin` of the state.
+std::string numbers(const RunReport& report, const std::vector<Variable>& variables,
+                    std::size_t begin) {
+  const std::vector<std::string> names = element_names(variables);
+  const std::size_t count = std::min(names.size(), report.state.size() - begin);
   const std::size_t largest = is_wide(report) ? 2 : 4;
   std::string text;
-  for (std::size_t i = begin; i < std::min(end, begin + largest); ++i)
-    text += (i == begin ? "" : ", ") +
-            (std::isnan(state[i].hi) ? "-" : wide_text(state[i], report.scalar_digits));
-  return end > begin + largest ? text + ", ..." : text;
+  for (std::size_t i = 0; i < std::min(count, largest); ++i) {
+    const runtime::Wide& value = report.state[begin + i];
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i],
+                        std::isnan(value.hi) ? "-" : wide_text(value, report.scalar_digits));
+  }
+  return count > largest ? text + ", ..." : text;
+}
+
+std::string last_state_text(const RunReport& report) {
+  const Model& model = report.plugin->model;
+  const double t = static_cast<double>(report.summary.steps_done) * report.start->h.hi;
+  const std::string q = numbers(report, model.coordinates, 0);
+  const std::string p = numbers(report, model.momenta, report.state.size() / 2);
+  return fmt::format("t = {:.10g}: {}{}{}", t, q, q.empty() || p.empty() ? "" : ", ", p);
 }
 
 std::string seconds_text(double seconds) {
@@ -81,9 +94,13 @@ std::string energy_text(const RunReport& report) {
   if (!watches_energy(*report.plugin, *report.scene)) return "not observed";
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, last {:.3g}",
-                     value_text(report, energy.initial), energy.max_error(), energy.spread(),
-                     energy.final_error());
+  const double scale = report.summary.energy_scale;
+  const std::string relative =
+      scale > 0 ? fmt::format(", {:.2g} of the scale {:.3g}", energy.max_error() / scale, scale)
+                : "";
+  return fmt::format("H(0) = {}; max error {:.5g}{}; spread {:.5g}, last {:.3g}",
+                     value_text(report, energy.initial), energy.max_error(), relative,
+                     energy.spread(), energy.final_error());
 }
 
 std::string time_text(const RunReport& report) {
@@ -140,13 +157,16 @@ void put(Json& object, const std::string& key, const runtime::Wide& value, bool 
 Json energy_json(const RunReport& report) {
   const std::optional<runtime::EnergyStatistics>& energy = report.summary.energy;
   if (!energy)
-    return {{"initial", nullptr},
-            {"max_error", nullptr},
-            {"spread", nullptr},
-            {"final_error", nullptr}};
+    return {{"initial", nullptr},   {"scale", nullptr},
+            {"max_error", nullptr}, {"max_relative_error", nullptr},
+            {"spread", nullptr},    {"final_error", nullptr}};
   Json result;
   put(result, "initial", energy->initial, is_wide(report));
+  const double scale = report.summary.energy_scale;
+  result["scale"] = scale > 0 ? Json(number(scale)) : Json(nullptr);
   result["max_error"] = number(energy->max_error());
+  result["max_relative_error"] =
+      scale > 0 ? Json(number(energy->max_error() / scale)) : Json(nullptr);
   result["spread"] = number(energy->spread());
   result["final_error"] = number(energy->final_error());
   return result;
@@ -326,9 +346,7 @@ std::string summary_text(const RunReport& report) {
     const bool formula = is_formula(plugin.invariant_names[i], *report.scene);
     text += entry(formula ? "observed" : "invariant", invariant_text(report, i));
   }
-  const std::size_t n = report.state.size() / 2;
-  text += entry("last q", numbers(report, 0, n));
-  text += entry("last p", numbers(report, n, 2 * n));
+  text += entry("last state", last_state_text(report));
   if (report.certificate) text += entry("certified", certificate_sentence(*report.certificate));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);

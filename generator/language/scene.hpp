@@ -20,6 +20,7 @@ struct SceneRequest {
   std::vector<std::pair<std::string, std::string>> reference = {};
   std::optional<std::string> h = {};
   std::optional<std::string> steps = {};
+  std::optional<std::string> time = {};     // --time T: as many whole steps as it has room for
   std::optional<std::string> observe = {};  // --observe LIST
 };
 
