@@ -13,10 +13,12 @@
 #include "app/output/run_report.hpp"
 #include "app/output/terminal.hpp"
 #include "app/output/trajectory_table.hpp"
+#include "app/run_checkpoint.hpp"
 #include "app/studies/certify.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/interpreted.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/manifest.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/load_plugin.hpp"
@@ -38,6 +40,7 @@ struct RunOptions {
   std::string output;
   std::string header;
   bool certify = false;
+  CheckpointOptions checkpoint;
   bool json = false;
   bool quiet = false;
 };
@@ -129,6 +132,15 @@ int status_of(const RunReport& report) {
   internal_error("no such status");
 }
 
+// What the rows and the numbers of this run depend on.
+std::vector<std::string> manifest(const RunOptions& options, const Setting& setting,
+                                  const SceneValues& scene, const PluginSource& plugin,
+                                  long every) {
+  std::vector<std::string> lines = manifest_lines(setting, scene, plugin, options.compiler);
+  if (!options.output.empty()) lines.push_back(fmt::format("rows      every {} steps", every));
+  return lines;
+}
+
 void say(const RunReport& report, const RunOptions& options) {
   if (!options.quiet) print_error(summary_text(report));
   const std::string failure = failure_text(report);
@@ -162,6 +174,9 @@ int run(const RunOptions& options) {
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
+  if (options.checkpoint.checkpoint.empty() && options.checkpoint.resume.empty() &&
+      !options.checkpoint.every_seconds.empty())
+    throw UsageError("--every-seconds is for --checkpoint FILE");
   if (options.interpret && !options.compiler.empty())
     throw UsageError("--interpret needs no --compiler: leave out one of the two");
   if (!options.watch_modified.empty()) {
@@ -199,11 +214,21 @@ int run(const RunOptions& options) {
   report.start = &start;
   report.header = keep_header(plugin, request, options);
 
-  std::optional<TrajectoryTable> table;
-  if (!options.output.empty())
-    table.emplace(options.output, metadata(plugin, scene, start, every),
-                  columns_of(plugin, scene, loaded.library->is_wide()));
   runtime::Integrator integrator(loaded.library, start);
+  std::optional<RunKeeper> keeper;
+  if (options.checkpoint.is_wanted())
+    keeper.emplace(options.checkpoint, manifest(options, setting, scene, plugin, every),
+                   integrator);
+  std::optional<TrajectoryTable> table;
+  if (!options.output.empty()) {
+    const std::vector<std::string> head = metadata(plugin, scene, start, every);
+    Columns columns = columns_of(plugin, scene, loaded.library->is_wide());
+    if (keeper) {
+      table.emplace(keeper->table(options.output, head, std::move(columns)));
+    } else {
+      table.emplace(options.output, head, std::move(columns));
+    }
+  }
   report.scalar_digits = loaded.library->plugin().scalar_digits;
   report.initial_invariants = integrator.invariants();
   runtime::ProgressBar bar(plugin.model.name);
@@ -223,6 +248,7 @@ int run(const RunOptions& options) {
   }
   if (!options.quiet)
     integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
+  if (keeper) keeper->prepare(integrate_options, table);
   report.summary = runtime::integrate(integrator, integrate_options);
   bar.remove();
 
@@ -239,11 +265,12 @@ int run(const RunOptions& options) {
   }
   report.state = whole_state(plugin, scene, integrator.state());
   report.final_invariants = integrator.invariants();
-  if (table) {
-    table->publish(outcome_text(report));
-    report.trajectory = trajectory_text(options.output, *table);
-  }
+  const bool is_kept = keeper && report.summary.status == runtime::Status::stopped;
+  if (table && !is_kept) table->publish(outcome_text(report));
+  if (table) report.trajectory = trajectory_text(options.output, *table);
+  if (keeper && !is_kept) keeper->remove();
   say(report, options);
+  if (is_kept) print_error(keeper->stopped_text());
   return status_of(report);
 }
 
@@ -259,15 +286,18 @@ Command add_run(CLI::App& app) {
   parser->add_option("--steps", options->scene.steps, "")->type_name("N");
   parser
       ->add_option("--every", options->every,
-                   "step size, their number, rows every K steps; default: the scene's")
+                   "step size, their number, rows every K; default: the scene's")
       ->type_name("K");
   parser->add_option("-o,--output", options->output, "the trajectory as CSV; - is standard output")
       ->type_name("FILE");
+  add_checkpoint_options(*parser, options->checkpoint);
   parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
   parser->add_flag("--certify", options->certify,
                    "K terms of the modified Hamiltonian; how near to the exact map");
+  add_checkpoint_interval(*parser, options->checkpoint);
   parser->add_flag("--json", options->json, "");
-  parser->add_flag("--quiet", options->quiet, "the result as JSON; no summary, warnings, progress");
+  parser->add_flag("--quiet", options->quiet,
+                   "default 60; result as JSON; no summary, warnings, progress");
   parser->add_option("--header", options->header, "write the emitted header there")
       ->type_name("DIRECTORY");
   add_method_options(*parser, options->method);
