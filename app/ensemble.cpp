@@ -18,10 +18,9 @@
 #include "app/studies/ensemble_parts.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/manifest.hpp"
 #include "app/studies/threads.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "runtime/csv_writer.hpp"
-#include "runtime/sha256.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -34,7 +33,7 @@ struct Prepared {
   EnsembleRequest request;
 };
 
-void prepare(const EnsembleOptions& options, Crew& crew, Prepared& prepared) {
+void prepare(const EnsembleOptions& options, Prepared& prepared) {
   Setting& setting = prepared.setting;
   EnsembleRequest& request = prepared.request;
   setting = read_setting(options.method, options.scene);
@@ -51,41 +50,23 @@ void prepare(const EnsembleOptions& options, Crew& crew, Prepared& prepared) {
   specialise(options.scene, request.values, request.plan.names(), Observing::as_the_scene, setting);
   prepared.plugin = generate_plugin(setting.source, setting.request);
   request.plugin = &prepared.plugin;
-  // Where several compile the same, one does it for all.
-  crew.leader_first([&] {
-    prepared.loaded = load_integrator(prepared.plugin, options.compiler, &interrupt_flag());
-  });
+  prepared.loaded = load_integrator(prepared.plugin, options.compiler, &interrupt_flag());
   request.library = prepared.loaded.library;
   request.stop = &interrupt_flag();
 }
 
 EnsembleManifest manifest_of(const EnsembleOptions& options, const Prepared& prepared,
                              const Ensemble& ensemble) {
-  const SceneRequest& scene = prepared.request.scene;
-  EnsembleManifest manifest;
+  EnsembleManifest manifest{.lines = manifest_lines(prepared.setting, prepared.request.values,
+                                                    prepared.plugin, options.compiler),
+                            .columns = ensemble.columns(),
+                            .count = ensemble.count(),
+                            .block = block_size(*prepared.request.values.steps)};
   std::vector<std::string>& lines = manifest.lines;
-  lines = {"made by   hamgen " HAMGEN_VERSION,
-           fmt::format("model     {}   sha256 {}", prepared.setting.model.name,
-                       runtime::sha256_hex(prepared.setting.source.text)),
-           "scheme    " + prepared.plugin.scheme_name, "solver    " + prepared.plugin.solver,
-           // Of the emitted text, the compiler and its flags.
-           "code      sha256 " + digest_of_code(prepared.plugin, options.compiler),
-           fmt::format("h         {}", runtime::number_text(to_double(*prepared.request.values.h))),
-           fmt::format("steps     {}", *prepared.request.values.steps)};
-  if (!prepared.request.values.name.empty())
-    lines.push_back("scene     " + prepared.request.values.name);
-  for (const auto& [name, value] : scene.set)
-    lines.push_back(fmt::format("set       {}={}", name, value));
-  for (const auto& [name, value] : scene.initial)
-    lines.push_back(fmt::format("initial   {}={}", name, value));
   std::ranges::move(prepared.request.plan.to_text(), std::back_inserter(lines));
-  if (scene.observe) lines.push_back("observe   " + *scene.observe);
   if (!prepared.request.statistics.empty())
     lines.push_back(fmt::format("statistics over every {} of: {}", prepared.request.every,
                                 fmt::join(prepared.request.statistics, ", ")));
-  manifest.columns = ensemble.columns();
-  manifest.count = ensemble.count();
-  manifest.block = block_size(*prepared.request.values.steps);
   return manifest;
 }
 
@@ -103,8 +84,8 @@ bool is_complete(const EnsembleOptions& options, const EnsembleManifest& manifes
                   options.output, difference));
 }
 
-// The blocks that are missing, by all threads of all processes.
-void work_off(const EnsembleOptions& options, Crew& crew, const Ensemble& ensemble,
+// The blocks that are missing, by all threads of all processes; false if it was stopped.
+bool work_off(const EnsembleOptions& options, Crew& crew, const Ensemble& ensemble,
               const EnsembleManifest& manifest, const std::vector<long long>& missing) {
   runtime::PartFile part(part_path(options.output, crew.rank()));
   std::mutex guard;
@@ -120,16 +101,19 @@ void work_off(const EnsembleOptions& options, Crew& crew, const Ensemble& ensemb
   };
   Work progress(progress_bars(options.quiet || !crew.leads()), "ensemble",
                 static_cast<long long>(missing.size()));
-  crew.hand_out(static_cast<long long>(missing.size()), read_threads(options), work,
-                [&progress](long long done) { progress.tell(done); });
+  const bool is_done = crew.hand_out(static_cast<long long>(missing.size()), read_threads(options),
+                                     work, [&progress](long long done) { progress.tell(done); });
+  part.sync();
+  crew.wait_for_all();
+  return is_done;
 }
 
 int finish(const EnsembleOptions& options, EnsembleParts& parts, const Ensemble& ensemble,
-           const EnsembleManifest& manifest, EnsembleTitle title) {
+           const EnsembleManifest& manifest, const EnsembleTitle& title, bool is_done) {
   EnsembleSummary summary;
   parts.scan();
   if (const std::vector<long long> missing = parts.missing(); !missing.empty()) {
-    if (!interrupt_flag()) internal_error("blocks are missing");
+    if (is_done) internal_error("blocks are missing");
     print_error(fmt::format(
         "hamgen: stopped: {} of {} trajectories are done, and kept in {}\nhelp: --resume goes on\n",
         std::max(0LL, manifest.count - manifest.block * static_cast<long long>(missing.size())),
@@ -156,7 +140,8 @@ int run_ensemble(const EnsembleOptions& options, Crew& crew) {
   static_cast<void>(ensemble_format(options.output));
   static_cast<void>(read_threads(options));
   Prepared prepared;
-  prepare(options, crew, prepared);
+  // Where several compile the same, one does it for all, and says what is wrong with it.
+  crew.leader_first([&] { prepare(options, prepared); });
   const Ensemble ensemble(prepared.request);
   const EnsembleManifest manifest = manifest_of(options, prepared, ensemble);
   if (is_complete(options, manifest)) {
@@ -174,7 +159,9 @@ int run_ensemble(const EnsembleOptions& options, Crew& crew) {
                       .watches_energy = ensemble.watches_energy()};
   std::unique_ptr<EnsembleParts> parts;
   std::vector<long long> missing;
-  if (crew.leads()) {
+  bool has_all = false;
+  if (crew.leads()) has_all = is_complete(options, manifest);
+  if (crew.leads() && !has_all) {
     parts = std::make_unique<EnsembleParts>(options.output, manifest, options.resume);
     parts->scan();
     missing = parts->missing();
@@ -185,8 +172,13 @@ int run_ensemble(const EnsembleOptions& options, Crew& crew) {
       print_error("hamgen: one thread: built without oneTBB; the package libtbb-dev brings more\n");
   }
   missing = crew.share(std::move(missing));
-  work_off(options, crew, ensemble, manifest, missing);
-  return crew.leads() ? finish(options, *parts, ensemble, manifest, title) : done;
+  if (crew.share({has_all ? 1 : 0}).front() == 1) {
+    crew.wait_for_all();
+    if (crew.leads() && !options.quiet) print_error(options.output + ": nothing is missing\n");
+    return done;
+  }
+  const bool is_done = work_off(options, crew, ensemble, manifest, missing);
+  return crew.leads() ? finish(options, *parts, ensemble, manifest, title, is_done) : done;
 }
 
 }  // namespace

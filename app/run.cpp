@@ -17,11 +17,13 @@
 #include "app/output/terminal.hpp"
 #include "app/output/trajectory_plot.hpp"
 #include "app/output/trajectory_table.hpp"
+#include "app/run_checkpoint.hpp"
 #include "app/run_watch.hpp"
 #include "app/studies/certify.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/interpreted.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/manifest.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/load_plugin.hpp"
@@ -44,6 +46,7 @@ struct RunOptions {
   std::string output, plot, columns;
   std::string header;
   bool certify = false;
+  CheckpointOptions checkpoint;
   bool json = false;
   bool quiet = false;
 };
@@ -127,6 +130,30 @@ std::string keep_header(const PluginSource& plugin, const SourceText& source, Re
   return path.string();
 }
 
+std::optional<TrajectoryTable> table_of(const std::string& output, const Columns& columns,
+                                        const std::vector<std::string>& remarks) {
+  if (output.empty()) return std::nullopt;
+  return std::optional<TrajectoryTable>(std::in_place, output, remarks, columns);
+}
+
+// What has been seen of an orbit is not in a checkpoint.
+void require_nothing_watched(const RunOptions& options, const std::vector<WatchedEvent>& events) {
+  const std::pair<const char*, bool> watched[] = {
+      {"--plot", !options.plot.empty()},
+      {"--at", !options.watch.at.empty()},
+      {"--every-time", !options.watch.every_time.empty()},
+      {"--events", !options.watch.events.empty()},
+      {"--until", !options.watch.until.empty()},
+      {"events of the model", !events.empty()}};
+  for (const auto& [name, is_there] : watched) {
+    if (is_there)
+      throw UsageError(fmt::format(
+          "--checkpoint: {}: what has been seen of an orbit is not in a checkpoint\nhelp: write "
+          "rows with -o FILE.csv, and look at them afterwards",
+          name));
+  }
+}
+
 std::string trajectory_text(const std::string& output, const TrajectoryTable& table) {
   return fmt::format("{}, {} rows", output == "-" ? "on standard output" : output, table.rows());
 }
@@ -151,6 +178,15 @@ int status_of(const RunReport& report) {
       return numerical_failure;
   }
   internal_error("no such status");
+}
+
+// What the rows and the numbers of this run depend on.
+std::vector<std::string> manifest(const RunOptions& options, const Setting& setting,
+                                  const SceneValues& scene, const PluginSource& plugin,
+                                  long every) {
+  std::vector<std::string> lines = manifest_lines(setting, scene, plugin, options.compiler);
+  if (!options.output.empty()) lines.push_back(fmt::format("rows      every {} steps", every));
+  return lines;
 }
 
 void say(const RunReport& report, const RunOptions& options) {
@@ -234,6 +270,9 @@ int run(const RunOptions& options) {
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
+  if (options.checkpoint.checkpoint.empty() && options.checkpoint.resume.empty() &&
+      !options.checkpoint.every_seconds.empty())
+    throw UsageError("--every-seconds is for --checkpoint FILE");
   if (options.interpret && !options.compiler.empty())
     throw UsageError("--interpret needs no --compiler: leave out one of the two");
   if (!options.watch_modified.empty()) {
@@ -272,9 +311,19 @@ int run(const RunOptions& options) {
   report.header = keep_header(plugin, source, request, options);
 
   const std::vector<std::string> remarks = metadata(plugin, scene, start, every);
-  RunRows rows(options.output, !options.plot.empty(),
-               columns_of(plugin, scene, loaded.library->is_wide()), remarks);
   runtime::Integrator integrator(loaded.library, start);
+  std::optional<RunKeeper> keeper;
+  if (options.checkpoint.is_wanted()) {
+    require_nothing_watched(options, events);
+    keeper.emplace(options.checkpoint, manifest(options, setting, scene, plugin, every),
+                   integrator);
+  }
+  Columns columns = columns_of(plugin, scene, loaded.library->is_wide());
+  std::optional<TrajectoryTable> kept;
+  if (keeper && !options.output.empty())
+    kept.emplace(keeper->table(options.output, remarks, columns));
+  RunRows rows(kept ? std::move(kept) : table_of(options.output, columns, remarks),
+               !options.plot.empty(), columns);
   report.scalar_digits = loaded.library->plugin().scalar_digits;
   report.initial_invariants = integrator.invariants();
   runtime::ProgressBar bar(plugin.model.name);
@@ -319,6 +368,7 @@ int run(const RunOptions& options) {
     integrate_options.on_look = [&watch](const auto& now) { return watch.look(now); };
   if (!options.quiet)
     integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
+  if (keeper) keeper->prepare(integrate_options, rows.table());
   report.summary = runtime::integrate(integrator, integrate_options);
   bar.remove();
 
@@ -339,13 +389,17 @@ int run(const RunOptions& options) {
   report.final_invariants = loaded.library->invariants(start.parameters, last);
   if (watch.ending() && rows.wanted() && rows.time() != watch.ending()->second.time)
     add_point(watch.ending()->second);
+  const bool is_kept = keeper && (report.summary.status == runtime::Status::stopped ||
+                                  report.summary.status == runtime::Status::out_of_time);
   if (rows.table()) {
-    rows.table()->publish(outcome_text(report));
+    if (!is_kept) rows.table()->publish(outcome_text(report));
     report.trajectory = trajectory_text(options.output, *rows.table());
   }
+  if (keeper && !is_kept) keeper->remove();
   if (event_file) event_file->publish(outcome_text(report));
   say(report, options);
   if (rows.drawn()) draw(options, *rows.drawn(), report);
+  if (is_kept) print_error(keeper->stopped_text());
   return status_of(report);
 }
 
@@ -384,13 +438,15 @@ Command add_run(CLI::App& app) {
       ->add_option("--events", options->watch.events,
                    "of it: q over time, q:p, x:y:z; the model's events, .csv, .json")
       ->type_name("FILE");
+  add_checkpoint_options(*parser, options->checkpoint);
   parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
   parser->add_flag("--certify", options->certify,
                    "K terms of the modified Hamiltonian; how near to the exact map");
   parser->add_option("--header", options->header, "")->type_name("DIR");
+  add_checkpoint_interval(*parser, options->checkpoint);
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet,
-                   "the emitted header; the result as JSON; no summary, no progress");
+                   "emitted header; default 60; the result as JSON; no summary, no progress");
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,

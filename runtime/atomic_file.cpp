@@ -1,13 +1,18 @@
 #include "runtime/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
+#include <span>
 
+#include "runtime/crc64.hpp"
 #include "runtime/kill_point.hpp"
 #include "runtime/temporary_name.hpp"
 #include "runtime/tool_error.hpp"
@@ -34,6 +39,22 @@ FileDescriptor open_beside(const fs::path& final_path, const fs::path& target,
   throw file_error("write", target, error_number);
 }
 
+bool begins_with(const fs::path& path, const AtomicFile::Part& part) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::array<std::byte, kBufferSize> buffer;
+  std::uint64_t rest = part.size;
+  std::uint64_t checksum = 0;
+  while (file.is_open() && rest > 0) {
+    const ssize_t count =
+        ::read(file.get(), buffer.data(), std::min<std::uint64_t>(rest, buffer.size()));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    checksum = crc64(std::span(buffer).first(static_cast<std::size_t>(count)), checksum);
+    rest -= static_cast<std::uint64_t>(count);
+  }
+  return file.is_open() && checksum == part.checksum;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
@@ -54,11 +75,30 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
   if (exists) ::fchmod(file_.get(), info.st_mode & 0777);
 }
 
+AtomicFile::AtomicFile(const fs::path& target, const Part& from)
+    : target_(target), is_kept_(true), written_(from) {
+  std::error_code failed;
+  final_ = fs::weakly_canonical(target, failed);
+  if (failed || final_.empty()) final_ = target;
+  temporary_ = final_;
+  temporary_ += ".part";
+  if (from.size > 0 && !fs::exists(temporary_) && begins_with(final_, from))
+    std::rename(final_.c_str(), temporary_.c_str());
+  if (from.size > 0 && !begins_with(temporary_, from))
+    throw ToolError({.message = fmt::format("'{}' does not begin with the {} bytes that were "
+                                            "written before",
+                                            temporary_.string(), from.size)});
+  file_ =
+      FileDescriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (!file_.is_open() || ::ftruncate(file_.get(), static_cast<off_t>(from.size)) != 0)
+    throw file_error("write", temporary_, errno);
+}
+
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::discard() {
   file_.close();
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty() && !is_kept_) ::unlink(temporary_.c_str());
   temporary_.clear();
 }
 
@@ -80,7 +120,17 @@ void AtomicFile::flush() {
     }
     rest.remove_prefix(static_cast<std::size_t>(count));
   }
+  if (is_kept_) {
+    written_.size += buffer_.size();
+    written_.checksum =
+        crc64(std::as_bytes(std::span(buffer_.data(), buffer_.size())), written_.checksum);
+  }
   buffer_.clear();
+}
+
+AtomicFile::Part AtomicFile::synced() {
+  sync();
+  return written_;
 }
 
 void AtomicFile::sync() {

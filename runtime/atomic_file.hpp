@@ -1,6 +1,7 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -16,6 +17,16 @@ namespace hamgen::runtime {
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
+
+  // The beginning of a file.
+  struct Part {
+    std::uint64_t size = 0;
+    std::uint64_t checksum = 0;  // CRC-64
+  };
+  // The same under the name TARGET.part, which others can read and which stays whatever happens
+  // before publish(): it goes on behind `from` of what is there, or of the target if that has been
+  // published.  Throws ToolError if that is not there any more.
+  AtomicFile(const std::filesystem::path& target, const Part& from);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
@@ -23,6 +34,8 @@ class AtomicFile {
   void write(std::string_view text);
   // Until what was written is on the disk, so that a power cut after publish() finds it.
   void sync();
+  // What is on the disk then.
+  [[nodiscard]] Part synced();
   void publish();
 
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
@@ -36,6 +49,8 @@ class AtomicFile {
   std::filesystem::path temporary_;  // empty if the target is written directly
   FileDescriptor file_;
   std::string buffer_;
+  bool is_kept_ = false;
+  Part written_;  // if it is kept
 };
 
 // Makes a file hold exactly the text; creates missing directories.  An equal file is not touched,

@@ -27,9 +27,9 @@ constexpr CrcTables make_crc_tables() {
 
 }  // namespace
 
-std::uint64_t crc64(std::span<const std::byte> bytes) {
+std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before) {
   static constexpr CrcTables kTables = make_crc_tables();
-  std::uint64_t rest = ~std::uint64_t{0};
+  std::uint64_t rest = ~before;
   std::size_t i = 0;
   for (; i + 8 <= bytes.size(); i += 8) {
     for (std::size_t k = 0; k < 8; ++k)

@@ -7,7 +7,7 @@
 
 namespace hamgen::runtime {
 
-// Of "123456789": 0x995dc9bbdf1939fa.
-[[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes);
+// Of "123456789": 0x995dc9bbdf1939fa.  With that of the bytes before them it goes on.
+[[nodiscard]] std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t before = 0);
 
 }  // namespace hamgen::runtime

@@ -43,6 +43,17 @@ std::string number_text(double value) {
 CsvWriter::CsvWriter(const std::filesystem::path& target, std::span<const std::string> metadata,
                      std::span<const std::string> columns)
     : file_(target), columns_(columns.size()) {
+  write_head(metadata, columns);
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& target, std::span<const std::string> metadata,
+                     std::span<const std::string> columns, const AtomicFile::Part& from)
+    : file_(target, from), columns_(columns.size()) {
+  if (from.size == 0) write_head(metadata, columns);
+}
+
+void CsvWriter::write_head(std::span<const std::string> metadata,
+                           std::span<const std::string> columns) {
   if (columns.empty()) throw std::invalid_argument("a table needs a column for the step");
   for (const std::string& remark : metadata) append_remark(line_, remark);
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -20,6 +20,13 @@ class CsvWriter {
   // `columns` names all columns, that of the step included.
   CsvWriter(const std::filesystem::path& target, std::span<const std::string> metadata,
             std::span<const std::string> columns);
+  // The same, kept under the name TARGET.part (see AtomicFile); goes on behind `from`, if that is
+  // not empty, with its rows.
+  CsvWriter(const std::filesystem::path& target, std::span<const std::string> metadata,
+            std::span<const std::string> columns, const AtomicFile::Part& from);
+
+  // What is on the disk then.
+  [[nodiscard]] AtomicFile::Part synced() { return file_.synced(); }
 
   // Throws std::invalid_argument if the number of values is not that of the columns after the
   // first.
@@ -32,6 +39,8 @@ class CsvWriter {
   [[nodiscard]] long long rows() const { return rows_; }
 
  private:
+  void write_head(std::span<const std::string> metadata, std::span<const std::string> columns);
+
   AtomicFile file_;
   std::size_t columns_;
   long long rows_ = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <new>
 #include <span>
@@ -66,6 +67,13 @@ Integrator::Integrator(std::shared_ptr<const Library> library, const InitialValu
 }
 
 void Integrator::go_back_to(long long step) {
+  if (remembered_step_ > 0 && remembered_step_ <= step &&
+      library_->plugin().restore(run_.get(), remembered_.data(),
+                                 static_cast<long long>(remembered_.size())) != 0) {
+    steps_done_ = remembered_step_;
+    call(step - steps_done_, false);
+    return;
+  }
   const std::vector<double> parameters = part(start_.parameters, &Wide::hi);
   const std::vector<double> parameters_lo = part(start_.parameters, &Wide::lo);
   const std::vector<double> state = part(start_.state, &Wide::hi);
@@ -75,6 +83,38 @@ void Integrator::go_back_to(long long step) {
   if (!run_) throw std::bad_alloc();
   steps_done_ = 0;
   if (step > 0) call(step, false);
+}
+
+void Integrator::remember() {
+  constexpr long long far = 4096;
+  if (steps_done_ - remembered_step_ < far || library_->plugin().save == nullptr) return;
+  remembered_.resize(static_cast<std::size_t>(library_->plugin().save(run_.get(), nullptr)));
+  if (remembered_.empty()) return;
+  library_->plugin().save(run_.get(), remembered_.data());
+  remembered_step_ = steps_done_;
+}
+
+std::vector<std::byte> Integrator::saved() const {
+  if (library_->plugin().save == nullptr) return {};
+  const auto size = static_cast<std::size_t>(library_->plugin().save(run_.get(), nullptr));
+  if (size == 0) return {};
+  std::vector<std::byte> bytes(sizeof steps_done_ + sizeof energy_error_ + size);
+  std::memcpy(bytes.data(), &steps_done_, sizeof steps_done_);
+  std::memcpy(bytes.data() + sizeof steps_done_, &energy_error_, sizeof energy_error_);
+  library_->plugin().save(run_.get(), bytes.data() + (bytes.size() - size));
+  return bytes;
+}
+
+void Integrator::restore(std::span<const std::byte> bytes) {
+  constexpr std::size_t head = sizeof steps_done_ + sizeof energy_error_;
+  if (bytes.size() < head || library_->plugin().restore == nullptr ||
+      library_->plugin().restore(run_.get(), bytes.data() + head,
+                                 static_cast<long long>(bytes.size() - head)) == 0)
+    throw std::invalid_argument("what was saved is not of this integrator");
+  std::memcpy(&steps_done_, bytes.data(), sizeof steps_done_);
+  std::memcpy(&energy_error_, bytes.data() + sizeof steps_done_, sizeof energy_error_);
+  remembered_.assign(bytes.begin() + head, bytes.end());
+  remembered_step_ = steps_done_;
 }
 
 hamgen_report Integrator::call(long long steps, bool watch_energy) {
@@ -100,6 +140,7 @@ hamgen_report Integrator::last_good(long long before, bool watch_energy) {
 }
 
 Report Integrator::advance(long long steps, bool watch_energy) {
+  remember();
   const long long before = steps_done_;
   hamgen_report raw = call(steps, watch_energy);
   if (watch_energy && raw.steps_done > 0 && !std::isfinite(raw.energy_last)) {

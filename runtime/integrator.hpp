@@ -1,8 +1,10 @@
 // A running integration: a plugin's state together with the parameters it was created with.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/judge.hpp"
@@ -44,8 +46,14 @@ class Integrator {
   // step that ends where H is not finite is a failure too, and does not count.
   Report advance(long long steps, bool watch_energy);
   // Back to where it was after so many steps of those done, bit for bit: it runs anew from the
-  // start.
+  // start, or from the last place that it remembers.
   void go_back_to(long long step);
+  // All of it as bytes, for restore() in another process that has the same plugin; empty if the
+  // plugin cannot tell.
+  [[nodiscard]] std::vector<std::byte> saved() const;
+  // The integrator has the same library and start; what it does next is the same to the last bit.
+  // Throws std::invalid_argument if these are not its bytes.
+  void restore(std::span<const std::byte> bytes);
   // Since the start.
   [[nodiscard]] long long steps_done() const { return steps_done_; }
 
@@ -68,6 +76,9 @@ class Integrator {
     void operator()(hamgen_run* run) const { plugin->destroy(run); }
   };
 
+  // Some thousand steps back at most, where the plugin can tell.
+  void remember();
+
   [[nodiscard]] std::vector<Wide> read(void (*get)(const hamgen_run*, double*, double*)) const;
   hamgen_report call(long long steps, bool watch_energy);
   // Of steps that nobody looks at one by one, the last that ended in numbers.
@@ -80,6 +91,8 @@ class Integrator {
   long long steps_done_ = 0;
   double energy_error_ = 0.0;  // the largest that was watched
   std::unique_ptr<hamgen_run, Destroy> run_;
+  long long remembered_step_ = 0;  // 0: the start
+  std::vector<std::byte> remembered_;
 };
 
 }  // namespace hamgen::runtime

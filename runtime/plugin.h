@@ -9,7 +9,7 @@
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
-#define HAMGEN_PLUGIN_VERSION 3
+#define HAMGEN_PLUGIN_VERSION 4
 
 #ifdef __cplusplus
 extern "C" {
@@ -75,6 +75,12 @@ struct hamgen_plugin {
    * d(new_state_i)/d(state_j).  0 if there is no step.  Null in a plugin made without it. */
   int (*tangent)(const double* parameters, double h, const double* state, double* new_state,
                  double* matrix);
+  /* All that a run is: state, carry, what is known from earlier steps.  Returns the number of bytes
+   * and writes them if `bytes` is not null; 0 if the run is more than its bytes. */
+  long long (*save)(const struct hamgen_run* run, void* bytes);
+  /* Makes the run what it was when these were written, by the same plugin, so that what it does
+   * next is the same to the last bit; 0 if the number of bytes is another. */
+  int (*restore)(struct hamgen_run* run, const void* bytes, long long size);
 };
 
 typedef const struct hamgen_plugin* (*hamgen_plugin_entry_type)(void);

@@ -108,6 +108,18 @@ class Steps {
         limit_(options.end_at_jump ? integrator.judge().jump_limit()
                                    : std::numeric_limits<double>::infinity()) {}
 
+  void restore(const RunState& state) {
+    integrator_.restore(state.integrator);
+    limit_ = state.jump_limit;
+    largest_ = state.largest_error;
+  }
+  [[nodiscard]] RunState saved(const RunSummary& summary) const {
+    return {.summary = summary,
+            .jump_limit = limit_,
+            .largest_error = largest_,
+            .integrator = integrator_.saved()};
+  }
+
   // A step that jumps is not done; `jump` is the energy error after it.
   Report advance(long long steps, std::optional<double>& jump) {
     const Report report = integrator_.advance(steps, watches_);
@@ -229,8 +241,14 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   double last_report = 0.0;
   Pace pace(std::min(options.progress_interval.count(), options.seconds.value_or(1e9) / 4.0));
   long long until_look = pace.steps();
+  Clock::time_point last_save = begin;
+  const double seconds_before = options.from != nullptr ? options.from->summary.total_seconds : 0.0;
 
-  if (!observe(integrator, options, is_due(0, options.every), summary)) {
+  if (options.from != nullptr) {
+    summary = options.from->summary;
+    summary.status = Status::done;
+    plugin.restore(*options.from);
+  } else if (!observe(integrator, options, is_due(0, options.every), summary)) {
     summary.status = not_finite(integrator);
   }
   Looks looks(options);
@@ -267,17 +285,29 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
         summary.status == Status::done) {
       summary.status = Status::stopped;
     }
-    const double seconds = seconds_since(begin);
+    if (options.on_save && more && summary.status == Status::done &&
+        Clock::now() - last_save >= options.save_interval) {
+      summary.total_seconds = seconds_before + seconds_since(begin);
+      options.on_save(plugin.saved(summary));
+      last_save = last_look = Clock::now();
+    }
+    const double seconds = seconds_before + seconds_since(begin);
     if (options.on_progress && seconds - last_report >= options.progress_interval.count()) {
       last_report = seconds;
       options.on_progress(
           {.steps_done = summary.steps_done, .steps = options.steps, .seconds = seconds});
     }
   }
+  const bool may_go_on = summary.status == Status::done || summary.status == Status::stopped ||
+                         summary.status == Status::out_of_time;
+  if (options.on_save && may_go_on) {
+    summary.total_seconds = seconds_before + seconds_since(begin);
+    options.on_save(plugin.saved(summary));
+  }
   // A failed or stopped run still has a last good state, whose H may not have been looked at.
   if (summary.status != Status::done && summary.energy)
     observe(integrator, options, false, summary);
-  summary.total_seconds = seconds_since(begin);
+  summary.total_seconds = seconds_before + seconds_since(begin);
   if (options.on_progress) {
     options.on_progress({.steps_done = summary.steps_done,
                          .steps = options.steps,

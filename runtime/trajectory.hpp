@@ -26,6 +26,8 @@ struct Progress {
   bool show_rate = true;  // of the steps; false where they only stand for parts of the work
 };
 
+struct RunState;
+
 struct IntegrateOptions {
   long long steps = 0;
   long long every = 0;       // a record at step 0 and after each so many steps; 0 for no records
@@ -39,6 +41,11 @@ struct IntegrateOptions {
   // Looks at the state at step 0, and each time after as many steps more as it answered; 0 ends the
   // run there.  A record due there comes after it, and none if it ends the run.
   std::function<long long(const Integrator&)> on_look;
+  // About once in so many seconds, and where all steps are done, it is stopped or out of time, with
+  // what it takes to go on from there.
+  std::function<void(const RunState&)> on_save;
+  std::chrono::duration<double> save_interval{60.0};
+  const RunState* from = nullptr;  // goes on from there, bit for bit as if nothing had been
 };
 
 // Over the initial state and those after every step.  All values are finite.
@@ -72,11 +79,20 @@ struct RunSummary {
   [[nodiscard]] double nanoseconds_per_step() const;  // inside the plugin; 0 likewise
 };
 
+// What integrate() knows between two steps.
+struct RunState {
+  RunSummary summary;
+  double jump_limit = 0.0;            // see Note [jumps]
+  double largest_error = 0.0;         // of the energy, of the steps done
+  std::vector<std::byte> integrator;  // Integrator::saved()
+};
+
 // Advances until the steps are done, a step fails, `on_look` ends it, its time is over, or `stop`
 // is set.  A step that ends where H is not finite has failed, and one that jumps if they are to end
 // the run: the summary, the records and the integrator's state end with the step before.  What it
 // did never depends on how the steps were divided into calls.  An exception from a callback passes
-// through.  Throws std::invalid_argument for a negative `steps` or `every`.
+// through.  Throws std::invalid_argument for a negative `steps` or `every`, and where `from` is not
+// of this integrator.
 [[nodiscard]] RunSummary integrate(Integrator& integrator, const IntegrateOptions& options);
 
 }  // namespace hamgen::runtime

@@ -5,10 +5,8 @@
 
 namespace hamgen::app {
 
-RunRows::RunRows(const std::string& output, bool is_drawn, Columns columns,
-                 const std::vector<std::string>& remarks)
-    : columns_(std::move(columns)) {
-  if (!output.empty()) table_.emplace(output, remarks, columns_);
+RunRows::RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns)
+    : columns_(std::move(columns)), table_(std::move(table)) {
   if (is_drawn) drawn_.emplace().columns = column_names(columns_);
 }
 

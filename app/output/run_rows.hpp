@@ -12,9 +12,8 @@ namespace hamgen::app {
 
 class RunRows {
  public:
-  // `output`: the table's file, `is_drawn`: for a picture too.
-  RunRows(const std::string& output, bool is_drawn, Columns columns,
-          const std::vector<std::string>& remarks);
+  // Into the table, if there is one; `is_drawn`: for a picture too.
+  RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns);
 
   [[nodiscard]] bool wanted() const { return table_ || drawn_; }
   [[nodiscard]] std::optional<TrajectoryTable>& table() { return table_; }

@@ -61,6 +61,14 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
   print(fmt::format("{}{}\n", head, fmt::join(names, ",")));
 }
 
+TrajectoryTable::TrajectoryTable(const std::string& target,
+                                 const std::vector<std::string>& metadata, Columns columns,
+                                 const runtime::AtomicFile::Part& from, long long rows)
+    : columns_(std::move(columns)),
+      file_(std::make_unique<runtime::CsvWriter>(target, comment_texts(metadata),
+                                                 column_names(columns_), from)),
+      rows_(rows) {}
+
 void TrajectoryTable::add(const runtime::Record& record) {
   ++rows_;
   const std::vector<double> row = row_values(columns_, record);

@@ -33,6 +33,12 @@ class TrajectoryTable {
   // The target "-" is standard output, where rows appear as they come.
   TrajectoryTable(const std::string& target, const std::vector<std::string>& metadata,
                   Columns columns);
+  // A file that others can read while it grows; goes on behind `from`, with so many rows.
+  TrajectoryTable(const std::string& target, const std::vector<std::string>& metadata,
+                  Columns columns, const runtime::AtomicFile::Part& from, long long rows);
+
+  // What of it is on the disk then; not of standard output.
+  [[nodiscard]] runtime::AtomicFile::Part synced() { return file_->synced(); }
 
   void add(const runtime::Record& record);
   // Makes a file visible; the remark, if any, becomes its last line.

@@ -8,7 +8,7 @@
 
 namespace hamgen::app {
 
-void SingleCrew::hand_out(long long count, int threads, const std::function<bool(long long)>& work,
+bool SingleCrew::hand_out(long long count, int threads, const std::function<bool(long long)>& work,
                           const std::function<void(long long)>& on_progress) {
   using PaceClock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds interval(100);
@@ -33,6 +33,7 @@ void SingleCrew::hand_out(long long count, int threads, const std::function<bool
     }
   });
   if (on_progress) on_progress(done);
+  return !ended;
 }
 
 }  // namespace hamgen::app

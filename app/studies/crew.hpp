@@ -21,9 +21,11 @@ class Crew {
   [[nodiscard]] virtual std::vector<long long> share(std::vector<long long> list) = 0;
   // Each of the numbers 0, 1, ..., count - 1 is given to work() once, in one of the processes, from
   // so many threads of each; ends early, everywhere, when work() returns false.  The leader hears
-  // about once in a while how many were given out.  Everybody returns when all are done.
-  virtual void hand_out(long long count, int threads, const std::function<bool(long long)>& work,
+  // once in a while how many were given out.  False, for the leader, if it ended early.
+  virtual bool hand_out(long long count, int threads, const std::function<bool(long long)>& work,
                         const std::function<void(long long)>& on_progress) = 0;
+  // Nobody goes on before all are here.
+  virtual void wait_for_all() = 0;
 };
 
 // This process alone.
@@ -33,8 +35,9 @@ class SingleCrew : public Crew {
   [[nodiscard]] int size() const override { return 1; }
   void leader_first(const std::function<void()>& work) override { work(); }
   [[nodiscard]] std::vector<long long> share(std::vector<long long> list) override { return list; }
-  void hand_out(long long count, int threads, const std::function<bool(long long)>& work,
+  bool hand_out(long long count, int threads, const std::function<bool(long long)>& work,
                 const std::function<void(long long)>& on_progress) override;
+  void wait_for_all() override {}
 };
 
 }  // namespace hamgen::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/studies/manifest.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/temporary_name.hpp"
@@ -57,21 +58,6 @@ fs::path parts_directory(const fs::path& output) {
 
 fs::path part_path(const fs::path& output, int rank) {
   return parts_directory(output) / fmt::format("part-{:06}", rank);
-}
-
-std::string difference_of(const std::vector<std::string>& there,
-                          const std::vector<std::string>& here) {
-  std::string text;
-  const auto add = [&text](const char* where, const std::vector<std::string>& lines,
-                           const std::vector<std::string>& others) {
-    for (const std::string& line : lines) {
-      if (std::ranges::find(others, line) == others.end())
-        text += fmt::format("  {:<6} {}\n", where, line);
-    }
-  };
-  add("there", there, here);
-  add("here", here, there);
-  return text;
 }
 
 EnsembleParts::EnsembleParts(const fs::path& output, const EnsembleManifest& manifest, bool resume)

@@ -29,10 +29,6 @@ struct EnsembleManifest {
 // "x.csv.parts" of "x.csv".
 [[nodiscard]] std::filesystem::path parts_directory(const std::filesystem::path& output);
 
-// The lines that differ, "there" and "here"; empty if none do.
-[[nodiscard]] std::string difference_of(const std::vector<std::string>& there,
-                                        const std::vector<std::string>& here);
-
 // The directory, in the hands of one process, or of the processes of one crew.
 class EnsembleParts {
  public:

@@ -192,6 +192,8 @@ runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits
                 energy<Real>,
                 invariants<Real>,
                 gradient<Real>,
+                nullptr,
+                nullptr,
                 nullptr};
   runtime::LoadedPlugin loaded;
   loaded.library = std::make_shared<const runtime::Library>(all->table, all);

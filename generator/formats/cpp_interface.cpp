@@ -194,6 +194,21 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.close();
   out.line();
   out.lines(
+      R"(// All that the run is, as bytes; with matrices of Eigen it is more than these.
+long long save_run(const hamgen_run* run, void* bytes) {
+  if (!__is_trivially_copyable(hamgen_run)) return 0;
+  if (bytes) __builtin_memcpy(bytes, run, sizeof *run);
+  return static_cast<long long>(sizeof *run);
+}
+
+int restore_run(hamgen_run* run, const void* bytes, long long size) {
+  if (size == 0 || size != save_run(run, nullptr)) return 0;
+  __builtin_memcpy(static_cast<void*>(run), bytes, sizeof *run);
+  return 1;
+}
+)");
+  out.line();
+  out.lines(
       R"(double energy_of(const double* parameters, const double* parameters_lo, const double* state,
                  const double* state_lo, double* energy_lo) {
   return high_part(energy(read_parameters(parameters, parameters_lo), read_state(state, state_lo)),
@@ -244,7 +259,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line(
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, "
                   "{}, create, destroy, advance, get_state, get_carry, energy_of, invariants_of, "
-                  "gradient_of, {}}};",
+                  "gradient_of, {}, save_run, restore_run}};",
                   context.n(), context.environment.parameters.size(), invariants + modified,
                   context.scalar.digits, description, cpp_string(context.program.plan.solver),
                   context.options.tangent ? "tangent_of" : "nullptr"));

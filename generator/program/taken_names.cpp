@@ -207,7 +207,7 @@ constexpr std::string_view kGlobalFamilies =
 constexpr std::string_view kPlugin =
     " advance carried create destroy energy_of get_carry get_state gradient_of high_part "
     "invariants_of plugin "
-    "read_parameters read_state tangent_of ";
+    "read_parameters read_state restore_run save_run tangent_of ";
 
 bool has_word(std::string_view list, std::string_view word) {
   return list.find(" " + std::string(word) + " ") != std::string_view::npos;

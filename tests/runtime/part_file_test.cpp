@@ -51,6 +51,8 @@ class PartFiles : public testing::Test {
 TEST(Crc64, OfTheNineDigitsIsTheKnownOne) {
   EXPECT_EQ(crc64(bytes_of("123456789")), 0x995dc9bbdf1939faU);
   EXPECT_EQ(crc64({}), 0U);
+  EXPECT_EQ(crc64(bytes_of("456789"), crc64(bytes_of("123"))), 0x995dc9bbdf1939faU);
+  EXPECT_EQ(crc64(bytes_of("9"), crc64(bytes_of("12345678"))), 0x995dc9bbdf1939faU);
 }
 
 TEST_F(PartFiles, CutAnywhereHaveTheWholeRecordsAndGoOn) {
