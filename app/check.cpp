@@ -54,6 +54,16 @@ int check(const MethodOptions& options, const SceneOptions& scene) {
             "corner"};
     print_error(render({warning}, source));
   }
+  if (const std::string place = point_beyond_text(source, request); !place.empty()) {
+    const Diagnostic warning{
+        .severity = Severity::warning,
+        .span = model.hamiltonian->span,
+        .message = fmt::format("something cancels in H: at {} it has no value as it is written, "
+                               "but what is emitted has one",
+                               place),
+        .help = "steps go on there; write H without what cancels"};
+    print_error(render({warning}, source));
+  }
   print(fmt::format(
       "{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
       counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),

@@ -31,6 +31,7 @@ struct Command {
   std::function<int()> run;
 };
 
+[[nodiscard]] Command add_new(CLI::App& app);
 [[nodiscard]] Command add_check(CLI::App& app);
 [[nodiscard]] Command add_show(CLI::App& app);
 [[nodiscard]] Command add_generate(CLI::App& app);
@@ -42,11 +43,15 @@ struct Command {
 [[nodiscard]] Command add_section(CLI::App& app);
 [[nodiscard]] Command add_plot(CLI::App& app);
 [[nodiscard]] Command add_plugin(CLI::App& app);
+class Crew;
+[[nodiscard]] Command add_ensemble(CLI::App& app, Crew& crew);
 [[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);
 [[nodiscard]] Command add_list(CLI::App& app);
 [[nodiscard]] Command add_cache(CLI::App& app);
+[[nodiscard]] Command add_completion(CLI::App& app);
+[[nodiscard]] Command add_man(CLI::App& app);
 
 // Which integrator is meant; the texts are kept as typed.
 struct MethodOptions {

@@ -27,6 +27,14 @@ void refuse_empty_values(const std::vector<std::string>& words) {
   }
 }
 
+// "help run" is "run --help".
+std::vector<std::string> with_help_as_option(std::vector<std::string> words) {
+  if (words.empty() || words[0] != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 std::string_view without_line_end(std::string_view text) {
   return text.substr(0, text.find_last_not_of('\n') + 1);
 }
@@ -40,7 +48,7 @@ const CLI::App& chosen(const CLI::App& app) {
 std::string suggestion(const CLI::App& command, const std::string& word) {
   std::vector<std::string> candidates;
   for (const CLI::App* subcommand : command.get_subcommands({}))
-    candidates.push_back(subcommand->get_name());
+    if (!subcommand->get_group().empty()) candidates.push_back(subcommand->get_name());
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) candidates.push_back("--" + name);
   }
@@ -66,14 +74,14 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
   return text + fmt::format("help: see hamgen {}--help\n", name);
 }
 
-int run_command(const std::vector<std::string>& words) {
+int run_command(const std::vector<std::string>& words, Crew& crew) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
   const std::vector<Command> commands = {
-      add_check(app),  add_show(app),    add_generate(app), add_run(app),
-      add_bench(app),  add_report(app),  add_stress(app),   add_tune(app),
-      add_verify(app), add_certify(app), add_section(app),  add_chaos(app),
-      add_plot(app),   add_plugin(app),  add_list(app),     add_cache(app)};
+      add_new(app),     add_check(app),   add_show(app),   add_generate(app),       add_run(app),
+      add_bench(app),   add_report(app),  add_stress(app), add_tune(app),           add_verify(app),
+      add_certify(app), add_section(app), add_chaos(app),  add_ensemble(app, crew), add_plot(app),
+      add_plugin(app),  add_list(app),    add_cache(app),  add_completion(app),     add_man(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
@@ -82,8 +90,9 @@ int run_command(const std::vector<std::string>& words) {
   use_short_help(app);
   try {
     refuse_empty_values(words);
+    const std::vector<std::string> asked = with_help_as_option(words);
     app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend()));  // it takes them from the end
+        std::vector<std::string>(asked.rbegin(), asked.rend()));  // it takes them from the end
   } catch (const CLI::CallForHelp&) {
     print(app.help());
     return done;
@@ -103,10 +112,10 @@ int run_command(const std::vector<std::string>& words) {
 }  // namespace
 
 // Every way to fail, and only here, becomes a message and an exit status.
-int dispatch(const std::vector<std::string>& words) {
+int dispatch(const std::vector<std::string>& words, Crew& crew) {
   report_full_files();
   try {
-    return run_command(words);
+    return run_command(words, crew);
   } catch (const ModelError& error) {
     print_error(error.what());
     return model_error;

@@ -1,6 +1,7 @@
 // hamgen generate: the emitted files, printed, written or compared with what is there.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -30,10 +31,17 @@ std::string path_in(const std::string& directory, const OutputFile& file) {
   return (std::filesystem::path(directory) / file.path).string();
 }
 
-// What a header that is there computes, whatever else of it has changed.
+// Is it a file of which the emitted code can be read back?
+bool has_code(const std::string& path) {
+  constexpr std::string_view kEndings[] = {".hpp", ".h", ".plugin.cpp"};
+  return path.find("hamgen_support") == std::string::npos &&
+         std::ranges::any_of(kEndings, [&](std::string_view end) { return path.ends_with(end); });
+}
+
+// What a file that is there computes, whatever else of it has changed.
 std::string said_of(const std::string& path, const std::string& text, const SourceText& source,
                     const Request& request) {
-  if (!path.ends_with(".hpp") || path.find("hamgen_support") != std::string::npos) return {};
+  if (!has_code(path)) return {};
   EmittedHeader header{.path = path, .text = text};
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (const char* name : kSupportFiles) {

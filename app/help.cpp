@@ -47,7 +47,8 @@ class ShortHelp : public CLI::FormatterBase {
                         CLI::AppFormatMode /*mode*/) const override {
     std::vector<Row> rows;
     for (const CLI::App* command : app->get_subcommands({}))
-      rows.push_back({command->get_name(), command->get_description()});
+      if (!command->get_group().empty())
+        rows.push_back({command->get_name(), command->get_description()});
     for (const bool positional : {true, false}) {
       for (const CLI::Option* option : app->get_options()) {
         if (option->get_positional() != positional) continue;
@@ -75,10 +76,10 @@ class ShortHelp : public CLI::FormatterBase {
 void use_short_help(CLI::App& app) {
   const auto help = std::make_shared<ShortHelp>();
   app.formatter(help);
-  app.set_help_flag("-?,--help", "this text");
+  app.set_help_flag("-h,--help", "this text; help COMMAND or COMMAND --help: that of a command");
   for (CLI::App* command : app.get_subcommands({})) {
     command->formatter(help);
-    command->set_help_flag("--help", "this text");
+    command->set_help_flag("-h,--help", "this text");
   }
 }
 

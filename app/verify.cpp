@@ -32,7 +32,8 @@ struct VerifyOptions {
   std::string required;
   bool measure = false;
   bool json = false;
-  std::string emitted;      // a header; empty: the one that would be written
+  std::string emitted;      // a file; empty: the one that would be written
+  std::string format;       // in this format
   std::string certificate;  // a file to write
 };
 
@@ -115,6 +116,7 @@ Setting verify_setting(const VerifyOptions& options) {
   if (!options.scene.scene.empty())
     specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
   setting.request.tangent = options.measure;  // then it is read back as well
+  setting.request.format = options.format;
   return setting;
 }
 
@@ -214,12 +216,13 @@ int verify(const VerifyOptions& options) {
         rows.back().update(
             {{"initial", defect.initial}, {"defect", defect.largest}, {"steps", defect.steps}});
     }
-    const bool of_code = finding.property == kProgram || finding.property == kEmittedCode ||
+    const bool of_text = finding.property == kEmittedCode || finding.property == kPlugin;
+    const bool of_code = of_text || finding.property == kProgram ||
                          finding.property == kModelRead || finding.property == "specialised";
     if (of_code && is_refuted(finding)) holds = false;
     // What is emitted can be read.
     const bool unread = finding.detail.find("not understood") != std::string::npos;
-    if (finding.property == kEmittedCode && unread) holds = false;
+    if (of_text && unread) holds = false;
     if (by_default && finding.property == "symplectic" && !hamgen::holds(finding.verdict))
       holds = false;
   }
@@ -244,17 +247,19 @@ Command add_verify(CLI::App& app) {
   CLI::App* parser = app.add_subcommand(
       "verify", "proves what it can of the step by algebra: symplectic, symmetric, invariants");
   add_method_options(*parser, options->method);
-  parser->add_option("--terms", options->terms, "print K terms of the modified Hamiltonian")
-      ->type_name("K");
+  parser->add_option("--terms", options->terms, "")->type_name("K");
+  parser->add_flag("--latex", options->latex,
+                   "print K terms of the modified Hamiltonian, as LaTeX");
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
   add_step_option(*parser, options->scene);
   parser->add_option("--emitted", options->emitted, "")->type_name("FILE");
+  parser->add_option("--format", options->format, "read this file, or a text of this format, back")
+      ->type_name("NAME");
   parser
       ->add_option("--certificate", options->certificate,
-                   "read this header back; write a certificate (JSON)")
+                   "write a certificate (JSON) of the file that is read back")
       ->type_name("FILE");
-  parser->add_flag("--latex", options->latex, "print it as LaTeX");
   parser->add_flag("--measure", options->measure, "compile the step and measure it too");
   parser
       ->add_option("--require", options->required,

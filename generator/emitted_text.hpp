@@ -9,7 +9,7 @@ namespace hamgen {
 // The line "emitted code", below that of the program, on which it rests; `path` is where the text
 // was found, empty if it was made here.
 void add_emitted_code(const ReadBack& read, const std::string& path, Proof& proof);
-// The same for a format that is not read.
-void add_unread_code(const std::string& format, Proof& proof);
+// The line "plugin" below it: the text that `hamgen run` compiles.
+void add_plugin(const ReadBack& read, Proof& proof);
 
 }  // namespace hamgen

@@ -18,6 +18,7 @@
 #include "generator/program/names.hpp"
 #include "generator/read_request.hpp"
 #include "generator/stages.hpp"
+#include "generator/verify/model_text.hpp"
 
 namespace hamgen {
 
@@ -49,9 +50,12 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .watched_step = request.step};
 }
 
-// The text of a header and of what it includes.
-ReadBack read_header(const OutputFiles& files, const Stages& stages, const Request& request) {
-  EmittedFile file{.text = files.front().text, .scalar = request.scalar};
+// The first of the files, and what it includes of the others.
+ReadBack read_files(const OutputFiles& files, const Stages& stages, const Request& request) {
+  EmittedFile file{.text = files.front().text,
+                   .scalar = request.scalar,
+                   .beside = {},
+                   .watched_step = request.step};
   for (const OutputFile& other : files) file.beside[other.path] = other.text;
   return read_back(file, stages.program, step_code(stages.program));
 }
@@ -60,11 +64,7 @@ ReadBack read_header(const OutputFiles& files, const Stages& stages, const Reque
 void add_proof(const SourceText& source, const Stages& stages, const Request& request,
                const OutputFiles& files, EmitOptions& options) {
   Proof proof = prove(source, request, stages);
-  if (files.front().path.ends_with(".hpp")) {
-    add_emitted_code(read_header(files, stages, request), "", proof);
-  } else {
-    add_unread_code(files.front().path.ends_with(".h") ? "C11" : "a plugin", proof);
-  }
+  add_emitted_code(read_files(files, stages, request), "", proof);
   require(proof, request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
@@ -96,17 +96,22 @@ std::string plugin_text(const Stages& stages, const EmitOptions& options, const 
   return written(stages.model, request, [&] { return cpp_plugin(stages.program, options); });
 }
 
-// A header that is there, or else the one that is emitted.
-ReadBack read_header(const std::optional<EmittedHeader>& header, const SourceText& source,
-                     const Stages& stages, const Request& request) {
-  if (header) {
-    const EmittedFile file{
-        .text = header->text, .scalar = request.scalar, .beside = header->beside};
-    return read_back(file, stages.program, step_code(stages.program));
-  }
-  const EmitOptions options = emit_options(source, stages, request);
-  const auto files = [&] { return cpp_header_files(stages.program, options); };
-  return read_header(written(stages.model, request, files), stages, request);
+OutputFiles files_of(const Stages& stages, const EmitOptions& options, const Request& request) {
+  const NamedFormat& format = find_format(request.format);
+  return written(stages.model, request, [&] { return format.files(stages.program, options); });
+}
+
+// A file that is there, or else the one that is emitted.
+ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& source,
+                   const Stages& stages, const Request& request) {
+  if (!there)
+    return read_files(files_of(stages, emit_options(source, stages, request), request), stages,
+                      request);
+  const EmittedFile file{.text = there->text,
+                         .scalar = request.scalar,
+                         .beside = there->beside,
+                         .watched_step = request.step};
+  return read_back(file, stages.program, step_code(stages.program));
 }
 
 }  // namespace
@@ -117,12 +122,8 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   if (request.tangent && !options.tangent) {
     throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
   }
-  const NamedFormat& format = find_format(request.format);
-  const auto files = [&] {
-    return written(stages.model, request, [&] { return format.files(stages.program, options); });
-  };
-  add_proof(source, stages, request, files(), options);
-  return files();
+  add_proof(source, stages, request, files_of(stages, options, request), options);
+  return files_of(stages, options, request);
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {
@@ -176,13 +177,20 @@ Proof verify_step(const SourceText& source, const Request& request,
                   const std::optional<EmittedHeader>& header) {
   const Stages stages = run_stages(source, request);
   Proof proof = prove(source, request, stages, scene);
-  add_emitted_code(read_header(header, source, stages, request), header ? header->path : "", proof);
+  const ReadBack read = read_file(header, source, stages, request);
+  add_emitted_code(read, header ? header->path : "", proof);
+  if (header || read.kind != TextKind::plugin) {
+    Request run = request;
+    run.format = "cpp-plugin";
+    run.support.clear();
+    add_plugin(read_file({}, source, stages, run), proof);
+  }
   return proof;
 }
 
 ReadBack read_emitted(const SourceText& source, const Request& request,
                       const std::optional<EmittedHeader>& header) {
-  return read_header(header, source, run_stages(source, request), request);
+  return read_file(header, source, run_stages(source, request), request);
 }
 
 ProofCertificate certificate_of(const SourceText& source, const Request& request,
@@ -207,6 +215,11 @@ ProofCertificate certificate_of(const SourceText& source, const Request& request
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {
   return corners_of_hamiltonian(derive(read_request(source, request)));
+}
+
+std::string point_beyond_text(const SourceText& source, const Request& request) {
+  const Model model = read_request(source, request);
+  return point_beyond_text(model, derive(model, may_keep_sums(request)), surroundings_of(model));
 }
 
 Scheme request_scheme(const SourceText& source, const Request& request) {

@@ -98,6 +98,10 @@ struct EmittedHeader {
 [[nodiscard]] std::vector<Corner> corners_of_hamiltonian(const SourceText& source,
                                                          const Request& request);
 
+// A point at which H has a value though its text in the file has none, because something cancels in
+// it: (q^(1/3))^3.  Empty if none was met.
+[[nodiscard]] std::string point_beyond_text(const SourceText& source, const Request& request);
+
 // H_0, H_1, ... of the Hamiltonian sum of h^j H_j whose flow the step follows: `count` of them that
 // do not vanish for reasons of symmetry.  Throws UsageError for a scheme that is no member.
 [[nodiscard]] std::vector<Expression> modified_hamiltonian(const SourceText& source,

@@ -3,22 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "benchmarks/emitted_program.hpp"
 #include "generator/base/source_text.hpp"
-#include "runtime/compiler.hpp"
-#include "runtime/process.hpp"
 
 namespace hamgen::drift {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 // What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
 // seconds.
@@ -119,43 +113,6 @@ std::string quantity_text(Conserved conserved) {
   return "";
 }
 
-// A directory of its own that does not outlive it.
-class Directory {
- public:
-  Directory() {
-    std::string pattern = (fs::temp_directory_path() / "hamgen-drift-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = pattern;
-  }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  ~Directory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
-
-std::string emitted(const Row& row, const std::string& scalar, const std::string& name_space) {
-  Request request = row.request;
-  request.scalar = scalar;
-  request.name_space = name_space;
-  return generate(make_source("drift.ham", row.model), request).at(0).text;
-}
-
-std::string checked_run(const runtime::ProcessRequest& request) {
-  const runtime::ProcessResult result = runtime::run_process(request);
-  if (!result.succeeded()) {
-    throw std::runtime_error(runtime::end_text(result, request) + "\n" + result.output);
-  }
-  return result.output;
-}
-
 std::string solver_of(const std::string& header) {
   const std::size_t begin = header.find("//   solve     ");
   if (begin == std::string::npos) return "";
@@ -173,30 +130,18 @@ bool Result::drifts() const {
 }
 
 Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit) {
-  const Directory directory;
-  const std::string rounded = emitted(row, "double", "rounded");
-  write(directory.path() / "rounded.hpp", edit ? edit(rounded) : rounded);
-  write(directory.path() / "exact.hpp", emitted(row, "quad", "exact"));
+  const std::string rounded = emitted_header(row.model, row.request, "double", "rounded");
   const std::size_t invariants =
       read_request(make_source("drift.ham", row.model), row.request).invariants.size();
-  write(
-      directory.path() / "drift.cpp",
+  const std::string program =
       fmt::format("constexpr int exact_invariants = {};\n", std::max<std::size_t>(invariants, 1)) +
-          fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
-                      fmt::arg("h", row.h), fmt::arg("steps", steps), fmt::arg("starts", starts),
-                      fmt::arg("seconds", seconds), fmt::arg("start", row.start)));
-  runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
-                                  .working_directory = directory.path(),
-                                  .time_limit = std::chrono::minutes(20)};
-  for (const char* flag : {"-std=gnu++20", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno",
-                           "-isystem", "/usr/include/eigen3", "-include", "rounded.hpp", "-include",
-                           "exact.hpp", "drift.cpp", "-o", "drift", "-lquadmath"}) {
-    compile.command.emplace_back(flag);
-  }
-  (void)checked_run(compile);
-  std::istringstream output(checked_run({.command = {(directory.path() / "drift").string()},
-                                         .working_directory = directory.path(),
-                                         .time_limit = std::chrono::hours(24)}));
+      fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
+                  fmt::arg("h", row.h), fmt::arg("steps", steps), fmt::arg("starts", starts),
+                  fmt::arg("seconds", seconds), fmt::arg("start", row.start));
+  std::istringstream output(
+      output_of_program({{"rounded.hpp", edit ? edit(rounded) : rounded},
+                         {"exact.hpp", emitted_header(row.model, row.request, "quad", "exact")}},
+                        program));
   Result result{.steps = steps / 2 * 2, .solver = solver_of(rounded)};
   double squares = 0.0;
   double running = 0.0;

@@ -36,7 +36,8 @@ SourceText make_source(std::string path, std::string text) {
   return source;
 }
 
-SourceText read_source(const std::string& path) {
+SourceText read_source(const std::string& name) {
+  const std::string path = name == "-" ? "/dev/stdin" : name;
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw UsageError(fmt::format("cannot read '{}': it is a directory", visible_text(path)));
@@ -56,7 +57,7 @@ SourceText read_source(const std::string& path) {
           fmt::format("cannot read '{}': it is larger than 16 MB", visible_text(path)));
     }
   }
-  return make_source(path, std::move(text));
+  return make_source(name == "-" ? "stdin" : path, std::move(text));
 }
 
 Position position(const SourceText& source, std::size_t offset) {

@@ -342,6 +342,14 @@ std::set<std::string> names_computed_from(const Model& model, const SceneRequest
     }
   }
   for (const Setting& setting : settings) add(setting.name, setting.values);
+  if (chosen != model.scenes.end()) {
+    if (chosen->h && !request.h) add("h", {chosen->h});
+    if (chosen->steps && !request.steps) add("steps", {chosen->steps});
+  }
+  std::vector<std::string> parameters = element_names(model.parameters);
+  for (const Size& size : model.sizes) parameters.push_back(size.name);
+  if (request.h) add("h", {read_expression("--h", *request.h, parameters)});
+  if (request.steps) add("steps", {read_expression("--steps", *request.steps, parameters)});
   return found;
 }
 

@@ -61,7 +61,8 @@ struct SceneValues {
 // Of one of the model's scenes, without overrides.
 [[nodiscard]] SceneValues values_of_scene(const Model& model, const Scene& scene);
 
-// These names, and the parameters and variables whose values the run computes from them.
+// These names, and the parameters and variables, h and steps, whose values the run computes from
+// them.
 [[nodiscard]] std::set<std::string> names_computed_from(const Model& model,
                                                         const SceneRequest& request,
                                                         const std::vector<std::string>& names);

@@ -284,9 +284,10 @@ class CppReader {
         CppExpression index = expression();
         cursor_.expect("]");
         of = {ParsedKind::index, "[]", {std::move(of), std::move(index)}, line};
-      } else if (cursor_.accept(".") || cursor_.accept("->")) {
+      } else if (cursor_.peek().is(".") || cursor_.peek().is("->")) {
+        const bool arrow = cursor_.take().is("->");
         std::string member = cursor_.word();
-        of = {ParsedKind::member, std::move(member), {std::move(of)}, line};
+        of = {ParsedKind::member, std::move(member), {std::move(of)}, line, arrow};
       } else if (cursor_.peek().is("++") || cursor_.peek().is("--")) {
         of = {ParsedKind::postfix, cursor_.take().text, {std::move(of)}, line};
       } else {

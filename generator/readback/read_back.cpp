@@ -6,8 +6,10 @@
 #include <set>
 
 #include "generator/program/environment.hpp"
+#include "generator/readback/c_file.hpp"
 #include "generator/readback/findings.hpp"
 #include "generator/readback/fixed_text.hpp"
+#include "generator/readback/plugin_interface.hpp"
 #include "generator/readback/routine_reader.hpp"
 #include "generator/readback/shell.hpp"
 
@@ -30,22 +32,43 @@ std::string time_field(const Program& program) {
   return to_text(environment.state_layout.places[last]).substr(1);
 }
 
+constexpr std::string_view kPluginInclude = "#include \"plugin.h\"";
+
+TextKind kind_of(std::span<const CppToken> tokens) {
+  if (tokens[0].text == kPluginInclude) return TextKind::plugin;
+  const bool in_c = tokens.size() > 1 && tokens[1].text == "#include <math.h>";
+  return in_c ? TextKind::c_header : TextKind::header;
+}
+
+ShellFacts facts_of(const Program& program, const StepCode& code) {
+  return {code, program.plan.arrays.has_value(), time_field(program),
+          static_cast<int>(program.modified_powers.size())};
+}
+
+// "q", "q[2]": places in a record.
+std::vector<std::string> place_texts(const std::vector<Place>& places) {
+  std::vector<std::string> texts;
+  for (const Place& place : places) texts.push_back(to_text(place).substr(1));
+  return texts;
+}
+
+// A header or a plugin.
 class FileReader {
  public:
-  FileReader(const EmittedFile& file, const Program& program, const StepCode& code, ReadBack& found)
+  FileReader(const EmittedFile& file, const Program& program, const StepCode& code,
+             std::span<const CppToken> tokens, ReadBack& found)
       : file_(file),
         program_(program),
         code_(code),
         precision_(precision_of(file.scalar)),
-        facts_{code, program.plan.arrays.has_value(), time_field(program),
-               static_cast<int>(program.modified_powers.size())},
+        facts_(facts_of(program, code)),
         n_(facts_.arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0),
         found_(found),
-        tokens_(tokens_of(file.text)),
-        cursor_(tokens_) {}
+        cursor_(tokens) {}
 
   void run() {
-    expect_directive(cursor_, "#pragma once");
+    const bool plugin = found_.kind == TextKind::plugin;
+    expect_directive(cursor_, plugin ? std::string(kPluginInclude) : "#pragma once");
     const std::vector<std::string> included = read_includes(cursor_, precision_);
     expect_ieee_begin(cursor_, precision_);
     read_section("system");
@@ -55,6 +78,7 @@ class FileReader {
     if (!digest.empty()) digest_ = digest;
     read_section("method");
     expect_ieee_end(cursor_);
+    if (plugin) read_interface();
     if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
     require_all();
   }
@@ -86,6 +110,27 @@ class FileReader {
     return blocks;
   }
 
+  void read_interface() {
+    const StepEquations& equations = program_.plan.equations;
+    const Mechanics& mechanics = equations.mechanics;
+    const Environment environment = environment_of(equations, facts_.arrays);
+    const InterfaceFacts facts{
+        .shell = facts_,
+        .precision = precision_,
+        .space = method_,
+        .degrees_of_freedom = mechanics.degrees_of_freedom,
+        .parameters = place_texts(environment.parameter_layout.places),
+        .state = place_texts(environment.state_layout.places),
+        .invariants = static_cast<int>(mechanics.invariants.size()),
+        .tangent = seen_.contains("tangent"),
+        .watched_step = file_.watched_step,
+        .description = fmt::format("{}, {}", mechanics.name, equations.scheme.name),
+        .solver = program_.plan.solver};
+    for (const InterfacePiece& piece : plugin_interface(facts))
+      expect_pattern(cursor_, piece.pattern, precision_, piece.name);
+    found_.places = static_cast<int>(facts.parameters.size() + facts.state.size());
+  }
+
   void read_section(const std::string& kind) {
     Section section{.kind = kind, .name = {}, .digest = {}};
     const CppToken& guard = cursor_.take();
@@ -110,7 +155,7 @@ class FileReader {
     }
     if (macro != begin.substr(8) + flat)
       throw TextDifference(line, fmt::format("{} guards the namespace {}", macro, section.name));
-    if (kind == "system") system_ = section.name;
+    (kind == "system" ? system_ : method_) = section.name;
     const bool inside = section.name == system_ || section.name.starts_with(system_ + "::");
     if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", section.name, system_));
     expect(fmt::format("{{ inline namespace emitted_{} {{", section.digest), "a section");
@@ -258,9 +303,8 @@ class FileReader {
   ShellFacts facts_;
   int n_;
   ReadBack& found_;
-  std::vector<CppToken> tokens_;
   TokenCursor cursor_;
-  std::string system_;
+  std::string system_, method_;  // namespaces
   std::string digest_;
   std::set<std::string> seen_;
 };
@@ -270,7 +314,13 @@ class FileReader {
 ReadBack read_back(const EmittedFile& file, const Program& program, const StepCode& code) {
   ReadBack found;
   try {
-    FileReader(file, program, code, found).run();
+    const std::vector<CppToken> tokens = tokens_of(file.text);
+    found.kind = kind_of(tokens);
+    if (found.kind == TextKind::c_header) {
+      read_c_file(tokens, precision_of(file.scalar), facts_of(program, code), found);
+    } else {
+      FileReader(file, program, code, tokens, found).run();
+    }
     found.outcome = ReadBack::Outcome::same;
   } catch (const TextDifference& difference) {
     found.outcome = ReadBack::Outcome::different;

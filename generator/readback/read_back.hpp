@@ -1,5 +1,5 @@
-// The emitted file read back: a C++ header is turned into functions again, and these are compared
-// with the routines of the program, operation by operation.
+// The emitted file read back: a header in C++ or C, or a plugin, is turned into functions again,
+// and these are compared with the routines of the program, operation by operation.
 //
 // Independent of what writes it: formats/ has no part in it.  Comments, the width of lines, the
 // names of locals, brackets and digits of numbers are free, nothing else is: what is not the
@@ -20,16 +20,23 @@ struct EmittedFile {
   std::string_view scalar;  // "" is double
   // Files beside it by their names, of which it may include "hamgen_support.hpp".
   std::map<std::string, std::string> beside = {};
+  // The step at which a plugin has the modified energies among its invariants.
+  Rational watched_step = 0;
 };
+
+// What a text says it is, by its first lines.
+enum class TextKind { header, plugin, c_header };
 
 struct ReadBack {
   enum class Outcome { same, different, not_understood };
   Outcome outcome = Outcome::not_understood;
+  TextKind kind = TextKind::header;
   int line = 0;      // of the first difference, or of what is not understood
   std::string what;  // the difference
   int routines = 0;  // that were compared, with so many instructions
   int instructions = 0;
   int blocks = 0;  // of fixed text
+  int places = 0;  // of a plugin's arrays of parameters and of the state
 };
 
 [[nodiscard]] ReadBack read_back(const EmittedFile& file, const Program& program,

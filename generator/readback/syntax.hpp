@@ -20,13 +20,14 @@ struct CppExpression {
     choice,   // a ? b : c
     call,     // the callee, then the arguments
     index,    // a[b]
-    member,   // text: the member; "->" is a "."
+    member,   // text: the member
     list,     // {a, b}
   };
   Kind kind = Kind::name;
   std::string text;
   std::vector<CppExpression> parts = {};
   int line = 0;
+  bool arrow = false;  // of a member: "->", not "."
 
   [[nodiscard]] bool is_name(std::string_view name) const {
     return kind == Kind::name && text == name;

@@ -19,11 +19,38 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
+// A backslash, or the trigraph that is one for compilers that know trigraphs.
+bool ends_with_backslash(std::string_view line) {
+  while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  return line.ends_with('\\') || line.ends_with("?\?/");
+}
+
+// Does a line within the text end with a backslash?
+bool goes_on(std::string_view text) {
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    if (ends_with_backslash(text.substr(0, end))) return true;
+    text.remove_prefix(end + 1);
+  }
+  return false;
+}
+
+// A carriage return within a line ends it for some compilers and not for others.
+void require_plain(std::string_view text) {
+  int line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : '\n';
+    if (text[i] == '\n') ++line;
+    if (text[i] == '\r' && next != '\n')
+      throw TextNotUnderstood(line, "a carriage return within a line");
+  }
+}
+
 class Lexer {
  public:
   explicit Lexer(std::string_view text) : text_(text) {}
 
   std::vector<CppToken> run() {
+    require_plain(text_);
     while (skip_blanks()) next();
     add(CppToken::Kind::end, "");
     return std::move(tokens_);
@@ -53,14 +80,14 @@ class Lexer {
     return false;
   }
 
-  // A line that ends with a backslash goes on in the next one: a comment too.
+  // A line that ends with a backslash, and blanks, goes on in the next one: a comment too.
   void skip_comment() {
     const bool to_line_end = text_[at_ + 1] == '/';
     const std::size_t end = to_line_end ? text_.find('\n', at_) : text_.find("*/", at_ + 2);
     if (!to_line_end && end == std::string_view::npos)
       throw TextNotUnderstood(line_, "a comment without an end");
     const std::string_view comment = text_.substr(at_, end - at_);
-    if (to_line_end && (comment.ends_with('\\') || comment.ends_with("\\\r")))
+    if (goes_on(comment) || (to_line_end && ends_with_backslash(comment)))
       throw TextNotUnderstood(line_, "a comment that goes on in the next line");
     line_ += static_cast<int>(std::ranges::count(comment, '\n'));
     at_ = end == std::string_view::npos ? text_.size() : end + (to_line_end ? 0 : 2);
@@ -128,7 +155,10 @@ class Lexer {
     while (more && at_ < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', at_), text_.size());
       std::string part(text_.substr(at_, end - at_));
-      part.resize(std::min(part.size(), part.find("//")));
+      const std::size_t comment = part.find("//");
+      if (comment != std::string::npos && ends_with_backslash(part))
+        throw TextNotUnderstood(line_, "a comment that goes on in the next line");
+      part.resize(std::min(part.size(), comment));
       while (!part.empty() && is_blank(part.back())) part.pop_back();
       more = part.ends_with('\\');
       if (more) part.back() = ' ';

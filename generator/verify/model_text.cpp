@@ -297,6 +297,8 @@ class Reading {
     }
   }
   [[nodiscard]] const std::string& witness() const { return witness_; }
+  // A point at which the text has no value and H as derived has one; empty where none was met.
+  [[nodiscard]] const std::string& beyond() const { return beyond_; }
 
  private:
   // The derived expression at the point against what the text says.
@@ -329,9 +331,20 @@ class Reading {
     return {found.value + momentum, found.scale + cln::abs(momentum)};
   }
 
+  // H of the text; where that has no value, whether the derived one has.
+  [[nodiscard]] ScaledValue read_hamiltonian() {
+    try {
+      return hamiltonian();
+    } catch (const std::domain_error&) {
+      PreciseValues values(point_, none_);
+      if (beyond_.empty() && values.scaled(derived_.hamiltonian)) beyond_ = place();
+      throw;
+    }
+  }
+
   bool look(bool with_gradient) {
     const Precise tolerance = precise(Rational(Integer(1), mpz_class("1" + std::string(40, '0'))));
-    if (!compare("H", derived_.hamiltonian, hamiltonian(), tolerance)) return false;
+    if (!compare("H", derived_.hamiltonian, read_hamiltonian(), tolerance)) return false;
     for (const NamedExpression& invariant : derived_.invariants) {
       const auto written = std::ranges::find(model_.invariants, invariant.name, &Invariant::name);
       if (written == model_.invariants.end()) continue;
@@ -370,7 +383,7 @@ class Reading {
   const DerivedFormulas& derived_;
   PointValues point_;
   Substitution none_;
-  std::string witness_;
+  std::string witness_, beyond_;
 };
 
 }  // namespace
@@ -398,10 +411,24 @@ Finding prove_model_read(const Model& model, const Mechanics& mechanics,
   }
   const std::string gradient = derived.gradient.empty() ? "" : ", its gradient";
   const std::string invariants = derived.invariants.empty() ? "" : ", the invariants";
+  const std::string beyond =
+      reading.beyond().empty()
+          ? ""
+          : "; where the text has no value H as derived may have one, at " + reading.beyond();
   return {kModelRead, Verdict::tested,
           fmt::format("H{}{} evaluated from the text of the file at {} points, without the front "
-                      "end: what was derived",
-                      gradient, invariants, points)};
+                      "end: what was derived{}",
+                      gradient, invariants, points, beyond)};
+}
+
+std::string point_beyond_text(const Model& model, const Mechanics& mechanics,
+                              const Surroundings& around) {
+  if (mechanics.keeps_sums() || mechanics.degrees_of_freedom > kLargeReading) return {};
+  const DerivedFormulas derived{.hamiltonian = mechanics.energy};
+  Reading reading(model, mechanics, derived);
+  for (int number = 0; number < kPointsOfReading && reading.beyond().empty(); ++number)
+    (void)reading.at(SamplePoint(around, number, 0), false);
+  return reading.beyond();
 }
 
 }  // namespace hamgen

@@ -40,9 +40,10 @@ inline constexpr int kMostLookedAt = 32;
                            const std::optional<SmallerSystems>& smaller = {});
 
 inline constexpr const char* kGauge = "gauge in sp(2n)";
-// The routines before they are text, and the text read back.
+// The routines before they are text, the text read back, and that of what `hamgen run` compiles.
 inline constexpr const char* kProgram = "program";
 inline constexpr const char* kEmittedCode = "emitted code";
+inline constexpr const char* kPlugin = "plugin";
 
 // The single proofs.  A member must satisfy C J + J C^T = 0; the residual entries are exact.
 [[nodiscard]] Finding prove_gauge(const Member& member, const Surroundings& around = {});

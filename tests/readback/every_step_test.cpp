@@ -24,10 +24,9 @@ std::vector<std::string> shipped_models() {
 }
 
 // Every model with every request in `ctest -C full`; without the variable every model and every
-// request several times, each time with others.
-bool is_looked_at(std::size_t model, std::size_t request) {
-  constexpr std::size_t kEvery = 7;
-  return std::getenv("HAMGEN_READ_EVERY_STEP") != nullptr || (model + request) % kEvery == 0;
+// request, each time with others.
+bool is_looked_at(std::size_t model, std::size_t request, std::size_t every) {
+  return std::getenv("HAMGEN_READ_EVERY_STEP") != nullptr || (model + request) % every == 0;
 }
 
 struct Counts {
@@ -36,13 +35,13 @@ struct Counts {
   int read = 0;
 };
 
-Counts read_all(const std::vector<Request>& requests) {
+Counts read_all(const std::vector<Request>& requests, std::size_t every = 7) {
   const std::vector<std::string> models = shipped_models();
   Counts counts;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const SourceText source = read_source(models[i]);
     for (std::size_t j = 0; j < requests.size(); ++j) {
-      if (!is_looked_at(i, j)) continue;
+      if (!is_looked_at(i, j, every)) continue;
       ++counts.wished;
       const Request& request = requests[j];
       ReadBack found;
@@ -74,7 +73,13 @@ TEST(ReadBackOf, EveryModelByEverySchemeIsTheProgram) {
   EXPECT_GT(counts.read, 4 * counts.wished / 5);
 }
 
-TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
+std::vector<Request> of_format(const char* format, const std::vector<Request>& requests) {
+  std::vector<Request> result = requests;
+  for (Request& request : result) request.format = format;
+  return result;
+}
+
+std::vector<Request> other_requests() {
   std::vector<Request> requests;
   for (const char* solver : {"newton", "fixed-point", "sweeps:3"}) {
     requests.push_back({.solver = solver});
@@ -88,11 +93,40 @@ TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
   requests.push_back({.alpha = "3/10", .beta = "h/7", .gamma = "-h/5"});
   requests.push_back({.tangent = true});
   requests.push_back({.scheme = "gauss-4", .tangent = true});
+  requests.push_back({.plain_sums = true});
+  requests.push_back({.scheme = "stormer-verlet", .plain_sums = true});
+  requests.push_back({.watch_modified = 2, .step = Rational(1, 50)});
+  return requests;
+}
+
+TEST(ReadBackOf, EveryModelByEverySolverScalarAndOrderIsTheProgram) {
+  std::vector<Request> requests = other_requests();
   requests.push_back({.support = "shared"});
-  requests.push_back({.watch_modified = 2});
   const Counts counts = read_all(requests);
   EXPECT_EQ(counts.read + counts.refused, counts.wished);
   EXPECT_GT(counts.read, 4 * counts.wished / 5);
+}
+
+// What `hamgen run` compiles.
+TEST(ReadBackOf, EveryModelAsAPluginIsTheProgram) {
+  std::vector<Request> requests = of_format("cpp-plugin", other_requests());
+  for (const Scheme& scheme : all_schemes())
+    requests.push_back({.scheme = scheme.name, .format = "cpp-plugin"});
+  const Counts counts = read_all(requests, 23);
+  EXPECT_EQ(counts.read + counts.refused, counts.wished);
+  EXPECT_GT(counts.read, 4 * counts.wished / 5);
+}
+
+// Of these there are steps that are explicit, or solved by Newton's iteration of a size up to 3.
+TEST(ReadBackOf, EveryModelInCIsTheProgram) {
+  std::vector<Request> requests = of_format("c-header", other_requests());
+  for (const char* scalar : {"", "float", "long-double"}) {
+    for (const Scheme& scheme : all_schemes())
+      requests.push_back({.scheme = scheme.name, .scalar = scalar, .format = "c-header"});
+  }
+  const Counts counts = read_all(requests, 23);
+  EXPECT_EQ(counts.read + counts.refused, counts.wished);
+  EXPECT_GT(counts.read, counts.wished / 2);
 }
 
 }  // namespace

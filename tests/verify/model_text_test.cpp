@@ -73,6 +73,22 @@ TEST(ModelText, HasAnotherGradientThanAWrongDerivative) {
   }
 }
 
+// What cancels takes the end of the domain away with it.
+TEST(ModelText, HasNoValueWhereWhatCancelsHasNone) {
+  const auto beyond = [](const std::string& formula) {
+    return point_beyond_text(make_source("system.ham", system_of(formula)), {});
+  };
+  for (const char* formula : {"p^2/2 + (q^(1/3))^3", "p^2/2 + exp(log(q))", "p^2/2 + sqrt(q)^2*p"})
+    EXPECT_NE(beyond(formula).find("q = -"), std::string::npos)
+        << formula << ": " << beyond(formula);
+  for (const char* formula :
+       {"p^2/2 + q^(1/3)", "p^2/2 + sqrt(r)^2", "p^2/2 + log(q)", "p^2/2 - 1/q"})
+    EXPECT_EQ(beyond(formula), "") << formula;
+  const Finding found = read_as("p^2/2 + (q^(1/3))^3", "p^2/2 + (q^(1/3))^3");
+  EXPECT_EQ(found.verdict, Verdict::tested);
+  EXPECT_NE(found.detail.find("where the text has no value"), std::string::npos) << found.detail;
+}
+
 // abs(x) as x in the instructions: only negative points tell.
 TEST(Program, WithAMagnitudeLeftOutIsRefuted) {
   const Mechanics mechanics =

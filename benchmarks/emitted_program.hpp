@@ -1,0 +1,25 @@
+// A program around emitted headers, compiled with the flags of `hamgen run` in a directory of its
+// own and run there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/pipeline.hpp"
+
+namespace hamgen {
+
+struct ProgramFile {
+  std::string name, text;
+};
+
+// The header of a model's method in this scalar, its names in this namespace.
+[[nodiscard]] std::string emitted_header(const std::string& model, Request request,
+                                         const std::string& scalar, const std::string& name_space);
+
+// What program.cpp prints, the headers included before it in their order.  Throws
+// std::runtime_error with the compiler's or the program's words.
+[[nodiscard]] std::string output_of_program(const std::vector<ProgramFile>& headers,
+                                            const std::string& program);
+
+}  // namespace hamgen

@@ -1,0 +1,293 @@
+#include "generator/readback/c_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "generator/base/numerics_text.hpp"
+#include "generator/readback/c_function.hpp"
+#include "generator/readback/c_names.hpp"
+#include "generator/readback/c_shell.hpp"
+#include "generator/readback/findings.hpp"
+#include "generator/readback/fixed_text.hpp"
+#include "generator/readback/routine_reader.hpp"
+
+namespace hamgen {
+
+namespace {
+
+constexpr std::string_view kGuard = "#ifndef HAMGEN_C_";
+
+struct CBlock {
+  std::string_view guard;     // behind HAMGEN_C_FLOAT64_
+  std::string_view numerics;  // the tested header; empty: numbers of the scalar alone
+};
+constexpr CBlock kCBlocks[] = {{"STEP_REPORT", "c/step_report"},
+                               {"TWO_SUM", "c/two_sum"},
+                               {"SUM_WITH_REST", "c/sum_with_rest"},
+                               {"COLLECT", "c/collected_sum"},
+                               {"EPSILON", ""},
+                               {"PRODUCT_ERROR", "c/product_error"},
+                               {"NEWTON_RULE", "c/newton_rule"}};
+
+// Words of the tested headers that an emitted one calls otherwise.
+constexpr std::string_view kOfBlocks[] = {"StepReport",
+                                          "two_sum",
+                                          "two_sum_with_rest",
+                                          "collect",
+                                          "product_error",
+                                          "magnitude",
+                                          "largest",
+                                          "epsilon",
+                                          "Verdict",
+                                          "go_on",
+                                          "done",
+                                          "failed",
+                                          "NewtonRule",
+                                          "NewtonRule_of_power",
+                                          "NewtonRule_power",
+                                          "NewtonRule_begin",
+                                          "NewtonRule_check"};
+
+// Ends with an underscore: "HAMGEN_C_FLOAT64_"
+std::string guard_of_blocks(const Precision& precision) {
+  std::string space(precision.space);
+  std::ranges::transform(space, space.begin(), [](unsigned char c) { return std::toupper(c); });
+  return "HAMGEN_C_" + space + "_";
+}
+
+std::string_view tested_text(std::string_view name) {
+  return std::ranges::find(all_numerics(), name, &NumericsText::name)->text;
+}
+
+class CFileReader {
+ public:
+  CFileReader(std::span<const CppToken> tokens, const Precision& precision, const ShellFacts& facts,
+              ReadBack& found)
+      : tokens_(tokens),
+        cursor_(tokens),
+        precision_(precision),
+        facts_(facts),
+        code_(facts.code),
+        found_(found),
+        names_{prefix("SYSTEM_"), prefix("METHOD_"), precision},
+        shell_(c_propagator_patterns(facts)) {}
+
+  void run() {
+    for (const char* line : {"#pragma once", "#include <math.h>", "#include <stdbool.h>"})
+      expect_directive(cursor_, line);
+    const bool inside =
+        names_.method == names_.system || names_.method.starts_with(names_.system + "_");
+    if (!inside)
+      throw TextDifference(1, fmt::format("{} is not in {}", names_.method, names_.system));
+    expect_ieee_begin(cursor_, precision_);
+    while (cursor_.peek().kind == CppToken::Kind::directive &&
+           cursor_.peek().text.starts_with(kGuard))
+      read_section();
+    expect_ieee_end(cursor_);
+    if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
+    require_all();
+  }
+
+ private:
+  // What the guard of a section says that names begin with.
+  std::string prefix(const std::string& kind) const {
+    const std::string begin = std::string(kGuard) + kind;
+    for (const CppToken& token : tokens_) {
+      if (token.kind != CppToken::Kind::directive || !token.text.starts_with(begin)) continue;
+      std::string name = token.text.substr(begin.size());
+      const std::vector<CppToken> words = tokens_of(name);
+      if (words.size() != 2 || words[0].kind != CppToken::Kind::word)
+        throw TextDifference(token.line, fmt::format("'{}' begins no names", name));
+      return name;
+    }
+    throw TextDifference(1, "no section that begins with " + begin);
+  }
+
+  void read_section() {
+    const std::string macro = cursor_.peek().text.substr(std::string("#ifndef ").size());
+    const int line = cursor_.take().line;
+    once(macro, line);
+    const CppToken& define = cursor_.take();
+    const std::string defines = fmt::format("#define {} 0x", macro);
+    if (define.kind != CppToken::Kind::directive || !define.text.starts_with(defines))
+      throw TextDifference(define.line, fmt::format("'{}' is not '{}...'", define.text, defines));
+    read_text(macro, line);
+    const std::string digest = define.text.substr(defines.size());
+    expect_directive(cursor_, fmt::format("#elif {} != 0x{}", macro, digest));
+    expect_directive(cursor_,
+                     "#error \"another text of this name is included before: generate one with "
+                     "--namespace\"");
+    expect_directive(cursor_, "#endif");
+  }
+
+  void read_text(const std::string& macro, int line) {
+    const std::string blocks = guard_of_blocks(precision_);
+    if (macro == "HAMGEN_C_SYSTEM_" + names_.system ||
+        macro == "HAMGEN_C_METHOD_" + names_.method) {
+      while (cursor_.peek().kind != CppToken::Kind::directive) read_item();
+    } else if (macro == "HAMGEN_C_" + names_.block("pi")) {
+      expect({"static const Real hamgen::pi = " + std::string(kConstant) + ";",
+              {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
+             "pi");
+    } else if (macro.starts_with(blocks)) {
+      const auto* const block = std::ranges::find(
+          kCBlocks, std::string_view(macro).substr(blocks.size()), &CBlock::guard);
+      if (block == std::end(kCBlocks)) throw TextDifference(line, macro + " guards no fixed block");
+      read_block(*block);
+    } else {
+      throw TextDifference(line, macro + " guards nothing that this header has");
+    }
+  }
+
+  void read_block(const CBlock& block) {
+    if (block.guard == "EPSILON") {
+      expect({fmt::format("static const Real hamgen::epsilon = 0x1p-{}{};", precision_.bits - 1,
+                          precision_.suffix)},
+             "epsilon");
+      return;
+    }
+    if (block.guard == "NEWTON_RULE") {
+      const char* suffix = precision_.bits == 24 ? "f" : precision_.bits == 64 ? "l" : "";
+      expect({fmt::format("static inline Real hamgen::magnitude(Real x) {{ return fabs{}(x); }}"
+                          "static const Real hamgen::largest = {};",
+                          suffix, precision_.largest)},
+             "the vocabulary");
+    }
+    read_tested(block.numerics);
+  }
+
+  // A header of generator/numerics/c, word by word, with the names of this header.
+  void read_tested(std::string_view numerics) {
+    const std::string unknowns = std::to_string(code_.unknowns);
+    const std::string degrees = code_.unknowns > 32 ? "8" : "16";
+    std::string text;
+    for (const CppToken& token : tokens_of(tested_text(numerics))) {
+      const bool of_blocks = std::ranges::find(kOfBlocks, token.text) != std::end(kOfBlocks);
+      text += of_blocks                           ? names_.block(token.text)
+              : token.text.starts_with("History") ? names_.named(token.text)
+              : token.is("Unknowns")              ? unknowns
+              : token.is("Degrees")               ? degrees
+              : token.is("Real")                  ? std::string(precision_.type)
+                                                  : token.text;
+      text += ' ';
+    }
+    expect_pattern(cursor_, {text}, precision_, fmt::format("numerics/{}.h", numerics));
+    ++found_.blocks;
+  }
+
+  // Records, what is known word by word, and routines.
+  void read_item() {
+    const std::string name = item_name();
+    const int line = cursor_.line();
+    once(name, line);
+    if (name == "History" && code_.unknowns > 0) return read_tested("c/history");
+    if (name == "default_parameters")
+      return expect(c_defaults_pattern(*code_.record("Parameters")), name);
+    const auto known = shell_.find(name);
+    if (known != shell_.end()) return expect(known->second, name);
+    if (cursor_.peek().is("typedef")) {
+      const Record* record = code_.record(name);
+      if (record == nullptr) throw TextDifference(line, "a record that the step has not: " + name);
+      return expect(c_record_pattern(*record), name);
+    }
+    read_routine(name);
+  }
+
+  // Of the record or the function that begins here, without its prefix.
+  [[nodiscard]] std::string item_name() const {
+    std::size_t at = 0;
+    if (cursor_.peek().is("typedef")) {
+      while (!cursor_.peek(at).is("}") && !ends(at)) ++at;
+      ++at;
+    } else {
+      while (!cursor_.peek(at).is("(") && !ends(at)) ++at;
+      if (at > 0) --at;
+    }
+    const std::string& name = cursor_.peek(at).text;
+    for (const std::string& begin : {names_.system + "_", names_.method + "_"}) {
+      const std::string plain = name.starts_with(begin) ? name.substr(begin.size()) : "";
+      if (!plain.empty() && names_.named(plain) == name) return plain;
+    }
+    throw TextDifference(cursor_.line(), fmt::format("'{}' is nothing that the step has", name));
+  }
+  [[nodiscard]] bool ends(std::size_t ahead) const {
+    return cursor_.peek(ahead).kind == CppToken::Kind::end ||
+           cursor_.peek(ahead).kind == CppToken::Kind::directive;
+  }
+
+  void read_routine(const std::string& name) {
+    const Routine* routine = code_.routine(name);
+    if (routine == nullptr)
+      throw TextDifference(cursor_.line(), fmt::format("'{}' is nothing that the step has", name));
+    if (!cursor_.peek().is("static") || !cursor_.peek(1).is("inline"))
+      throw TextDifference(cursor_.line(), name + " is not static and inline");
+    const CppFunction function = without_addresses(take_function(), code_);
+    RoutineReader reader(function, *routine, precision_, 0);
+    reader.compare();
+    ++found_.routines;
+    found_.instructions += reader.instructions();
+  }
+
+  CppFunction take_function() {
+    const std::size_t begin = cursor_.position();
+    int depth = 0;
+    do {
+      if (ends(0)) throw TextNotUnderstood(cursor_.line(), "a function without an end");
+      const CppToken& token = cursor_.take();
+      depth += token.is("{") ? 1 : token.is("}") ? -1 : 0;
+      if (token.is("}") && depth == 0) break;
+    } while (true);
+    const std::size_t end = cursor_.position();
+    std::vector<CppToken> words = cpp_words(tokens_.subspan(begin, end - begin), names_);
+    words.push_back({CppToken::Kind::end, "", cursor_.line()});
+    TokenCursor cursor(words);
+    CppFunction function = read_function(cursor);
+    if (!cursor.at_end()) throw TextNotUnderstood(cursor.line(), "something behind a function");
+    return function;
+  }
+
+  void once(const std::string& name, int line) {
+    if (!seen_.insert(name).second) throw TextDifference(line, name + " is there twice");
+  }
+
+  void expect(const Pattern& pattern, const std::string& what) {
+    expect_pattern(cursor_, {names_.text(pattern.text), pattern.constants}, precision_, what);
+  }
+
+  void require_all() {
+    std::set<std::string> wanted = {"Parameters", "State", "default_parameters"};
+    for (const auto& [name, pattern] : shell_) wanted.insert(name);
+    for (const char* name : {"Coefficients", "Start"}) {
+      if (code_.record(name) != nullptr) wanted.insert(name);
+    }
+    if (code_.unknowns > 0) wanted.insert("History");
+    for (const char* name :
+         {"energy", "gradient", "invariants", "modified_energies", "prepare", "solve"})
+      wanted.merge(callees(code_, name));
+    for (const std::string& name : wanted) {
+      if (!seen_.contains(name)) throw TextDifference(cursor_.line(), name + " is missing");
+    }
+  }
+
+  std::span<const CppToken> tokens_;
+  TokenCursor cursor_;
+  const Precision& precision_;
+  const ShellFacts& facts_;
+  const StepCode& code_;
+  ReadBack& found_;
+  CNames names_;
+  std::map<std::string, Pattern> shell_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
+                 const ShellFacts& facts, ReadBack& found) {
+  if (precision.is_quad()) throw TextDifference(1, "C has no quad numbers");
+  CFileReader(tokens, precision, facts, found).run();
+}
+
+}  // namespace hamgen

@@ -1,0 +1,14 @@
+// A header in C read back: see read_back.hpp.
+#pragma once
+
+#include "generator/readback/read_back.hpp"
+#include "generator/readback/shell.hpp"
+#include "generator/readback/tokens.hpp"
+
+namespace hamgen {
+
+// Fills in what was found.  Throws TextDifference and TextNotUnderstood.
+void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
+                 const ShellFacts& facts, ReadBack& found);
+
+}  // namespace hamgen

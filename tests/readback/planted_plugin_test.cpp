@@ -1,0 +1,104 @@
+// Faults planted in what `hamgen run` compiles: each is found, at its line.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/readback/planted.hpp"
+
+namespace hamgen::readback_test {
+namespace {
+
+Request plugin(Request request = {}) {
+  request.format = "cpp-plugin";
+  return request;
+}
+
+TEST(PlantedFaultInAPlugin, OfTheInterfaceIsFoundAtItsLine) {
+  const Request wide = plugin({.scalar = "quad"});
+  const Request tangent = plugin({.tangent = true});
+  const Request plain = plugin({.plain_sums = true});
+  const Request watched = plugin({.watch_modified = 2, .step = Rational(1, 10)});
+  const std::vector<Fault> faults = {
+      {"q and p exchanged when loaded", "pendulum", plugin(),
+       "result.q = static_cast<Real>(state[0]);", "result.q = static_cast<Real>(state[1]);"},
+      {"p is q", "pendulum", plugin(), "Real>(state[1]);", "Real>(state[0]);"},
+      {"components exchanged", "kepler", plugin(), "result.q2 =", "result.q1 ="},
+      {"a parameter of another place", "outer_solar_system", plugin(), "(parameters[1])",
+       "(parameters[2])"},
+      {"the low part of another", "pendulum", wide, "(state_lo ? Real(state_lo[0])",
+       "(state_lo ? Real(state_lo[1])"},
+      {"the low part forgotten", "pendulum", wide,
+       "Real(parameters[0]) + (parameters_lo ? Real(parameters_lo[0]) : Real(0))",
+       "Real(parameters[0])"},
+      {"arrays exchanged", "fput", plugin(), "result.p[i] = static_cast<Real>(state[n + i]);",
+       "result.p[i] = static_cast<Real>(state[i]);"},
+      {"given back exchanged", "pendulum", plugin(), "state[0] = high_part(z.q,",
+       "state[0] = high_part(z.p,"},
+      {"given back in another order", "fput", plugin(), "i < n ? z.q[i] : z.p[i - n]",
+       "i < n ? z.p[i] : z.q[i - n]"},
+      {"carry of another", "pendulum", plugin(), "carried(z.q, c.q)", "carried(z.q, c.p)"},
+      {"a carry where there is none", "pendulum", plain, "const State c;", "const State c = z;"},
+      {"h as a float", "pendulum", plugin(), "static_cast<Real>(h) + static_cast<Real>(h_lo)",
+       "static_cast<float>(h) + static_cast<Real>(h_lo)"},
+      {"two steps for one", "pendulum", plugin(), "const StepReport last = run->propagator.step();",
+       "run->propagator.step(); const StepReport last = run->propagator.step();"},
+      {"a failure hidden", "pendulum", plugin(), "if (!last.converged) {",
+       "if (!last.converged && !finite) {"},
+      {"the energy of the start", "pendulum", plugin(),
+       "energy_last < energy_min) energy_min = energy_last;",
+       "energy_last < energy_min) energy_min = energy_max;"},
+      {"the largest energy as the last", "pendulum", plugin(),
+       "total.energy_last = high_part(energy_last,", "total.energy_last = high_part(energy_max,"},
+      {"invariants of another state", "kepler", plugin(), "values[i] = high_part(result[i]",
+       "values[i] = high_part(result[0]"},
+      {"modified energies of another step", "pendulum", watched, "parameters_lo), 0.1,",
+       "parameters_lo), 0.2,"},
+      {"modified energies in place of invariants", "kepler", watched, "values[3 + i]",
+       "values[2 + i]"},
+      {"an increment of another", "pendulum", tangent, "dz.q = end.q - z.q;",
+       "dz.q = end.p - z.q;"},
+      {"a matrix transposed", "pendulum", tangent, "(m[i][j])", "(m[j][i])"},
+      {"the gradient in another place", "pendulum", plugin(),
+       "values[i] = static_cast<double>(result[i]);",
+       "values[1 - i] = static_cast<double>(result[i]);"},
+      {"another count", "pendulum", plugin(), "VERSION, 1, 1, 0, 53", "VERSION, 1, 1, 1, 53"},
+      {"another precision", "pendulum", plugin(), "VERSION, 1, 1, 0, 53", "VERSION, 1, 1, 0, 64"},
+      {"functions exchanged", "pendulum", plugin(), "get_state, get_carry,",
+       "get_carry, get_state,"},
+      {"whatever the flags", "pendulum", plugin(), "hamgen_arithmetic_is_ieee() ?", "true ?"},
+      {"another name", "pendulum", plugin(), "\"pendulum, implicit", "\"kepler, implicit"},
+  };
+  for (const Fault& fault : faults) expect_found(fault);
+}
+
+// The text above the interface is that of a header.
+TEST(PlantedFaultInAPlugin, OfTheStepIsFoundAtItsLine) {
+  const std::vector<Fault> faults = {
+      {"sin as cos", "pendulum", plugin(), "H_q = par.eps * __builtin_sin(q_bar)",
+       "H_q = par.eps * __builtin_cos(q_bar)"},
+      {"of another scalar", "pendulum", plugin({.scalar = "float"}), "__builtin_sinf(q)",
+       "__builtin_sin(q)"},
+      {"update subtracted", kNonseparable, plugin(), "q_bar += delta_q;", "q_bar -= delta_q;"},
+      {"another header", "pendulum", plugin(), "#include \"plugin.h\"", "#include \"plugin2.h\""},
+  };
+  for (const Fault& fault : faults) expect_found(fault);
+}
+
+TEST(ReadBackOfAPlugin, EveryWordCounts) {
+  expect_every_word_counts(emitted("pendulum", plugin({.tangent = true})), 13);
+  expect_every_word_counts(emitted("fput", plugin({.tangent = true})), 37);
+}
+
+// A plugin is no header, and a header no plugin.
+TEST(ReadBackOfAPlugin, ItsInterfaceBelongsToIt) {
+  const Emitted whole = emitted("pendulum", plugin());
+  const std::size_t at = whole.text.find("struct hamgen_run");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(whole.read(whole.text.substr(0, at)).outcome, ReadBack::Outcome::different);
+  const Emitted header = emitted("pendulum", {});
+  EXPECT_EQ(header.read(header.text + whole.text.substr(at)).outcome, ReadBack::Outcome::different);
+}
+
+}  // namespace
+}  // namespace hamgen::readback_test
