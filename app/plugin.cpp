@@ -109,6 +109,7 @@ Command add_plugin(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "where plugin.cpp and facts.txt are written")
       ->type_name("DIRECTORY")
       ->required();
+  parser->group("");  // for programs: not listed in the help
   add_repeated(*parser, "--set", options->scene.set, "a size of the model")
       ->type_name("NAME=VALUE");
   add_method_options(*parser, options->method);

@@ -60,11 +60,12 @@ double seconds_since(Clock::time_point begin) {
 long record_distance(const RunOptions& options, const SceneValues& scene) {
   constexpr long flood = 10'000'000;
   if (!options.every.empty()) return integer_value("--every " + options.every, options.every, 1);
-  // What is only drawn takes no more time than that.
+  // What is only drawn is seen from near, and takes no more time than this many.
   constexpr long drawn = 100'000;
-  const long every = scene.every.value_or(options.output.empty() ? 1 + *scene.steps / drawn : 1);
+  if (options.output.empty()) return 1 + *scene.steps / drawn;
+  const long every = scene.every.value_or(1);
   const long rows = *scene.steps / every;
-  if (!options.output.empty() && rows > flood)
+  if (rows > flood)
     throw UsageError(
         fmt::format("-o {} would get {} rows\nhelp: record fewer, for example --every {}; or say "
                     "--every {} if you mean it",
@@ -193,8 +194,6 @@ void say(const RunReport& report, const RunOptions& options) {
   if (!options.quiet) print_error(summary_text(report));
   const std::string failure = failure_text(report);
   if (!failure.empty()) print_error("hamgen: " + failure + "\n");
-  const bool was_stopped = report.summary.status == runtime::Status::stopped ||
-                           report.summary.status == runtime::Status::out_of_time;
   if (failure.empty()) {
     for (const std::string& missed : missed_ends(report))
       print_error(
@@ -204,7 +203,7 @@ void say(const RunReport& report, const RunOptions& options) {
     print_error(
         fmt::format("hamgen: warning: {} rows are missing: a step of part of the length failed\n",
                     report.watch->rows_missed()));
-  if (!failure.empty() && !was_stopped)
+  if (failed_in_a_step(report.summary.status))
     print_error(fmt::format("help: the state stays the last good one; try a smaller step, --h {}\n",
                             runtime::number_text(report.start->h.hi / 4.0)));
   if (options.json) print(json_text(report));
@@ -219,26 +218,16 @@ void check_files(const RunOptions& options) {
   if (std::filesystem::equivalent(options.output, options.method.model, missing))
     throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",
                                  options.output));
-  const std::string ending = std::filesystem::path(options.output).extension().string();
-  const bool is_picture = ending == ".svg" || ending == ".png";
-  if (!ending.empty() && ending != ".csv")
-    throw UsageError(fmt::format(
-        "-o {}: the trajectory is written as CSV, and its name ends in .csv\nhelp: {}",
-        options.output,
-        is_picture
-            ? "for a picture of it: --plot " + options.output
-            : fmt::format(
-                  "-o {}",
-                  std::filesystem::path(options.output).replace_extension(".csv").string())));
+  std::filesystem::path path = options.output;
+  const bool is_picture = path.extension() == ".svg" || path.extension() == ".png";
+  if (path.has_extension() && path.extension() != ".csv")
+    throw UsageError(
+        fmt::format("-o {}: the trajectory is written as CSV, and its name ends in .csv\nhelp: {}",
+                    options.output,
+                    is_picture ? "for a picture of it: --plot " + options.output
+                               : "-o " + path.replace_extension(".csv").string()));
   if (!options.plot.empty()) require_picture_name("--plot", options.plot);
-  const bool has_times = !options.watch.at.empty() || !options.watch.every_time.empty();
-  if (has_times && options.output.empty() && options.plot.empty())
-    throw UsageError(
-        "--at and --every-time say when rows are made\nhelp: add -o FILE.csv, or -o -");
-  if (has_times && !options.every.empty())
-    throw UsageError(
-        "--every counts steps, --at and --every-time are times: leave one of them out");
-  if (!options.watch.events.empty()) require_event_file_name(options.watch.events);
+  check_watch(options.watch, options.output, !options.plot.empty(), !options.every.empty());
   if (!options.columns.empty() && options.plot.empty())
     throw UsageError("--columns says what is drawn\nhelp: add --plot FILE.svg");
 }
@@ -370,6 +359,10 @@ int run(const RunOptions& options) {
     integrate_options.on_progress = [&bar](const auto& progress) { bar.update(progress); };
   if (keeper) keeper->prepare(integrate_options, rows.table());
   report.summary = runtime::integrate(integrator, integrate_options);
+  if (failed_in_a_step(report.summary.status)) {
+    watch.look_into_failed_step(integrator);
+    if (watch.ending()) report.summary.status = runtime::Status::done;
+  }
   bar.remove();
 
   if (scheme && report.summary.steps_done > 0 && !interrupt_flag()) {

@@ -4,10 +4,25 @@
 
 #include <algorithm>
 
+#include "app/output/event_file.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 
 namespace hamgen::app {
+
+void check_watch(const WatchOptions& options, const std::string& output, bool draws,
+                 bool has_every) {
+  const bool has_times = !options.at.empty() || !options.every_time.empty();
+  if (has_times && output.empty() && !draws)
+    throw UsageError(
+        "--at and --every-time say when rows are made\nhelp: add -o FILE.csv, or -o -");
+  if (has_times && has_every)
+    throw UsageError(
+        "--every counts steps, --at and --every-time are times: leave one of them out");
+  if (!options.events.empty()) require_event_file_name(options.events);
+  if (!output.empty() && options.events == output)
+    throw UsageError(fmt::format("--events and -o both write {}", output));
+}
 
 std::vector<WatchedEvent> watched_events(const WatchOptions& options, const Model& model,
                                          SceneValues& scene) {
@@ -70,6 +85,11 @@ std::optional<double> seconds_of(const WatchOptions& options) {
   if (seconds <= 0)
     throw UsageError(fmt::format("--seconds {}: a time beyond 0 is wanted", options.seconds));
   return to_double(seconds);
+}
+
+bool failed_in_a_step(runtime::Status status) {
+  using enum runtime::Status;
+  return status != done && status != stopped && status != out_of_time;
 }
 
 void require_energy(const std::vector<WatchedEvent>& events, bool watches_energy) {

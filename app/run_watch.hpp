@@ -18,6 +18,10 @@ struct WatchOptions {
   std::string events;          // the file of the model's events
 };
 
+// Throws UsageError where options contradict each other: the table's file, is there a picture, are
+// rows every so many steps?
+void check_watch(const WatchOptions& options, const std::string& output, bool draws,
+                 bool has_every);
 // Makes the scene compute what is looked for.
 [[nodiscard]] std::vector<WatchedEvent> watched_events(const WatchOptions& options,
                                                        const Model& model, SceneValues& scene);
@@ -26,6 +30,8 @@ struct WatchOptions {
 [[nodiscard]] std::optional<double> seconds_of(const WatchOptions& options);
 // Throws UsageError where one needs H and it is not computed.
 void require_energy(const std::vector<WatchedEvent>& events, bool watches_energy);
+// Not where it was stopped, by the user or by time.
+[[nodiscard]] bool failed_in_a_step(runtime::Status status);
 // What a row says of a point of the orbit.  The record refers to the point and its invariants.
 [[nodiscard]] runtime::Record record_of(const WatchedPoint& point, const runtime::Library& library,
                                         const runtime::InitialValues& start,

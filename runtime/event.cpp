@@ -89,12 +89,34 @@ double smallest_between(const Function& f, double a, double b) {
 
 }  // namespace
 
+InitialValues with_part_of_step(InitialValues start, const Wide& theta) {
+  start.h = product(start.h, theta);
+  return start;
+}
+
+double reach_of_step(const std::shared_ptr<const Library>& library, const InitialValues& start,
+                     const std::vector<Wide>& from,
+                     const std::function<bool(std::span<const Wide>)>& is_good) {
+  const auto reaches = [&](double theta) {
+    const auto state = part_of_step(library, start, from, {theta, 0.0});
+    return state && is_good(*state);
+  };
+  double good = 0.5;
+  while (good > 1e-6 && !reaches(good)) good *= 0.5;
+  if (good <= 1e-6) return 0.0;
+  double bad = 2.0 * good;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (reaches(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
 std::optional<std::vector<Wide>> part_of_step(const std::shared_ptr<const Library>& library,
                                               const InitialValues& start,
                                               const std::vector<Wide>& from, const Wide& theta) {
   if (theta.hi == 0.0) return from;
-  InitialValues part = start;
-  part.h = product(start.h, theta);
+  InitialValues part = with_part_of_step(start, theta);
   part.state = from;
   Integrator integrator(library, part);
   if (integrator.advance(1, false).status != Status::done) return std::nullopt;

@@ -18,6 +18,14 @@ namespace hamgen::runtime {
     const std::shared_ptr<const Library>& library, const InitialValues& start,
     const std::vector<Wide>& from, const Wide& theta);
 
+// Of `from`, from which a step fails: the largest part of it, theta below 1, that ends in a good
+// state, by halving and then narrowing to a thousandth of itself; 0 if there is none from 2^-20 on.
+[[nodiscard]] double reach_of_step(const std::shared_ptr<const Library>& library,
+                                   const InitialValues& start, const std::vector<Wide>& from,
+                                   const std::function<bool(std::span<const Wide>)>& is_good);
+// The start with its step size times theta.
+[[nodiscard]] InitialValues with_part_of_step(InitialValues start, const Wide& theta);
+
 enum class Direction { rising, falling, both };
 
 struct Crossing {

@@ -70,16 +70,29 @@ std::optional<Rational> RowTimes::position(std::size_t i) const {
   return i < at.size() ? std::optional(at[i]) : std::nullopt;
 }
 
-OrbitWatch::OrbitWatch(OrbitWatchRequest request)
-    : request_(std::move(request)), sightings_(request_.events.size()) {
-  for (const WatchedEvent& each : request_.events) {
-    needs_energy_ = needs_energy_ || each.what.energy_error != 0;
-    const auto value = [library = request_.library, parameters = request_.start.parameters,
+namespace {
+
+std::vector<runtime::EventLocator> locators_of(const OrbitWatchRequest& request,
+                                               const runtime::InitialValues& start) {
+  std::vector<runtime::EventLocator> locators;
+  for (const WatchedEvent& each : request.events) {
+    const auto value = [library = request.library, parameters = start.parameters,
                         place = each.place](std::span<const runtime::Wide> state) {
       return library->invariants(parameters, state)[place].hi;
     };
-    locators_.emplace_back(request_.library, request_.start, value, direction_of(each.what.event));
+    locators.emplace_back(request.library, start, value, direction_of(each.what.event));
   }
+  return locators;
+}
+
+}  // namespace
+
+OrbitWatch::OrbitWatch(OrbitWatchRequest request)
+    : request_(std::move(request)),
+      locators_(locators_of(request_, request_.start)),
+      sightings_(request_.events.size()) {
+  for (const WatchedEvent& each : request_.events)
+    needs_energy_ = needs_energy_ || each.what.energy_error != 0;
 }
 
 double OrbitWatch::time(long long steps, double fraction) const {
@@ -88,18 +101,23 @@ double OrbitWatch::time(long long steps, double fraction) const {
   return std::fma(count, h.hi, count * h.lo) + fraction * h.hi;
 }
 
-OrbitWatch::Place OrbitWatch::place(const runtime::Integrator& integrator) const {
-  Place now{.steps = integrator.steps_done(), .state = integrator.state(), .values = {}};
+OrbitWatch::Place OrbitWatch::place_of(long long steps, std::vector<runtime::Wide> state,
+                                       double energy_error) const {
+  Place now{.steps = steps, .state = std::move(state), .values = {}};
   if (request_.events.empty()) return now;
   const std::vector<runtime::Wide> values =
       request_.library->invariants(request_.start.parameters, now.state);
+  for (const WatchedEvent& each : request_.events)
+    now.values.push_back(values[each.place].hi + each.what.energy_error * energy_error);
+  return now;
+}
+
+OrbitWatch::Place OrbitWatch::place(const runtime::Integrator& integrator) const {
   const double error =
       needs_energy_
           ? std::abs(runtime::difference(integrator.energy(), integrator.judge().energy()))
           : 0.0;
-  for (const WatchedEvent& each : request_.events)
-    now.values.push_back(values[each.place].hi + each.what.energy_error * error);
-  return now;
+  return place_of(integrator.steps_done(), integrator.state(), error);
 }
 
 void OrbitWatch::see_values(const Place& now) {
@@ -141,7 +159,7 @@ void OrbitWatch::see_start(const Place& now) {
   put_rows(now, 0.0);
 }
 
-void OrbitWatch::see_step(const Place& now) {
+double OrbitWatch::see_crossings(const Place& now, double part) {
   struct Seen {
     std::size_t event;
     runtime::Crossing crossing;
@@ -154,9 +172,8 @@ void OrbitWatch::see_step(const Place& now) {
       seen.push_back({i, std::move(each)});
   }
   std::ranges::stable_sort(seen, {}, [](const Seen& each) { return each.crossing.fraction; });
-  double end = 1.0;
   for (Seen& each : seen) {
-    const double fraction = each.crossing.fraction;
+    const double fraction = part * each.crossing.fraction;
     const bool at_end = fraction >= 1.0;
     WatchedPoint point{.steps = at_end ? now.steps : before_.steps,
                        .fraction = at_end ? 0.0 : fraction,
@@ -168,11 +185,32 @@ void OrbitWatch::see_step(const Place& now) {
     if (request_.on_event) request_.on_event(each.event, point);
     if (!request_.events[each.event].ends_run) continue;
     ending_ = {each.event, std::move(point)};
-    end = fraction;
-    break;
+    return fraction;
   }
+  return part;
+}
+
+void OrbitWatch::see_step(const Place& now) {
+  const double end = see_crossings(now, 1.0);
   see_values(now);
   put_rows(now, end);
+}
+
+void OrbitWatch::look_into_failed_step(const runtime::Integrator& integrator) {
+  if (request_.events.empty() || ending_ || before_.steps != integrator.steps_done()) return;
+  const runtime::Judge& judge = integrator.judge();
+  const auto is_good = [&](std::span<const runtime::Wide> state) {
+    const runtime::Wide energy = request_.library->energy(request_.start.parameters, state);
+    return std::isfinite(energy.hi) &&
+           !judge.is_jump(std::abs(runtime::difference(energy, judge.energy())));
+  };
+  const double reach =
+      runtime::reach_of_step(request_.library, request_.start, before_.state, is_good);
+  if (reach == 0.0) return;
+  auto state = runtime::part_of_step(request_.library, request_.start, before_.state, {reach, 0.0});
+  if (!state) return;
+  locators_ = locators_of(request_, runtime::with_part_of_step(request_.start, {reach, 0.0}));
+  (void)see_crossings(place_of(before_.steps, std::move(*state), 0.0), reach);
 }
 
 long long OrbitWatch::distance(long long steps) const {

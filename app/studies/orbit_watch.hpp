@@ -75,6 +75,10 @@ class OrbitWatch {
   // the next one begins.
   [[nodiscard]] long long look(const runtime::Integrator& integrator);
 
+  // After the run, of a step that failed: events on its way as far as a part of it ends in a state
+  // whose energy error is no jump.
+  void look_into_failed_step(const runtime::Integrator& integrator);
+
   // What ended the run, and where; empty if nothing did.
   [[nodiscard]] const std::optional<std::pair<std::size_t, WatchedPoint>>& ending() const {
     return ending_;
@@ -91,6 +95,11 @@ class OrbitWatch {
   [[nodiscard]] Place place(const runtime::Integrator& integrator) const;
   [[nodiscard]] double time(long long steps, double fraction) const;
   void see_values(const Place& now);
+  // Events of the part of the step from the state before that ends here; where one ends the run, or
+  // else `part`.
+  double see_crossings(const Place& now, double part);
+  [[nodiscard]] Place place_of(long long steps, std::vector<runtime::Wide> state,
+                               double energy_error) const;
   void see_step(const Place& now);
   void see_start(const Place& now);
   void put_rows(const Place& now, double end);

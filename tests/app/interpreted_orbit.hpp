@@ -21,12 +21,14 @@ struct InterpretedOrbit {
 inline std::shared_ptr<InterpretedOrbit> interpreted_orbit(const std::string& text,
                                                            const std::string& scheme,
                                                            const std::string& h,
-                                                           const std::string& scalar = "") {
+                                                           const std::string& scalar = "",
+                                                           int order = 0) {
   auto orbit = std::make_shared<InterpretedOrbit>();
   orbit->source = make_source("model.ham", text);
   Request request;
   request.scheme = scheme;
   request.scalar = scalar;
+  request.order = order;
   orbit->plugin = generate_plugin(orbit->source, request);
   orbit->library = app::interpreted_integrator(orbit->source, request, orbit->plugin).library;
   const SceneValues scene =

@@ -103,6 +103,35 @@ TEST(Until, SaysWhatNeverCameToPass) {
   EXPECT_EQ(run_until({"--until", "q - 2", "--until", "q"}).status, 0);
 }
 
+// A collision on the way of the step that jumps across it.
+TEST(Until, FindsACollisionInAStepThatFails) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("fall.ham",
+                    "coordinate q\nmomentum p\nH = p^2/2 - 1/abs(q)\nevent hit = q - 1/50 falling\n"
+                    "scene rest { q = 1; h = 0.01; steps = 1000 }\n");
+  const std::vector<std::string> words = {
+      "run", model, "--interpret", "--scheme", "stormer-verlet", "--json", "--quiet"};
+  const auto with = [&words](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return hamgen(more);
+  };
+  const Result plain = with({});
+  EXPECT_EQ(plain.status, 1);
+  const json failed = json::parse(plain.out);
+  EXPECT_EQ(failed["status"], "jumped");
+  EXPECT_GT(failed["state"]["q"][0], 0.02);
+  const Result result = with({"--until", "hit"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const json found = json::parse(result.out);
+  EXPECT_EQ(found["status"], "done");
+  EXPECT_EQ(found["ended"]["steps"], failed["steps_done"]);
+  EXPECT_LE(std::abs(found["state"]["q"][0].get<double>() - 0.02), 1e-16);
+  // It falls for pi/sqrt(8) in all.
+  EXPECT_NEAR(found["ended"]["t"], std::numbers::pi / std::sqrt(8.0), 0.01);
+  EXPECT_EQ(with({"--until", "q + 1"}).status, 1);
+}
+
 TEST(Until, RefusesWhatIsNoCondition) {
   for (const auto& [text, words] : {std::pair<std::string, std::string>{"", "an empty word"},
                                     {"x", "unknown name 'x'"},
