@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "app/axis_option.hpp"
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/chaos_output.hpp"
@@ -33,31 +34,12 @@ struct ChaosOptions {
   bool quiet = false;
 };
 
-// NAME=LOW:HIGH:COUNT
 ChaosAxis read_axis(const std::string& text, const std::set<std::string>& names) {
-  const std::string help = "\nhelp: for example --over q2=-0.5:0.7:50";
-  const auto [name, range] = split_assignment("--over", text);
-  if (!names.contains(name)) {
-    const std::string near = nearest(name, {names.begin(), names.end()});
-    throw UsageError(fmt::format("--over {}: the model has no such variable or parameter{}", text,
-                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
-  }
-  const std::size_t first = range.find(':');
-  const std::size_t second = first == std::string::npos ? first : range.find(':', first + 1);
-  if (second == std::string::npos)
-    throw UsageError(fmt::format("--over {}: LOW:HIGH:COUNT is wanted{}", text, help));
-  const double low = to_double(constant_option("--over " + text, range.substr(0, first)));
-  const double high =
-      to_double(constant_option("--over " + text, range.substr(first + 1, second - first - 1)));
-  const long count = integer_value("--over " + text, range.substr(second + 1), 2);
-  constexpr long most = 10'000;
-  if (!(low < high) || count > most)
-    throw UsageError(
-        fmt::format("--over {}: LOW < HIGH and at most {} values are wanted{}", text, most, help));
-  ChaosAxis axis{.name = name, .values = {}};
-  for (long i = 0; i < count; ++i)
-    axis.values.push_back(low +
-                          (high - low) * static_cast<double>(i) / static_cast<double>(count - 1));
+  const AxisOption option = read_axis_option(text, names, 2, 10'000);
+  ChaosAxis axis{.name = option.name, .values = {}};
+  for (long long i = 0; i < option.count; ++i)
+    axis.values.push_back(option.low + (option.high - option.low) * static_cast<double>(i) /
+                                           static_cast<double>(option.count - 1));
   return axis;
 }
 
@@ -186,10 +168,7 @@ int run_chaos(const ChaosOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   const Model model = read_setting(options.method, options.scene).model;
-  std::set<std::string> names;
-  for (const auto* variables : {&model.coordinates, &model.momenta})
-    std::ranges::copy(element_names(*variables), std::inserter(names, names.end()));
-  std::ranges::copy(element_names(model.parameters), std::inserter(names, names.end()));
+  const std::set<std::string> names = varied_names(model);
   std::vector<ChaosAxis> axes;
   for (const std::string& text : options.over) {
     for (const std::string_view piece : outermost_pieces(text))
@@ -218,7 +197,9 @@ Command add_chaos(CLI::App& app) {
   parser->add_option("--indicator", options->indicator, "of a map: megno, lyapunov, fli or sali")
       ->type_name("NAME");
   add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "of each orbit")->type_name("N");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser->add_option("--steps", options->scene.steps, "time, or number of steps, of each orbit")
+      ->type_name("N");
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,

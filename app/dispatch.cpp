@@ -74,19 +74,20 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
   return text + fmt::format("help: see hamgen {}--help\n", name);
 }
 
-int run_command(const std::vector<std::string>& words) {
+int run_command(const std::vector<std::string>& words, Crew& crew) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
   const std::vector<Command> commands = {
-      add_new(app),        add_check(app),   add_show(app),   add_generate(app), add_run(app),
-      add_bench(app),      add_report(app),  add_stress(app), add_tune(app),     add_verify(app),
-      add_certify(app),    add_section(app), add_chaos(app),  add_list(app),     add_cache(app),
-      add_completion(app), add_man(app)};
+      add_new(app),   add_check(app),  add_show(app),           add_generate(app),
+      add_run(app),   add_bench(app),  add_report(app),         add_stress(app),
+      add_tune(app),  add_verify(app), add_certify(app),        add_section(app),
+      add_chaos(app), add_plot(app),   add_ensemble(app, crew), add_list(app),
+      add_cache(app), add_plugin(app), add_completion(app),     add_man(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
       "exit status: 0 done, 1 numerical failure or a difference found, 2 usage, 3 model error,\n"
-      "             4 tool failure (compiler, files), 5 proof failed");
+      "             4 tool failure (compiler, files), 5 proof failed, 6 out of time (--seconds)");
   use_short_help(app);
   try {
     refuse_empty_values(words);
@@ -112,10 +113,10 @@ int run_command(const std::vector<std::string>& words) {
 }  // namespace
 
 // Every way to fail, and only here, becomes a message and an exit status.
-int dispatch(const std::vector<std::string>& words) {
+int dispatch(const std::vector<std::string>& words, Crew& crew) {
   report_full_files();
   try {
-    return run_command(words);
+    return run_command(words, crew);
   } catch (const ModelError& error) {
     print_error(error.what());
     return model_error;

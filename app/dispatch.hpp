@@ -6,7 +6,9 @@
 
 namespace hamgen::app {
 
-// `words` are the command's arguments, its own name left out.
-[[nodiscard]] int dispatch(const std::vector<std::string>& words);
+class Crew;
+
+// `words` are the command's arguments, its own name left out; `crew` is who works on an ensemble.
+[[nodiscard]] int dispatch(const std::vector<std::string>& words, Crew& crew);
 
 }  // namespace hamgen::app

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "runtime/kill_point.hpp"
 #include "runtime/temporary_name.hpp"
 #include "runtime/tool_error.hpp"
 
@@ -82,6 +83,16 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
+void AtomicFile::sync() {
+  flush();
+  // What is no ordinary file has no disk.
+  if (::fsync(file_.get()) != 0 && errno != EINVAL && errno != EROFS) {
+    const int error_number = errno;
+    discard();
+    throw file_error("write", target_, error_number);
+  }
+}
+
 void AtomicFile::publish() {
   flush();
   if (file_.close() != 0) {
@@ -90,12 +101,22 @@ void AtomicFile::publish() {
     throw file_error("write", target_, error_number);
   }
   if (temporary_.empty()) return;
+  kill_point();
   if (std::rename(temporary_.c_str(), final_.c_str()) != 0) {
     const int error_number = errno;
     discard();
     throw file_error("write", target_, error_number);
   }
   temporary_.clear();
+  kill_point();
+}
+
+void publish_file(const fs::path& aside, const fs::path& target) {
+  FileDescriptor file(::open(aside.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open() || ::fsync(file.get()) != 0) throw file_error("write", target, errno);
+  kill_point();
+  if (std::rename(aside.c_str(), target.c_str()) != 0) throw file_error("write", target, errno);
+  kill_point();
 }
 
 std::string read_file(const fs::path& path) {

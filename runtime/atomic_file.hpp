@@ -21,6 +21,8 @@ class AtomicFile {
   ~AtomicFile();
 
   void write(std::string_view text);
+  // Until what was written is on the disk, so that a power cut after publish() finds it.
+  void sync();
   void publish();
 
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
@@ -40,6 +42,10 @@ class AtomicFile {
 // so that nothing that depends on it is rebuilt.  Returns whether the file changed.  Throws
 // ToolError.
 bool atomic_write(const std::filesystem::path& path, std::string_view text);
+
+// Gives a file that was written aside, by a library say, its name, once it is on the disk.  Throws
+// ToolError naming the target.
+void publish_file(const std::filesystem::path& aside, const std::filesystem::path& target);
 
 // The whole file; throws ToolError.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);

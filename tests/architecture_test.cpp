@@ -138,7 +138,7 @@ External classify(std::string_view name) {
   if (name.starts_with("Eigen/")) return External::eigen;
   if (name == "arb.h" || name.starts_with("flint/")) return External::arb;
   if (name == "quadmath.h") return External::quadmath;
-  if (name == "nlopt.h") return External::other;
+  if (name == "nlopt.h" || name == "hdf5.h" || name == "mpi.h") return External::other;
   if (name.find_first_of("./") == std::string_view::npos) return External::standard;
   if (name.starts_with("sys/")) return External::system;
   if (name.ends_with(".h") && name.find('/') == std::string_view::npos) return External::system;

@@ -266,8 +266,8 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
   request.reference.insert(request.reference.end(), more.begin(), more.end());
 }
 
-runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
-                                      const runtime::Library& library) {
+runtime::InitialValues values_in_order(const PluginSource& plugin, const SceneValues& scene,
+                                       const runtime::Library& library) {
   const Model& model = plugin.model;
   if (!plugin.for_scene) require_folded_defaults(model, scene);
   const auto scalar =
@@ -283,6 +283,12 @@ runtime::InitialValues initial_values(const PluginSource& plugin, const SceneVal
   for (std::size_t i = 0; i + energy_parameters < plugin.parameter_names.size(); ++i)
     values.parameters.push_back(wide(parameter_of(plugin.parameter_names[i], plugin, scene)));
   if (plugin.needs_energy_parameter) values.parameters.push_back({});  // H does not depend on E0
+  return values;
+}
+
+runtime::InitialValues initial_values(const PluginSource& plugin, const SceneValues& scene,
+                                      const runtime::Library& library) {
+  runtime::InitialValues values = values_in_order(plugin, scene, library);
   require_defined(plugin, scene, library, values);
   if (!plugin.needs_energy_parameter) return values;
   values.parameters.back() = library.energy(values.parameters, values.state);

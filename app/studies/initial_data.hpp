@@ -38,6 +38,11 @@ void take_gauge_at(const SceneValues& scene, const Model& model, Request& reques
                                                     const SceneValues& scene,
                                                     const runtime::Library& library);
 
+// The same where H need not be defined, with E0 still 0: no ModelError.
+[[nodiscard]] runtime::InitialValues values_in_order(const PluginSource& plugin,
+                                                     const SceneValues& scene,
+                                                     const runtime::Library& library);
+
 // All parameters of the run that are not folded, those too that only its initial values depend on,
 // and E0 if the step needs it.
 [[nodiscard]] std::vector<std::pair<std::string, double>> parameter_values(

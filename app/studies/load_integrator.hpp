@@ -18,4 +18,8 @@ namespace hamgen::app {
 [[nodiscard]] runtime::LoadedPlugin load_integrator(const PluginSource& plugin,
                                                     const std::string& compiler, StopFlag stop);
 
+// Of the code alone, the compiler and its flags: two plugins with the same digest do the same,
+// wherever their model is.  Throws as chosen_compiler.
+[[nodiscard]] std::string digest_of_code(const PluginSource& plugin, const std::string& compiler);
+
 }  // namespace hamgen::app

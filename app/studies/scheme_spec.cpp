@@ -44,7 +44,8 @@ void require_scheme(const std::string& name) {
                                name, near.empty() ? "" : ", did you mean '" + near + "'?"));
 }
 
-// The scheme exists and this system has what it needs.
+}  // namespace
+
 bool suits(std::string_view name, const Mechanics& mechanics) {
   const Scheme* scheme = find_scheme(name);
   if (scheme == nullptr) return false;
@@ -55,8 +56,6 @@ bool suits(std::string_view name, const Mechanics& mechanics) {
     return false;
   }
 }
-
-}  // namespace
 
 Request request_of_spec(std::string_view spec, const Request& base) {
   Request request = base;

@@ -16,6 +16,9 @@ namespace hamgen::app {
 // Fills these fields of a copy of `base`.  Throws UsageError naming the nearest scheme or option.
 [[nodiscard]] Request request_of_spec(std::string_view spec, const Request& base);
 
+// Is there a scheme of this name, and has this system what it needs?
+[[nodiscard]] bool suits(std::string_view name, const Mechanics& mechanics);
+
 // Splits at commas outside of parentheses: the value of --schemes.
 [[nodiscard]] std::vector<std::string> split_specs(std::string_view text);
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
@@ -163,10 +164,37 @@ TEST(List, PrintsTheSameNamesAsTextAndAsJson) {
     EXPECT_EQ(text.status, 0);
     const nlohmann::json rows = nlohmann::json::parse(json.out);
     ASSERT_FALSE(rows.empty());
-    EXPECT_EQ(lines(text.out).size(), rows.size() + 1);
+    EXPECT_GE(lines(text.out).size(), rows.size() + 1);
+    for (const std::string& line : lines(text.out)) EXPECT_LE(line.size(), 100u) << line;
     for (const auto& row : rows)
       EXPECT_TRUE(contains(text.out, "\n" + row["name"].get<std::string>())) << what;
   }
+}
+
+TEST(List, OfSchemesIsThatOfAModel) {
+  const auto names = [](const std::vector<std::string>& arguments) {
+    std::vector<std::string> result;
+    for (const std::string& line : lines(hamgen(arguments).out))
+      result.push_back(line.substr(0, line.find(' ')));
+    return result;
+  };
+  const std::string model = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/double_pendulum.ham";
+  const std::vector<std::string> all = names({"list", "schemes"});
+  const std::vector<std::string> of_model = names({"list", "schemes", "--for", model});
+  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::ranges::find(list, name) != list.end();
+  };
+  for (const char* any : {"gauss-4", "implicit-midpoint", "yoshida-4", "rk4"}) {
+    EXPECT_TRUE(has(all, any)) << any;
+    EXPECT_TRUE(has(of_model, any)) << any;
+  }
+  // Its H mixes coordinates and momenta.
+  for (const char* separable : {"stormer-verlet", "yoshida-4-verlet", "blanes-moan-rkn-6"}) {
+    EXPECT_TRUE(has(all, separable)) << separable;
+    EXPECT_FALSE(has(of_model, separable)) << separable;
+  }
+  EXPECT_TRUE(contains(hamgen({"list", "schemes", "--sources"}).out, "Laskar, Robutel 2001"));
+  EXPECT_EQ(hamgen({"list", "functions", "--sources"}).status, 2);
 }
 
 }  // namespace
