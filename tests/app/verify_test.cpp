@@ -192,6 +192,44 @@ TEST(Verify, ReadsAHeaderThatIsThere) {
   EXPECT_EQ(hamgen({"verify", model, "--emitted", scratch.path("none.hpp")}).status, 2);
 }
 
+// In C, and what `run` compiles.
+TEST(Verify, ReadsEveryFormatThatIsThere) {
+  const Scratch scratch;
+  const std::string model = (models / "pendulum.ham").string();
+  struct Written {
+    std::string format, file, from, to;
+  };
+  for (const Written& written :
+       {Written{"c-header", "pendulum.h", "z->q += dz.q", ""},
+        Written{"cpp-plugin", "pendulum.plugin.cpp", "(state[0]);", "(state[1]);"}}) {
+    const std::string made = scratch.path(written.format);
+    const Result generated = hamgen({"generate", model, "--format", written.format, "--require",
+                                     "emitted-code", "--plain-sums", "-o", made});
+    ASSERT_EQ(generated.status, 0) << generated.err;
+    const std::string path = made + "/" + written.file;
+    std::string text = read(path);
+    EXPECT_TRUE(contains(text, "symmetric, order 2, emitted code\n")) << written.format;
+    EXPECT_EQ(
+        find(findings(model, {"--plain-sums", "--emitted", path}), "emitted code").at("verdict"),
+        "proved");
+    EXPECT_EQ(find(findings(model, {"--plain-sums", "--format", written.format}), "emitted code")
+                  .at("verdict"),
+              "proved");
+    const std::size_t at = text.find(written.from);
+    ASSERT_NE(at, std::string::npos) << text;
+    text.replace(at, written.from.size(), written.to);
+    static_cast<void>(scratch.write(written.format + "/" + written.file, text));
+    const Json rows = findings(model, {"--plain-sums", "--emitted", path}, 5);
+    EXPECT_EQ(find(rows, "emitted code").at("verdict"), "refuted");
+    EXPECT_EQ(find(rows, "plugin").at("verdict"), "proved");
+    const Result compared = hamgen(
+        {"generate", model, "--format", written.format, "--plain-sums", "-o", made, "--check"});
+    EXPECT_EQ(compared.status, 1);
+    EXPECT_TRUE(contains(compared.err, "the code is another")) << compared.err;
+  }
+  EXPECT_EQ(hamgen({"verify", model, "--format", "c"}).status, 2);
+}
+
 TEST(Check, SaysWhereHHasACorner) {
   const Scratch scratch;
   scratch.write("ball.ham", "coordinate q\nmomentum p\nH = p^2/2 + (abs(q) - q)^2/8\n");
