@@ -181,7 +181,8 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
   parser.add_option("--h", options.scene.h, "")->type_name("H");
   parser.add_option("--steps", options.scene.steps, "")->type_name("N");
   parser
-      .add_option("--time", options.scene.time, "statistics of every K steps; default: the scene's")
+      .add_option("--time", options.scene.time,
+                  "statistics every K steps; size, number or time of steps")
       ->type_name("T");
   parser.add_option("-o,--output", options.output, "")->type_name("FILE");
   parser.add_flag("--resume", options.resume, "results: .csv, .h5; go on with what is missing");

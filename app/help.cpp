@@ -52,6 +52,8 @@ class ShortHelp : public CLI::FormatterBase {
     for (const bool positional : {true, false}) {
       for (const CLI::Option* option : app->get_options()) {
         if (option->get_positional() != positional) continue;
+        // That of a command is how one came here.
+        if (app->get_parent() != nullptr && option == app->get_help_ptr()) continue;
         const std::string label = positional ? option->get_name() : option_label(*option);
         // An option without a description shares the line of the next.
         const bool joined = !rows.empty() && rows.back().right.empty();

@@ -406,15 +406,15 @@ Command add_run(CLI::App& app) {
   add_observe_option(*parser, options->scene);
   parser->add_option("--h", options->scene.h, "")->type_name("H");
   parser->add_option("--steps", options->scene.steps, "")->type_name("N");
-  parser->add_option("--time", options->scene.time, "")->type_name("T");
   parser
-      ->add_option("--every", options->every,
-                   "step size, number or time of steps, rows every K; default: the scene's")
-      ->type_name("K");
-  parser->add_option("--at", options->watch.at, "")->type_name("T,T");
+      ->add_option("--time", options->scene.time,
+                   "size and number, or time, of steps; default: the scene's")
+      ->type_name("T");
+  parser->add_option("--every", options->every, "")->type_name("K");
+  parser->add_option("--at", options->watch.at, "")->type_name("T");
   parser
       ->add_option("--every-time", options->watch.every_time,
-                   "rows at these times, between steps too")
+                   "rows every K steps, or at times: --at 1,2.5")
       ->type_name("T");
   add_repeated(*parser, "--until", options->watch.until, "")->type_name("EXPR");
   parser
@@ -424,26 +424,30 @@ Command add_run(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "the trajectory, .csv, - is standard output; a picture, .svg, .png")
+                   "trajectory: .csv, or - for standard output; a picture: .svg, .png")
       ->type_name("FILE");
   parser->add_option("--columns", options->columns, "")->type_name("LIST");
   parser
       ->add_option("--events", options->watch.events,
-                   "of it: q over time, q:p, x:y:z; the model's events, .csv, .json")
+                   "drawn: q, q:p or x:y:z; what the model's events saw: .csv, .json")
       ->type_name("FILE");
   add_checkpoint_options(*parser, options->checkpoint);
-  parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
-  parser->add_flag("--certify", options->certify,
-                   "K terms of the modified Hamiltonian; how near to the exact map");
-  parser->add_option("--header", options->header, "")->type_name("DIR");
   add_checkpoint_interval(*parser, options->checkpoint);
-  parser->add_flag("--json", options->json, "");
+  parser->add_option("--header", options->header, "S, default 60; where the emitted header goes")
+      ->type_name("DIR");
+  parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
+  parser->add_flag("--json", options->json,
+                   "terms of the modified Hamiltonian; the result as JSON");
+  parser->add_flag("--certify", options->certify, "");
   parser->add_flag("--quiet", options->quiet,
-                   "emitted header; default 60; the result as JSON; no summary, no progress");
+                   "how near it is to the exact map; no summary, no progress");
   add_method_options(*parser, options->method);
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
                    "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
+  // A screen has 24 lines.
+  parser->get_option("MODEL")->description("");
+  parser->get_option("--scene")->description("a .ham file; its scene, default: the first");
   return {parser, [options] { return run(*options); }};
 }
 

@@ -251,6 +251,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   } else if (!observe(integrator, options, is_due(0, options.every), summary)) {
     summary.status = not_finite(integrator);
   }
+  summary.energy_terms = integrator.judge().energy_terms();
   Looks looks(options);
   if (summary.status == Status::done) summary.ended = looks.end_at(integrator);
   while (summary.status == Status::done && !summary.ended && summary.steps_done < options.steps) {

@@ -69,6 +69,7 @@ struct RunSummary {
   std::optional<double> last_increment;
   std::optional<EnergyStatistics> energy;  // empty if not watched or not finite at the start
   double energy_scale = 0.0;               // see Judge
+  double energy_terms = 0.0;               // the same
   std::optional<double> jump;              // the energy error after the step that jumped
   bool ended = false;                      // by on_look, with Status::done
   long long records = 0;

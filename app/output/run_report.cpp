@@ -94,7 +94,7 @@ std::string energy_text(const RunReport& report) {
   if (!watches_energy(*report.plugin, *report.scene)) return "not observed";
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  const double scale = report.summary.energy_scale;
+  const double scale = report.summary.energy_terms;
   const std::string relative =
       scale > 0 ? fmt::format(", {:.2g} of the scale {:.3g}", energy.max_error() / scale, scale)
                 : "";
@@ -162,7 +162,7 @@ Json energy_json(const RunReport& report) {
             {"spread", nullptr},    {"final_error", nullptr}};
   Json result;
   put(result, "initial", energy->initial, is_wide(report));
-  const double scale = report.summary.energy_scale;
+  const double scale = report.summary.energy_terms;
   result["scale"] = scale > 0 ? Json(number(scale)) : Json(nullptr);
   result["max_error"] = number(energy->max_error());
   result["max_relative_error"] =
