@@ -1,4 +1,4 @@
-// The commands of README.md print what README.md says.
+// The commands of README.md and of the tutorial print what these say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,15 +78,31 @@ bool output_agrees(std::span<const std::string> shown, std::span<const std::stri
          output_agrees(shown.subspan(1), printed.subspan(1));
 }
 
-TEST(Readme, ShowsWhatTheCommandsPrint) {
-  const std::vector<Example> all = examples(read(HAMGEN_SOURCE_DIR "/README.md"));
+void expect_page_is_true(const std::string& page, const std::string& directory) {
+  const std::vector<Example> all = examples(read(page));
   ASSERT_GE(all.size(), 5u);
   for (const Example& example : all) {
-    const Result result = hamgen(words(example.command), {}, HAMGEN_SOURCE_DIR);
+    const Result result = hamgen(words(example.command), {}, directory);
     const std::vector<std::string> printed = lines(result.out + result.err);
     EXPECT_TRUE(output_agrees(example.output, printed)) << "$ hamgen " << example.command << '\n'
                                                         << result.out << result.err;
   }
+}
+
+TEST(Readme, ShowsWhatTheCommandsPrint) {
+  expect_page_is_true(HAMGEN_SOURCE_DIR "/README.md", HAMGEN_SOURCE_DIR);
+}
+
+// The model of the page is that of its folder, and its commands do what it says.
+TEST(Tutorial, ShowsWhatTheCommandsPrint) {
+  const Scratch scratch;
+  const std::string model = read(HAMGEN_SOURCE_DIR "/docs/tutorial/galaxy.ham");
+  const std::string page = read(HAMGEN_SOURCE_DIR "/docs/tutorial.md");
+  const std::size_t system = model.find("system galaxy");
+  const std::string shown = model.substr(system, model.find("scene plane") - system);
+  EXPECT_TRUE(contains(page, shown));
+  scratch.write("galaxy.ham", model);
+  expect_page_is_true(HAMGEN_SOURCE_DIR "/docs/tutorial.md", scratch.path("."));
 }
 
 }  // namespace
