@@ -28,6 +28,17 @@ std::string command_of(const LoadOptions& options) {
   return chosen != nullptr && *chosen != '\0' ? chosen : "hamgen";
 }
 
+runtime::ProcessResult run(const runtime::ProcessRequest& request) {
+  try {
+    return runtime::run_process(request);
+  } catch (const runtime::ToolError& error) {
+    runtime::ToolFailure failure = error.failure();
+    failure.message +=
+        "; the installed command is looked for in LoadOptions::command, $HAMGEN, PATH";
+    throw runtime::ToolError(std::move(failure));
+  }
+}
+
 // Lets the command write into the directory.
 void emit(const std::filesystem::path& model, const LoadOptions& options,
           const std::filesystem::path& directory) {
@@ -36,7 +47,7 @@ void emit(const std::filesystem::path& model, const LoadOptions& options,
   request.command.insert(request.command.end(), options.method.begin(), options.method.end());
   request.time_limit = options.time_limit;
   request.stop = options.stop;
-  const runtime::ProcessResult result = runtime::run_process(request);
+  const runtime::ProcessResult result = run(request);
   if (result.succeeded()) return;
   if (result.end == runtime::ProcessEnd::exited && result.code == kUsageStatus)
     throw LoadError(LoadError::Kind::usage, result.output);

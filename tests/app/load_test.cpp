@@ -89,7 +89,12 @@ TEST(Load, SaysWhatTheCommandSays) {
     EXPECT_TRUE(contains(error.what(), "gauss-5")) << error.what();
   }
   EXPECT_THROW((void)load(scratch.path("none.ham"), with({})), LoadError);
-  EXPECT_THROW((void)load(wrong, {.command = scratch.path("no-hamgen")}), runtime::ToolError);
+  try {
+    (void)load(wrong, {.command = scratch.path("no-hamgen")});
+    FAIL();
+  } catch (const runtime::ToolError& error) {
+    EXPECT_TRUE(contains(error.what(), "looked for in LoadOptions::command, $HAMGEN, PATH"));
+  }
   EXPECT_THROW((void)load(wrong, {.command = "/bin/false"}), runtime::ToolError);
 }
 
