@@ -25,7 +25,7 @@ scene fast { q = 0; p = -1; h = 0.02; steps = 3000 }
 momentum p
 H = p^2/2 + exp(-500*(q + 1)) + exp(500*(q - 1))
 scene fine { q = 0; p = -1; h = 0.002; steps = 3000 }
-scene coarse { q = 0; p = -1; h = 0.012; steps = 2400 }
+scene coarse { q = 0; p = -1; h = 0.01; steps = 2400 }
 )"},
     // A wall beside a motion that never stops: the box's is hidden behind the other unknown.
     SteepModel{"wobble", R"(coordinate q, x

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "generator/base/source_text.hpp"
 #include "generator/language/scene.hpp"
@@ -91,40 +90,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"fput", {.solver = "fixed-point"}}, Case{"fput", {.scheme = "gauss-4"}},
                     Case{"fput", {.scheme = "yoshida-4"}}, Case{"fput", {.solver = "sweeps:3"}},
                     Case{"outer_solar_system", {}}, Case{"morse", {.order = 4}}));
-
-// Where T is quadratic the coordinates follow the momenta at once: without it the same stages are
-// found in almost twice as many iterations.
-TEST(GaussStages, AreFoundInHalfTheIterationsWhereTheCoordinatesFollow) {
-  const auto run = [](const std::string& hamiltonian, bool follow) {
-    const std::string text = "coordinate x, y\nmomentum px, py\nH = " + hamiltonian + "\n";
-    StepCode code =
-        make_step_code(make_source("m.ham", text), {.scheme = "gauss-8", .solver = "fixed-point"});
-    bool follows = false;
-    for (Routine& routine : code.routines) {
-      if (routine.name != "follow") continue;
-      follows = true;
-      if (!follow) routine.body.clear();
-    }
-    Interpreter<double> interpreted(code, {}, 0.5, {1, 0.5, 0.25, -0.5});
-    long long iterations = 0;
-    for (int step = 0; step < 200; ++step) {
-      const auto report = interpreted.step();
-      EXPECT_TRUE(report.converged);
-      iterations += report.iterations;
-    }
-    return std::tuple(follows, iterations, interpreted.state());
-  };
-  const std::string potential = "cos(x - y) + x^4/4 + y^2/2";
-  const std::string coupled = "px^2/2 + px*py/5 + py^2 + " + potential;
-  const auto [follows, few, state] = run(coupled, true);
-  EXPECT_TRUE(follows);
-  const auto [unused, many, other] = run(coupled, false);
-  EXPECT_LT(few, many * 2 / 3);
-  // Stages refined to 2^-13 of a last place, by two sequences of roundings, over 200 steps.
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(state[i], other[i], 1e-12) << i;
-  EXPECT_FALSE(std::get<0>(run("sqrt(1 + px^2) + py^2/2 + " + potential, true)));
-  EXPECT_FALSE(std::get<0>(run("px^2/2 + py^2/2 + x*py/5 + " + potential, true)));
-}
 
 // Variables that are called like the objects of the routines: z, k, par, carry.
 TEST(Names, OfVariablesAreNotThoseOfObjects) {
