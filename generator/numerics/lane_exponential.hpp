@@ -20,16 +20,18 @@ template <class V>
 inline Exponentials<V> exponentials(Pair<V> r) {
   const V z = r.high * r.high;
   const V w = z * z;
-  const V odd =
-      polynomial(w, 0.16666666666666666, 0.00019841269838341208, 2.5048963357374704e-08) +
-      z * polynomial(w, 0.008333333333334213, 2.7557323664513348e-06, 1.6913492908337072e-10);
+  // 1/6 in two parts.
+  const V more =
+      z * polynomial(w, 0.008333333333333335, 2.7557319259699533e-06, 1.6089985404780343e-10) +
+      (w * polynomial(w, 0.00019841269841257354, 2.5052060244539124e-08) + 0x1.5555555555555p-57);
   const V even =
       polynomial(w, 0.041666666666666685, 2.4801587349135032e-05, 2.092173760498066e-09) +
       z * polynomial(w, 0.00138888888888733, 2.7557251901938335e-07);
-  const V cube = (r.high * z) * odd;
+  const V cube = r.high * z;
+  const V third = cube * 0x1.5555555555555p-3;
   const V half = 0.5 * z;
-  const V cosine = half + (w * even + (r.high + cube) * r.low);  // - 1
-  const V sine = cube + (1 + half) * r.low;                      // - r
+  const V cosine = half + (w * even + (r.high + third) * r.low);  // - 1
+  const V sine = third + (cube * more + (1 + half) * r.low);      // - r
   const Pair<V> plus = sum_with_larger(V() + 1, r.high);
   const Pair<V> minus = sum_with_larger(V() + 1, -r.high);
   return {{plus.high, plus.low + (cosine + sine)},

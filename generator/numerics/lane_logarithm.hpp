@@ -29,10 +29,13 @@ inline V logarithm(V k, Pair<V> f) {
   const V s = x / (2 + x);
   const V z = s * s;
   const V w = z * z;
-  const V p = polynomial(w, 0.6666666666666666, 0.2857142856942329, 0.18181778493170692,
-                         0.1325226148066171) +
-              z * polynomial(w, 0.4000000000000489, 0.2222222260513692, 0.15386983319262623,
-                             0.13233844032059033);
+  // 2/3 in two parts.
+  const V more = z * polynomial(w, 0.39999999999999974, 0.22222222217215662, 0.15384554830366254,
+                                0.11673527832353815) +
+                 (w * polynomial(w, 0.28571428571446683, 0.18181818904281935, 0.13336387637309277,
+                                 0.11998844174713265) +
+                  0x1.5555555555555p-55);
+  const V p = more + 0x1.5555555555555p-1;
   const V x_high = number_of<V>(bits_of(x) & (~0ULL << 27));
   const V half_high = 0.5 * (x_high * x_high);
   const V half_low = 0.5 * ((x - x_high) * (x + x_high));

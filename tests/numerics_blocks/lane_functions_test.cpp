@@ -31,7 +31,13 @@ class Points {
     state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<double>(state_ >> 11) * 0x1p-53;
   }
-  double uniform(double low, double high) { return low + (high - low) * next(); }
+  // With random last digits: a sum of numbers has those of the larger one, which is rounded to one
+  // side where it is even everywhere.
+  double uniform(double low, double high) {
+    const double value = low + (high - low) * next();
+    const auto digits = static_cast<std::uint64_t>(256 * next());
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ digits);
+  }
   double sign() { return next() < 0.5 ? -1 : 1; }
   // 2^e, e uniform; down to the smallest numbers.
   double size(double low, double high) {
