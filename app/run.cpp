@@ -424,12 +424,12 @@ Command add_run(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "trajectory: .csv, or - for standard output; a picture: .svg, .png")
+                   "the trajectory: .csv, - is stdout; a picture: .svg, .png")
       ->type_name("FILE");
   parser->add_option("--columns", options->columns, "")->type_name("LIST");
   parser
       ->add_option("--events", options->watch.events,
-                   "drawn: q, q:p or x:y:z; what the model's events saw: .csv, .json")
+                   "drawn: q, q:p, x:y:z; what the events saw: .csv, .json")
       ->type_name("FILE");
   add_checkpoint_options(*parser, options->checkpoint);
   add_checkpoint_interval(*parser, options->checkpoint);
