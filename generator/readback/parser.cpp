@@ -11,7 +11,8 @@ namespace {
 
 using ParsedKind = CppExpression::Kind;
 
-constexpr int kDeepest = 400;  // brackets within brackets
+constexpr int kDeepest = 400;        // brackets within brackets
+constexpr int kLongestChain = 5000;  // a chain of operators without brackets
 
 // Operators from the weakest on; those of one row are read from the left.
 constexpr std::array<std::array<std::string_view, 4>, 6> kOperators = {
@@ -44,6 +45,7 @@ class CppReader {
   }
 
   CppExpression expression() {
+    const Deeper deeper(*this);
     CppExpression left = choice();
     for (const std::string_view sign : {"=", "+=", "-=", "*=", "/="}) {
       if (!cursor_.peek().is(sign)) continue;
@@ -212,6 +214,11 @@ class CppReader {
     return {ParsedKind::choice, "?", {std::move(condition), std::move(yes), std::move(no)}, line};
   }
 
+  void require_short(int length) const {
+    if (length > kLongestChain)
+      throw TextNotUnderstood(cursor_.line(), "a formula that is too long");
+  }
+
   bool is_operator(std::size_t row) const {
     for (const std::string_view sign : kOperators[row]) {
       if (!sign.empty() && cursor_.peek().kind == CppToken::Kind::sign && cursor_.peek().is(sign))
@@ -223,10 +230,14 @@ class CppReader {
   CppExpression operation(std::size_t row) {
     if (row == kOperators.size()) return unary();
     CppExpression left = operation(row + 1);
-    while (is_operator(row)) {
+    for (int length = 0; is_operator(row); ++length) {
       const CppToken& sign = cursor_.take();
-      CppExpression right = operation(row + 1);
-      left = {ParsedKind::binary, sign.text, {std::move(left), std::move(right)}, sign.line};
+      require_short(length);
+      CppExpression whole{ParsedKind::binary, sign.text, {}, sign.line};
+      whole.parts.reserve(2);
+      whole.parts.push_back(std::move(left));
+      whole.parts.push_back(operation(row + 1));
+      left = std::move(whole);
     }
     return left;
   }
@@ -271,10 +282,12 @@ class CppReader {
   }
 
   CppExpression postfix(CppExpression of) {
-    for (;;) {
+    for (int length = 0;; ++length) {
+      require_short(length);
       const int line = cursor_.line();
       if (cursor_.accept("(")) {
-        CppExpression call{ParsedKind::call, "", {std::move(of)}, line};
+        CppExpression call{ParsedKind::call, "", {}, line};
+        call.parts.push_back(std::move(of));
         while (!cursor_.accept(")")) {
           if (call.parts.size() > 1) cursor_.expect(",");
           call.parts.push_back(choice());

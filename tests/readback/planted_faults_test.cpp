@@ -141,6 +141,14 @@ TEST(ReadBackOf, WhatIsNotUnderstoodIsNotProved) {
   std::string deep = header.text;
   deep.replace(at, from.size(), "k.c1 = " + std::string(100000, '(') + "h;");
   EXPECT_EQ(header.read(deep).outcome, ReadBack::Outcome::not_understood);
+  // Long chains are neither a matter of minutes nor of the stack.
+  for (const char* chain : {"h + ", "h * h - ", "h = "}) {
+    std::string formula;
+    for (int i = 0; i < 100000; ++i) formula += chain;
+    std::string longer = header.text;
+    longer.replace(at, from.size(), "k.c1 = " + formula + "h;");
+    EXPECT_EQ(header.read(longer).outcome, ReadBack::Outcome::not_understood) << chain;
+  }
   EXPECT_NE(header.read("").outcome, ReadBack::Outcome::same);
 }
 
