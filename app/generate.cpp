@@ -109,8 +109,14 @@ int generate_files(const GenerateOptions& options) {
   request.support = options.support;
   request.require = options.require;
   request.tangent = options.tangent;
-  if (!options.watch_modified.empty())
+  if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
+    if (request.format == "cpp-plugin")
+      throw UsageError(
+          "--watch-modified with --format cpp-plugin: a plugin's invariants know no step size\n"
+          "help: a cpp-header has them as functions of h; hamgen run --watch-modified watches "
+          "them");
+  }
   record_origin(options.method, source, request);
   const OutputFiles files = generate(source, request);
   if (options.check) return compare(files, options.output, source, request);

@@ -28,7 +28,8 @@ struct SourceText {
 };
 
 [[nodiscard]] SourceText make_source(std::string path, std::string text);
-// Reads a file, or standard input for "-"; throws UsageError if it cannot be read, is a directory or is larger than 16 MB.
+// Reads a file, or standard input for "-"; throws UsageError if it cannot be read, is a directory
+// or is larger than 16 MB.
 [[nodiscard]] SourceText read_source(const std::string& path);
 [[nodiscard]] Position position(const SourceText& source, std::size_t offset);
 // The line that holds the offset, without its line end.

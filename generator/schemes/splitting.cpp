@@ -124,8 +124,8 @@ std::vector<Scheme> splittings() {
                   palindrome({ratio(-3, 73), ratio(17, 59)}),
                   std::string("McLachlan 1995") + kMoreDigits),
       drift_first("omelyan-4", 4,
-                  palindrome(decimals({"0.1786178958448091",
-                                       "-0.0662645826698182342926665340609061831528"})),
+                  palindrome(decimals(
+                      {"0.1786178958448091", "-0.0662645826698182342926665340609061831528"})),
                   even_palindrome(decimals({"0.7123418310626061162212669163280542754452"})),
                   std::string("Omelyan, Mryglod, Folk 2002, PEFRL") + kMoreDigits),
       drift_first("blanes-moan-4", 4,

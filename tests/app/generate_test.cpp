@@ -35,6 +35,15 @@ TEST(Generate, NamesTheModelByItsDigest) {
       << result.out;
 }
 
+TEST(Generate, APluginKnowsNoStepOfAModifiedHamiltonian) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result =
+      hamgen({"generate", model, "--format", "cpp-plugin", "--watch-modified", "3"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "know no step size")) << result.err;
+}
+
 TEST(Generate, WritesAndThenFindsNoDifference) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
