@@ -124,7 +124,8 @@ const std::vector<Rule>& rules() {
       {"app/", {"app/", "generator/", "runtime/"}, {fmt, system, other}},
       // They measure with the studies, without the command, and with what tests measure by.
       {"benchmarks/",
-       {"benchmarks/", "app/studies/", "generator/", "runtime/", "tests/contract/"},
+       {"benchmarks/", "app/studies/", "generator/", "runtime/", "tests/contract/",
+        "tests/numerics_blocks/"},
        {fmt, other}},
       {"generated/", {}, {eigen, quadmath}},
   };
