@@ -85,7 +85,8 @@ Command add_certify(CLI::App& app) {
       "certify", "proves how far the steps of a run are from the method's exact map");
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "their number; default: the scene's")
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser->add_option("--steps", options->scene.steps, "their time, or number; default: the scene's")
       ->type_name("N");
   parser
       ->add_option("--every", options->every,

@@ -197,7 +197,9 @@ Command add_chaos(CLI::App& app) {
   parser->add_option("--indicator", options->indicator, "of a map: megno, lyapunov, fli or sali")
       ->type_name("NAME");
   add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "of each orbit")->type_name("N");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser->add_option("--steps", options->scene.steps, "time, or number of steps, of each orbit")
+      ->type_name("N");
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,

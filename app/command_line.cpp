@@ -77,21 +77,20 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   add_repeated(command, "--reference", options.reference,
                "where: q=1,w=50; default: the scene's initial state")
       ->type_name("NAME=VALUE,...");
+  add_repeated(command, "--fold", options.fold, "")->type_name("NAME");
   command
-      .add_option("--solver", options.solver, "newton, fixed-point or sweeps:K; default: planned")
+      .add_option("--solver", options.solver,
+                  "put a parameter's value in; newton, fixed-point or sweeps:K")
       ->type_name("NAME");
   command.add_option("--scalar", options.scalar, "")->type_name("TYPE");
   command.add_flag("--plain-sums", options.plain_sums,
                    "float, double, long-double, quad; rounding is not made up for");
-  add_repeated(command, "--fold", options.fold,
-               "put a parameter's value, the scene's or the default, in")
-      ->type_name("NAME");
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_option("--scene", options.scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(command, "--set", options.set, "a parameter, or a size, of the model")
+  command.add_option("--scene", options.scene, "")->type_name("NAME");
+  add_repeated(command, "--set", options.set,
+               "of the model, default: its first; a parameter or size of it")
       ->type_name("NAME=VALUE");
   add_repeated(command, "--initial", options.initial, "initial state, for example q=3.1,p=0")
       ->type_name("NAME=VALUE,...");
@@ -232,6 +231,7 @@ Setting read_setting(const MethodOptions& method, const SceneOptions& scene) {
   setting.scene.initial = all_assignments("--initial", scene.initial);
   setting.scene.h = scene.h;
   setting.scene.steps = scene.steps;
+  setting.scene.time = scene.time;
   setting.scene.observe = scene.observe;
   return setting;
 }
@@ -310,8 +310,8 @@ void specialise(const SceneOptions& options, const SceneValues& values,
   }
   if (!options.whole) {
     setting.request.scene = std::move(facts);
-  } else if (!facts.values.formulas.empty()) {
-    // What a scene defines to look at it is computed, and nothing left out for that.
+  } else if (!facts.values.formulas.empty() || !facts.values.watched.empty()) {
+    // What a scene or a run defines to look at it is computed, and nothing left out for that.
     facts.kept = std::move(known);
     setting.request.scene = std::move(facts);
   }

@@ -21,7 +21,8 @@ enum ExitStatus : int {
   model_error = 3,
   tool_failure = 4,
   proof_failed = 5,
-  interrupted = 130,  // as shells report it
+  ran_out_of_time = 6,  // `run --seconds`
+  interrupted = 130,    // as shells report it
 };
 
 // A subcommand: how its arguments are read, and what it does once they are (its exit status).
@@ -42,6 +43,8 @@ struct Command {
 [[nodiscard]] Command add_section(CLI::App& app);
 class Crew;
 [[nodiscard]] Command add_ensemble(CLI::App& app, Crew& crew);
+[[nodiscard]] Command add_plot(CLI::App& app);
+[[nodiscard]] Command add_plugin(CLI::App& app);
 [[nodiscard]] Command add_verify(CLI::App& app);
 [[nodiscard]] Command add_certify(CLI::App& app);
 [[nodiscard]] Command add_tune(CLI::App& app);
@@ -72,6 +75,7 @@ struct SceneOptions {
   std::string scene;
   std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
   std::optional<std::string> h, steps;    // in place of the scene's
+  std::optional<std::string> time;        // in place of steps
   bool whole = false;                     // leave in what the scene does not need
   std::vector<std::string> keep;          // NAME,...
   std::optional<std::string> observe;     // in place of the scene's

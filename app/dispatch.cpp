@@ -77,20 +77,17 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
 int run_command(const std::vector<std::string>& words, Crew& crew) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
-  const std::vector<Command> commands = {add_new(app),        add_check(app),
-                                         add_show(app),       add_generate(app),
-                                         add_run(app),        add_bench(app),
-                                         add_report(app),     add_stress(app),
-                                         add_tune(app),       add_verify(app),
-                                         add_certify(app),    add_section(app),
-                                         add_chaos(app),      add_ensemble(app, crew),
-                                         add_list(app),       add_cache(app),
-                                         add_completion(app), add_man(app)};
+  const std::vector<Command> commands = {
+      add_new(app),   add_check(app),  add_show(app),           add_generate(app),
+      add_run(app),   add_bench(app),  add_report(app),         add_stress(app),
+      add_tune(app),  add_verify(app), add_certify(app),        add_section(app),
+      add_chaos(app), add_plot(app),   add_ensemble(app, crew), add_list(app),
+      add_cache(app), add_plugin(app), add_completion(app),     add_man(app)};
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
       "exit status: 0 done, 1 numerical failure or a difference found, 2 usage, 3 model error,\n"
-      "             4 tool failure (compiler, files), 5 proof failed");
+      "             4 tool failure (compiler, files), 5 proof failed, 6 out of time (--seconds)");
   use_short_help(app);
   try {
     refuse_empty_values(words);

@@ -150,7 +150,9 @@ Command add_report(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("report", "writes a page about a model and a method");
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
-  parser->add_option("--steps", options->scene.steps, "number of steps; default: the scene's")
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser
+      ->add_option("--steps", options->scene.steps, "time or number of steps; default: the scene's")
       ->type_name("N");
   parser
       ->add_option("-o,--output", options->output,

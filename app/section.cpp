@@ -11,6 +11,7 @@
 #include "app/output/progress_bars.hpp"
 #include "app/output/section_output.hpp"
 #include "app/output/terminal.hpp"
+#include "app/output/trajectory_plot.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -32,10 +33,10 @@ struct SectionOptions {
   bool quiet = false;
 };
 
-Direction read_direction(const std::string& text) {
-  if (text == "rising") return Direction::rising;
-  if (text == "falling") return Direction::falling;
-  if (text == "both") return Direction::both;
+runtime::Direction read_direction(const std::string& text) {
+  if (text == "rising") return runtime::Direction::rising;
+  if (text == "falling") return runtime::Direction::falling;
+  if (text == "both") return runtime::Direction::both;
   throw UsageError(fmt::format("--direction {}: rising, falling or both", text));
 }
 
@@ -167,9 +168,8 @@ bool has_failed(const SectionOrbit& orbit) {
 }
 
 int run_section(const SectionOptions& options) {
-  if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
-    throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
-  const Direction direction = read_direction(options.direction);
+  if (!options.plot.empty()) require_picture_name("--plot", options.plot);
+  const runtime::Direction direction = read_direction(options.direction);
   SceneOptions scene_options = options.scene;
   if (!scene_options.steps) scene_options.steps = "1e6";
   Setting setting = read_setting(options.method, scene_options);
@@ -204,8 +204,9 @@ int run_section(const SectionOptions& options) {
       .model = setting.model.name,
       .scene = scene.name,
       .scheme = plugin.scheme_name,
-      .surface = fmt::format("{} = {}, {}", g.left, g.right,
-                             direction == Direction::both ? "both ways" : options.direction),
+      .surface =
+          fmt::format("{} = {}, {}", g.left, g.right,
+                      direction == runtime::Direction::both ? "both ways" : options.direction),
       .first = g.first,
       .second = g.second,
       .energy = request.energy,

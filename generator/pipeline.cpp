@@ -205,12 +205,18 @@ ProofCertificate certificate_of(const SourceText& source, const Request& request
     const auto found = std::ranges::find(proof, property, &Finding::property);
     return found != proof.end() && found->verdict == Verdict::proved;
   };
-  const Mechanics& mechanics = stages.system.mechanics;
+  Mechanics mechanics = stages.system.mechanics;
+  Scheme scheme = stages.equations.scheme;
+  if (mechanics.keeps_sums()) {
+    require_certified_size(mechanics);
+    mechanics = derive(stages.folded.model, false);
+    scheme = choose_scheme(stages.model, mechanics, request);
+  }
   std::vector<NamedExpression> invariants;
   for (const NamedExpression& invariant : mechanics.invariants) {
     if (is_proved(invariant.name + " invariant")) invariants.push_back(invariant);
   }
-  return make_certificate(mechanics, stages.equations.scheme, is_proved("symmetric"), invariants);
+  return make_certificate(mechanics, scheme, is_proved("symmetric"), invariants);
 }
 
 std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Request& request) {

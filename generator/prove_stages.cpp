@@ -20,6 +20,7 @@ SizedSystem sized_system(const SourceText& source, Request request, const std::s
     SceneValues values = scene_values(read_request(source, request), request.scene->asked);
     values.observe = request.scene->values.observe;
     values.formulas = request.scene->values.formulas;
+    values.watched = request.scene->values.watched;
     request.scene->values = std::move(values);
   }
   Stages stages = run_stages(source, request);

@@ -171,6 +171,31 @@ class Steps {
   double largest_ = 0.0;  // of the steps done
 };
 
+// When on_look is called next.
+class Looks {
+ public:
+  explicit Looks(const IntegrateOptions& options) : options_(options) {}
+
+  // Steps that nobody wants to look between.
+  [[nodiscard]] long long distance() const {
+    return options_.on_look ? distance_ : std::numeric_limits<long long>::max();
+  }
+  // Looks if it is time to; true if the run ends here.
+  [[nodiscard]] bool end_at(const Integrator& integrator) {
+    if (!options_.on_look) return false;
+    distance_ -= integrator.steps_done() - looked_at_;
+    looked_at_ = integrator.steps_done();
+    if (distance_ > 0) return false;
+    distance_ = options_.on_look(integrator);
+    return distance_ <= 0;
+  }
+
+ private:
+  const IntegrateOptions& options_;
+  long long distance_ = 0;
+  long long looked_at_ = 0;
+};
+
 // Adds what one call of the plugin did.
 void add(RunSummary& summary, const Report& report) {
   summary.status = report.status;
@@ -214,7 +239,7 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   const Clock::time_point begin = Clock::now();
   Clock::time_point last_look = begin;
   double last_report = 0.0;
-  Pace pace(options.progress_interval.count());
+  Pace pace(std::min(options.progress_interval.count(), options.seconds.value_or(1e9) / 4.0));
   long long until_look = pace.steps();
   Clock::time_point last_save = begin;
   const double seconds_before = options.from != nullptr ? options.from->summary.total_seconds : 0.0;
@@ -226,8 +251,10 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
   } else if (!observe(integrator, options, is_due(0, options.every), summary)) {
     summary.status = not_finite(integrator);
   }
-  while (summary.status == Status::done && summary.steps_done < options.steps) {
-    long long steps = std::min(until_look, options.steps - summary.steps_done);
+  Looks looks(options);
+  if (summary.status == Status::done) summary.ended = looks.end_at(integrator);
+  while (summary.status == Status::done && !summary.ended && summary.steps_done < options.steps) {
+    long long steps = std::min({until_look, options.steps - summary.steps_done, looks.distance()});
     if (options.every > 0) {
       steps = std::min(steps, options.every - summary.steps_done % options.every);
     }
@@ -238,8 +265,9 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
     until_look -= steps;
 
     if (summary.status == Status::done) {
-      const bool due = is_due(summary.steps_done, options.every);
-      const bool last = summary.steps_done == options.steps;
+      summary.ended = looks.end_at(integrator);
+      const bool due = !summary.ended && is_due(summary.steps_done, options.every);
+      const bool last = summary.ended || summary.steps_done == options.steps;
       if ((due || last) && !observe(integrator, options, due, summary)) {
         summary.status = not_finite(integrator);
       }
@@ -248,7 +276,11 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
     pace.took(std::chrono::duration<double>(Clock::now() - last_look).count());
     last_look = Clock::now();
     until_look = pace.steps();
-    const bool more = summary.steps_done < options.steps;
+    const bool more = !summary.ended && summary.steps_done < options.steps;
+    if (more && summary.status == Status::done && options.seconds &&
+        seconds_since(begin) >= *options.seconds) {
+      summary.status = Status::out_of_time;
+    }
     if (more && options.stop != nullptr && options.stop->load(std::memory_order_relaxed) &&
         summary.status == Status::done) {
       summary.status = Status::stopped;
@@ -266,7 +298,8 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
           {.steps_done = summary.steps_done, .steps = options.steps, .seconds = seconds});
     }
   }
-  if (options.on_save && (summary.status == Status::done || summary.status == Status::stopped)) {
+  if (options.on_save && (summary.status == Status::done || summary.status == Status::stopped ||
+                          summary.status == Status::out_of_time)) {
     summary.total_seconds = seconds_before + seconds_since(begin);
     options.on_save(plugin.saved(summary));
   }

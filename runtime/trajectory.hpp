@@ -37,11 +37,15 @@ struct IntegrateOptions {
   std::function<void(const Progress&)> on_progress;  // about once an interval, and at the end
   std::chrono::duration<double> progress_interval{0.1};
   const std::atomic<bool>* stop = nullptr;  // looked at as often as progress is reported
-  // About once in so many seconds, and where all steps are done or it is stopped, with what it
-  // takes to go on from there.
+  // About once in so many seconds, and where all steps are done, it is stopped or its time is
+  // over, with what it takes to go on from there.
   std::function<void(const RunState&)> on_save;
   std::chrono::duration<double> save_interval{60.0};
   const RunState* from = nullptr;  // goes on from there, bit for bit as if nothing had been
+  std::optional<double> seconds;   // of wall clock, after which it is out of time
+  // Looks at the state at step 0, and each time after as many steps more as it answered; 0 ends the
+  // run there.  A record due there comes after it, and none if it ends the run.
+  std::function<long long(const Integrator&)> on_look;
 };
 
 // Over the initial state and those after every step.  All values are finite.
@@ -66,6 +70,7 @@ struct RunSummary {
   std::optional<EnergyStatistics> energy;  // empty if not watched or not finite at the start
   double energy_scale = 0.0;               // see Judge
   std::optional<double> jump;              // the energy error after the step that jumped
+  bool ended = false;                      // by on_look, with Status::done
   long long records = 0;
   double advance_seconds = 0.0;  // inside the plugin
   double total_seconds = 0.0;    // with records and progress
@@ -82,12 +87,12 @@ struct RunState {
   std::vector<std::byte> integrator;  // Integrator::saved()
 };
 
-// Advances until the steps are done, a step fails, or `stop` is set.  A step that ends where H is
-// not finite has failed, and one that jumps if they are to end the run: the summary, the records
-// and the integrator's state end with the step before.  What it did never depends on how the steps
-// were divided into calls.  An exception from a callback passes through.  Throws
-// std::invalid_argument for a negative `steps` or `every`, and where `from` is not of this
-// integrator.
+// Advances until the steps are done, a step fails, `on_look` ends it, its time is over, or `stop`
+// is set.  A step that ends where H is not finite has failed, and one that jumps if they are to end
+// the run: the summary, the records and the integrator's state end with the step before.  What it
+// did never depends on how the steps were divided into calls.  An exception from a callback passes
+// through.  Throws std::invalid_argument for a negative `steps` or `every`, and where `from` is not
+// of this integrator.
 [[nodiscard]] RunSummary integrate(Integrator& integrator, const IntegrateOptions& options);
 
 }  // namespace hamgen::runtime

@@ -62,14 +62,27 @@ std::string value_text(const RunReport& report, const runtime::Wide& value) {
                          : fmt::format("{:.10g}", value.hi);
 }
 
-std::string numbers(const RunReport& report, std::size_t begin, std::size_t end) {
-  const std::vector<runtime::Wide>& state = report.state;
+// "q[1] = 0.5, q[2] = 1, ...": the variables, of which the first is number `begin` of the state.
+std::string numbers(const RunReport& report, const std::vector<Variable>& variables,
+                    std::size_t begin) {
+  const std::vector<std::string> names = element_names(variables);
+  const std::size_t count = std::min(names.size(), report.state.size() - begin);
   const std::size_t largest = is_wide(report) ? 2 : 4;
   std::string text;
-  for (std::size_t i = begin; i < std::min(end, begin + largest); ++i)
-    text += (i == begin ? "" : ", ") +
-            (std::isnan(state[i].hi) ? "-" : wide_text(state[i], report.scalar_digits));
-  return end > begin + largest ? text + ", ..." : text;
+  for (std::size_t i = 0; i < std::min(count, largest); ++i) {
+    const runtime::Wide& value = report.state[begin + i];
+    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names[i],
+                        std::isnan(value.hi) ? "-" : wide_text(value, report.scalar_digits));
+  }
+  return count > largest ? text + ", ..." : text;
+}
+
+std::string last_state_text(const RunReport& report) {
+  const Model& model = report.plugin->model;
+  const double t = static_cast<double>(report.summary.steps_done) * report.start->h.hi;
+  const std::string q = numbers(report, model.coordinates, 0);
+  const std::string p = numbers(report, model.momenta, report.state.size() / 2);
+  return fmt::format("t = {:.10g}: {}{}{}", t, q, q.empty() || p.empty() ? "" : ", ", p);
 }
 
 std::string seconds_text(double seconds) {
@@ -81,9 +94,13 @@ std::string energy_text(const RunReport& report) {
   if (!watches_energy(*report.plugin, *report.scene)) return "not observed";
   if (!report.summary.energy) return "not defined";
   const runtime::EnergyStatistics& energy = *report.summary.energy;
-  return fmt::format("H(0) = {}; max error {:.5g}, spread {:.5g}, last {:.3g}",
-                     value_text(report, energy.initial), energy.max_error(), energy.spread(),
-                     energy.final_error());
+  const double scale = report.summary.energy_scale;
+  const std::string relative =
+      scale > 0 ? fmt::format(", {:.2g} of the scale {:.3g}", energy.max_error() / scale, scale)
+                : "";
+  return fmt::format("H(0) = {}; max error {:.5g}{}; spread {:.5g}, last {:.3g}",
+                     value_text(report, energy.initial), energy.max_error(), relative,
+                     energy.spread(), energy.final_error());
 }
 
 std::string time_text(const RunReport& report) {
@@ -140,13 +157,16 @@ void put(Json& object, const std::string& key, const runtime::Wide& value, bool 
 Json energy_json(const RunReport& report) {
   const std::optional<runtime::EnergyStatistics>& energy = report.summary.energy;
   if (!energy)
-    return {{"initial", nullptr},
-            {"max_error", nullptr},
-            {"spread", nullptr},
-            {"final_error", nullptr}};
+    return {{"initial", nullptr},   {"scale", nullptr},
+            {"max_error", nullptr}, {"max_relative_error", nullptr},
+            {"spread", nullptr},    {"final_error", nullptr}};
   Json result;
   put(result, "initial", energy->initial, is_wide(report));
+  const double scale = report.summary.energy_scale;
+  result["scale"] = scale > 0 ? Json(number(scale)) : Json(nullptr);
   result["max_error"] = number(energy->max_error());
+  result["max_relative_error"] =
+      scale > 0 ? Json(number(energy->max_error() / scale)) : Json(nullptr);
   result["spread"] = number(energy->spread());
   result["final_error"] = number(energy->final_error());
   return result;
@@ -162,6 +182,7 @@ Json parameters_json(const RunReport& report) {
 Json invariants_json(const RunReport& report) {
   Json result = Json::object();
   for (std::size_t i = 0; i < report.plugin->invariant_names.size(); ++i) {
+    if (is_watched(*report.scene, report.plugin->invariant_names[i])) continue;
     const runtime::Wide before = report.initial_invariants[i];
     const runtime::Wide after = report.final_invariants[i];
     Json& values = result[report.plugin->invariant_names[i]];
@@ -175,7 +196,85 @@ Json invariants_json(const RunReport& report) {
   return result;
 }
 
+bool has_ended(const RunReport& report) {
+  return report.watch != nullptr && report.watch->ending().has_value();
+}
+
+std::string ending_text(const RunReport& report) {
+  if (!has_ended(report)) return "";
+  const auto& [event, point] = *report.watch->ending();
+  const EndCondition& what = (*report.events)[event].what;
+  if (what.holds)
+    return fmt::format("{} holds at t = {:.10g}, after step {}", what.event.text, point.time,
+                       point.steps);
+  return fmt::format("{}: at t = {:.16g}, in step {}", what.event.text, point.time,
+                     point.steps + (point.fraction > 0.0 ? 1 : 0));
+}
+
+Json ending_json(const RunReport& report) {
+  if (!has_ended(report)) return nullptr;
+  const auto& [event, point] = *report.watch->ending();
+  return {{"by", (*report.events)[event].what.event.text},
+          {"t", number(point.time)},
+          {"steps", point.steps},
+          {"fraction", number(point.fraction)}};
+}
+
+std::vector<std::string> event_texts(const RunReport& report) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; report.watch != nullptr && i < report.events->size(); ++i) {
+    const ModelEvent& event = (*report.events)[i].what.event;
+    const Sighting& seen = report.watch->sightings()[i];
+    if ((*report.events)[i].ends_run) continue;
+    if (seen.count == 0)
+      texts.push_back(fmt::format("{}: never; after each step it was between {:.6g} and {:.6g}",
+                                  event.name, seen.least, seen.largest));
+    else if (seen.count == 1)
+      texts.push_back(fmt::format("{}: once, at t = {:.16g}", event.name, seen.first));
+    else
+      texts.push_back(fmt::format("{}: {} times, from t = {:.16g} to t = {:.16g}", event.name,
+                                  seen.count, seen.first, seen.last));
+  }
+  return texts;
+}
+
+Json events_json(const RunReport& report) {
+  Json result = Json::object();
+  for (std::size_t i = 0; report.watch != nullptr && i < report.events->size(); ++i) {
+    if ((*report.events)[i].ends_run) continue;
+    const Sighting& seen = report.watch->sightings()[i];
+    const bool met = seen.count > 0;
+    result[(*report.events)[i].what.event.name] = {
+        {"count", seen.count},
+        {"first", met ? number(seen.first) : Json(nullptr)},
+        {"last", met ? number(seen.last) : Json(nullptr)},
+        {"min", number(seen.least)},
+        {"max", number(seen.largest)}};
+  }
+  return result;
+}
+
 }  // namespace
+
+std::vector<std::string> missed_ends(const RunReport& report) {
+  std::vector<std::string> texts;
+  if (report.watch == nullptr || has_ended(report)) return texts;
+  for (std::size_t i = 0; i < report.events->size(); ++i) {
+    const WatchedEvent& each = (*report.events)[i];
+    if (!each.ends_run) continue;
+    const Sighting& seen = report.watch->sightings()[i];
+    const ModelEvent& event = each.what.event;
+    const std::string steps = fmt::format("in {} steps", report.summary.steps_done);
+    if (each.what.holds) {
+      texts.push_back(fmt::format("--until {} never held {}", event.text, steps));
+    } else {
+      texts.push_back(fmt::format(
+          "--until {} never crossed zero {}: after each it was between {:.6g} and {:.6g}",
+          event.text, steps, seen.least, seen.largest));
+    }
+  }
+  return texts;
+}
 
 std::string failure_text(const RunReport& report) {
   const runtime::RunSummary& summary = report.summary;
@@ -187,9 +286,11 @@ std::string failure_text(const RunReport& report) {
   const std::string where = fmt::format("at t = {:.10g}, h = {}", t, number_text(h));
   switch (summary.status) {
     case runtime::Status::done:
-    case runtime::Status::out_of_time:  // a run has no limits of time,
-    case runtime::Status::undefined:    // and begins where there are values
+    case runtime::Status::undefined:  // a run begins where there are values
       return "";
+    case runtime::Status::out_of_time:
+      return fmt::format("out of time: {:.6g} s were over after {} of {} steps, at t = {:.10g}",
+                         report.seconds.value_or(0.0), summary.steps_done, *report.scene->steps, t);
     case runtime::Status::jumped:
       return fmt::format(
           "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times the "
@@ -236,14 +337,16 @@ std::string summary_text(const RunReport& report) {
     solver += fmt::format("; {:.3g} iterations/step", summary.iterations_per_step());
   text += entry("solver", solver);
   if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
+  for (const std::string& line : event_texts(report)) text += entry("event", line);
+  if (const std::string ending = ending_text(report); !ending.empty())
+    text += entry("ended", ending);
   text += entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
+    if (is_watched(*report.scene, plugin.invariant_names[i])) continue;
     const bool formula = is_formula(plugin.invariant_names[i], *report.scene);
     text += entry(formula ? "observed" : "invariant", invariant_text(report, i));
   }
-  const std::size_t n = report.state.size() / 2;
-  text += entry("last q", numbers(report, 0, n));
-  text += entry("last p", numbers(report, n, 2 * n));
+  text += entry("last state", last_state_text(report));
   if (report.certificate) text += entry("certified", certificate_sentence(*report.certificate));
   text += entry("time", time_text(report));
   if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
@@ -262,6 +365,8 @@ std::string json_text(const RunReport& report) {
                  {"steps_done", summary.steps_done},
                  {"status", runtime::to_text(summary.status)}};
   if (summary.status != runtime::Status::done) result["reason"] = failure_text(report);
+  if (const Json events = events_json(report); !events.empty()) result["events"] = events;
+  if (const Json ending = ending_json(report); !ending.is_null()) result["ended"] = ending;
   result["energy"] = energy_json(report);
   result["invariants"] = invariants_json(report);
   result["state"] = state_json(report.state, is_wide(report));

@@ -10,6 +10,14 @@
 namespace hamgen::app {
 namespace {
 
+std::vector<std::string> comment_texts(const std::vector<std::string>& metadata) {
+  std::vector<std::string> texts;
+  for (const std::string& line : metadata) texts.push_back(comment_text(line));
+  return texts;
+}
+
+}  // namespace
+
 std::vector<std::string> column_names(const Columns& columns) {
   // Of a model with a variable t of its own, that is the one; the run's clock begins at 0.
   const bool has_t = std::ranges::find(columns.state, "t") != columns.state.end();
@@ -27,13 +35,18 @@ std::vector<std::string> column_names(const Columns& columns) {
   return names;
 }
 
-std::vector<std::string> comment_texts(const std::vector<std::string>& metadata) {
-  std::vector<std::string> texts;
-  for (const std::string& line : metadata) texts.push_back(comment_text(line));
-  return texts;
+std::vector<double> row_values(const Columns& columns, const runtime::Record& record) {
+  std::vector<runtime::Wide> values;
+  for (const std::size_t place : columns.state_places) values.push_back(record.state[place]);
+  if (columns.energy) values.push_back(record.energy);
+  for (const std::size_t place : columns.places) values.push_back(record.invariants[place]);
+  std::vector<double> row = {record.time};
+  for (const runtime::Wide& value : values) row.push_back(value.hi);
+  if (columns.wide) {
+    for (const runtime::Wide& value : values) row.push_back(value.lo);
+  }
+  return row;
 }
-
-}  // namespace
 
 TrajectoryTable::TrajectoryTable(const std::string& target,
                                  const std::vector<std::string>& metadata, Columns columns)
@@ -57,22 +70,14 @@ TrajectoryTable::TrajectoryTable(const std::string& target,
       rows_(rows) {}
 
 void TrajectoryTable::add(const runtime::Record& record) {
-  values_.clear();
-  for (const std::size_t place : columns_.state_places) values_.push_back(record.state[place]);
-  if (columns_.energy) values_.push_back(record.energy);
-  for (const std::size_t place : columns_.places) values_.push_back(record.invariants[place]);
   ++rows_;
-  row_ = {record.time};
-  for (const runtime::Wide& value : values_) row_.push_back(value.hi);
-  if (columns_.wide) {
-    for (const runtime::Wide& value : values_) row_.push_back(value.lo);
-  }
+  const std::vector<double> row = row_values(columns_, record);
   if (file_) {
-    file_->write_row(record.step, row_);
+    file_->write_row(record.step, row);
     return;
   }
   std::string line = fmt::format("{}", record.step);
-  for (const double value : row_) line += "," + runtime::number_text(value);
+  for (const double value : row) line += "," + runtime::number_text(value);
   print_buffered(line + "\n");
 }
 

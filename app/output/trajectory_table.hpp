@@ -23,6 +23,11 @@ struct Columns {
   bool wide = false;                    // the scalar's digits are more than a double's
 };
 
+// "step", "t", then what they hold.
+[[nodiscard]] std::vector<std::string> column_names(const Columns& columns);
+// Of a record, a value for each of the names but the first.
+[[nodiscard]] std::vector<double> row_values(const Columns& columns, const runtime::Record& record);
+
 class TrajectoryTable {
  public:
   // The target "-" is standard output, where rows appear as they come.
@@ -44,8 +49,6 @@ class TrajectoryTable {
  private:
   Columns columns_;
   std::unique_ptr<runtime::CsvWriter> file_;  // null for standard output
-  std::vector<runtime::Wide> values_;         // of a row, without step and t
-  std::vector<double> row_;                   // without step
   long long rows_ = 0;
 };
 

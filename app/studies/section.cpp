@@ -25,10 +25,11 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
   runtime::InitialValues start = request.start;
   start.state = state;
   runtime::Integrator integrator(request.library, start);
-  const EventLocator locator(request.library, start, 0, request.direction);
-  const auto axes = [&](const std::vector<runtime::Wide>& at) {
+  const auto axes = [&](std::span<const runtime::Wide> at) {
     return request.library->invariants(start.parameters, at);
   };
+  const runtime::EventLocator locator(
+      request.library, start, [&](auto at) { return axes(at)[0].hi; }, request.direction);
   const auto begin = axes(state);
   SectionOrbit orbit;
   orbit.first = begin[1].hi;
@@ -45,9 +46,10 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
     ++orbit.steps;
     std::vector<runtime::Wide> after = integrator.state();
     const double value_after = locator.value(after);
-    if (const auto crossing = locator.within(before, value_before, after, value_after)) {
-      const auto values = axes(crossing->state);
-      const double steps = static_cast<double>(orbit.steps - 1) + crossing->fraction;
+    for (const runtime::Crossing& crossing :
+         locator.within(before, value_before, after, value_after)) {
+      const auto values = axes(crossing.state);
+      const double steps = static_cast<double>(orbit.steps - 1) + crossing.fraction;
       orbit.points.push_back({steps * start.h.hi, values[1].hi, values[2].hi});
     }
     before = std::move(after);

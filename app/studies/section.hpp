@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/studies/event.hpp"
 #include "app/studies/setting.hpp"
 #include "app/studies/stop.hpp"
+#include "runtime/event.hpp"
 #include "runtime/load_plugin.hpp"
 
 namespace hamgen::app {
@@ -26,7 +26,7 @@ struct SectionRequest {
   const PluginSource* plugin = nullptr;  // whose invariants are the three above
   std::shared_ptr<const runtime::Library> library;
   runtime::InitialValues start;  // of the scene
-  Direction direction = Direction::rising;
+  runtime::Direction direction = runtime::Direction::rising;
   double energy = 0.0;
   // Places in the state: of the variables of the axes, of the coordinate that is constant on the
   // surface with its value there, and of the momentum that gives the energy.

@@ -45,17 +45,16 @@ class EnergyOfMomentum {
 
 // Does the quantity that is zero on the surface change in the direction that is asked for?
 bool goes_the_right_way(const SectionRequest& request, const State& state) {
-  if (request.direction == Direction::both) return true;
+  if (request.direction == runtime::Direction::both) return true;
   constexpr double kLittle = 1e-3;  // of a step
-  const EventLocator locator(request.library, request.start, 0, Direction::both);
-  runtime::InitialValues part = request.start;
-  part.h = {part.h.hi * kLittle, 0.0};
-  part.state = state;
-  runtime::Integrator integrator(request.library, part);
-  if (integrator.advance(1, false).status != runtime::Status::done) return false;
-  const double change = locator.value(integrator.state()) - locator.value(state);
+  const auto value = [&](const State& at) {
+    return request.library->invariants(request.start.parameters, at)[0].hi;
+  };
+  const auto after = runtime::part_of_step(request.library, request.start, state, {kLittle, 0.0});
+  if (!after) return false;
+  const double change = value(*after) - value(state);
   return (request.start.h.hi > 0 ? change : -change) *
-             (request.direction == Direction::rising ? 1.0 : -1.0) >
+             (request.direction == runtime::Direction::rising ? 1.0 : -1.0) >
          0.0;
 }
 

@@ -28,6 +28,9 @@ class Declarations {
     for (const Formula& each : syntax_.invariants) {
       symbols_.declare(each.name, {.kind = SymbolKind::invariant, .span = each.name.span});
     }
+    for (const ModelEvent& each : syntax_.events) {
+      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::event, .span = each.span});
+    }
     // Values may use names declared further down.
     check_boundaries();
     check_parameters();

@@ -76,6 +76,13 @@ bool ExpressionParser::at_line_end() const {
   return peek().kind == TokenKind::newline || peek().kind == TokenKind::end;
 }
 
+bool ExpressionParser::at_direction() const {
+  const std::string_view word = peek().text;
+  if (peek().kind != TokenKind::name || (word != "rising" && word != "falling")) return false;
+  const TokenKind behind = peek(1).kind;
+  return behind == TokenKind::newline || behind == TokenKind::end;
+}
+
 void ExpressionParser::fail(Span span, std::string message, std::string help) const {
   if (peek().kind == TokenKind::bad) throw SyntaxError{};
   throw SyntaxError{Diagnostic{Severity::error, span, std::move(message), std::move(help)}};
@@ -129,6 +136,7 @@ ExpressionParser::Tree ExpressionParser::product() {
 // "2q", "q p", "2(q + 1)": two operands side by side.
 void ExpressionParser::missing_operator() const {
   const Token& after = peek();
+  if (at_direction()) return;
   const bool operand =
       after.kind == TokenKind::name || after.kind == TokenKind::number || is_symbol(after, "(");
   if (operand) {

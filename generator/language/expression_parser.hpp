@@ -32,6 +32,8 @@ class ExpressionParser {
   const Token& next();
   bool accept(std::string_view symbol);
   [[nodiscard]] bool at_line_end() const;
+  // A last word `rising` or `falling`: of an event, behind its expression.
+  [[nodiscard]] bool at_direction() const;
   // How often a token was looked at: the work so far.
   [[nodiscard]] std::size_t looks() const { return looks_; }
 

@@ -64,6 +64,16 @@ struct Invariant {
   bool only_observed = false;  // nobody says that it is conserved
 };
 
+// What is looked for along an orbit: where the value crosses zero.
+struct ModelEvent {
+  std::string name;
+  NodePtr value;
+  std::string text;                    // as written, with its direction
+  bool rising = true, falling = true;  // the directions that count
+  std::string comment = {};
+  Span span = {};
+};
+
 // One line of a scene: "q = 3.1", "q[i] = sin(pi*i/(N+1))", "q[2] = 1", "q = [1, 0, 0]", "eps = 1".
 struct Setting {
   std::string name;
@@ -107,6 +117,7 @@ struct Model {
   NodePtr hamiltonian;  // without the p_t that `time t` adds
   std::string hamiltonian_text;
   std::vector<Invariant> invariants;
+  std::vector<ModelEvent> events;
   std::vector<Scene> scenes;
   std::vector<Diagnostic> warnings;
 };

@@ -42,8 +42,8 @@ class Parser {
  private:
   // What a line would have declared, had it been right.
   void spoil(std::size_t begin, std::size_t end) {
-    static const std::set<std::string_view> others = {"system", "parameter", "let",
-                                                      "H",      "invariant", "scene"};
+    static const std::set<std::string_view> others = {"system",    "parameter", "let",  "H",
+                                                      "invariant", "event",     "scene"};
     const auto at = [this](std::size_t offset) {
       return std::ranges::lower_bound(lexed_.tokens, offset, {},
                                       [](const Token& token) { return token.span.begin; });
@@ -76,6 +76,7 @@ class Parser {
     if (word.text == "let") return syntax_.definitions.push_back(formula("let"));
     if (word.text == "H") return hamiltonian(word);
     if (word.text == "invariant") return syntax_.invariants.push_back(formula("invariant"));
+    if (word.text == "event") return event();
     if (word.text == "scene") return scene();
     unknown_statement(word);
   }
@@ -252,6 +253,19 @@ class Parser {
     syntax_.parameters.push_back(std::move(result));
   }
 
+  // event hit = r - 1e-3 falling
+  void event() {
+    const std::string_view example = "event hit = r - 1e-3 falling";
+    const Name name = new_name(example);
+    equals(example);
+    ModelEvent result = crossing(in_, source_);
+    result.name = name.text;
+    result.span = name.span;
+    in_.expect_operator_or_end();
+    result.comment = end();
+    syntax_.events.push_back(std::move(result));
+  }
+
   void scene() {
     const Token& name = in_.peek();
     if (name.kind != TokenKind::name) in_.expected("a name", "write scene NAME { ... }");
@@ -296,6 +310,10 @@ Setting parse_setting(const SourceText& source) {
 
 std::vector<Observed> parse_observed(const SourceText& source) {
   return parse_alone(source, [](ExpressionParser& in) { return observed_list(in); });
+}
+
+EndSyntax parse_end_of_run(const SourceText& source) {
+  return parse_alone(source, [&](ExpressionParser& in) { return end_of_run(in, source); });
 }
 
 NodePtr parse_expression(const SourceText& source) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "generator/language/event_parser.hpp"
 #include "generator/language/syntax.hpp"
 
 namespace hamgen {
@@ -14,6 +15,8 @@ namespace hamgen {
 [[nodiscard]] Setting parse_setting(const SourceText& source);
 // What a scene observes, "energy, q[2], r = sqrt(x^2)", likewise.
 [[nodiscard]] std::vector<Observed> parse_observed(const SourceText& source);
+// What ends a run, likewise.
+[[nodiscard]] EndSyntax parse_end_of_run(const SourceText& source);
 
 // One expression that fills its text.  Throws ModelError.
 [[nodiscard]] NodePtr parse_expression(const SourceText& source);

@@ -48,6 +48,12 @@ class ModelReader {
                                    .span = each.name.span});
       check_length(each);
     }
+    for (const ModelEvent& each : syntax_.events) {
+      check_formula(each.value, formula_role(std::nullopt));
+      model_.events.push_back(each);
+      check_length(
+          {.name = {each.name, each.span}, .value = each.value, .text = {}, .comment = {}});
+    }
     read_scenes(!sizes.empty());
     throw_if_wrong();
     if (sizes.empty()) evaluate_scenes();
@@ -214,6 +220,7 @@ class ModelReader {
     };
     for (const Definition& each : model_.definitions) use(each.value);
     for (const Invariant& each : model_.invariants) use(each.value);
+    for (const ModelEvent& each : model_.events) use(each.value);
     for (const Parameter& each : model_.parameters) {
       std::ranges::for_each(each.values, use);
     }

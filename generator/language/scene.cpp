@@ -53,18 +53,9 @@ class SceneReader {
  public:
   SceneReader(const Model& model, const SceneRequest& request)
       : model_(model), request_(request), symbols_(model.source, mistakes_) {
-    for (const Size& each : model.sizes) {
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::size, .span = each.span});
-      values_[each.name] = each.value;
-    }
+    declare_names(model, symbols_);
+    for (const Size& each : model.sizes) values_[each.name] = each.value;
     known_ = values_;
-    declare(model.coordinates, SymbolKind::coordinate);
-    declare(model.momenta, SymbolKind::momentum);
-    declare(model.parameters, SymbolKind::parameter);
-    for (const Definition& each : model.definitions)
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::definition, .span = each.span});
-    for (const Invariant& each : model.invariants)
-      symbols_.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
   }
 
   SceneValues run() { return run(find_scene()); }
@@ -90,15 +81,6 @@ class SceneReader {
   }
 
  private:
-  template <typename Declared>
-  void declare(const std::vector<Declared>& declared, SymbolKind kind) {
-    for (const Declared& each : declared) {
-      if (symbols_.find(each.name) != nullptr) continue;
-      symbols_.declare({each.name, each.span},
-                       {.kind = kind, .span = each.span, .range = each.range});
-    }
-  }
-
   void stop_if_wrong() const {
     if (!mistakes_.empty()) throw ModelError(mistakes_, model_.source);
   }
@@ -289,12 +271,31 @@ class SceneReader {
     const Scene none;
     const Scene& scene = scene_ != nullptr ? *scene_ : none;
     result.h = run_value("h", request_.h, scene.h, step_size);
-    const auto steps =
-        run_value("steps", request_.steps, scene.steps, count("the number of steps", 0));
+    const auto steps = request_.time ? steps_of_time(result)
+                                     : run_value("steps", request_.steps, scene.steps,
+                                                 count("the number of steps", 0));
     const auto every = run_value("every", {}, scene.every, count("the recording interval", 1));
     if (!mistakes_.empty()) return;
     if (steps) result.steps = steps->get_num().get_si();
     if (every) result.every = every->get_num().get_si();
+  }
+
+  // As many steps as the time has room for: the last one ends at it, or before.
+  std::optional<Rational> steps_of_time(const SceneValues& values) {
+    if (request_.steps)
+      throw UsageError(fmt::format("--time {} and --steps {} both say how long\nhelp: drop one",
+                                   *request_.time, *request_.steps));
+    const auto any = [](const Rational&) -> std::string { return {}; };
+    const Rational time = run_value("time", request_.time, nullptr, any).value();
+    if (!values.h) return std::nullopt;
+    const Rational ratio = time / *values.h;
+    if (sgn(ratio) < 0)
+      throw UsageError(fmt::format("--time {} and h = {} go in opposite directions", *request_.time,
+                                   short_text(*values.h)));
+    if (ratio > most_steps)
+      throw UsageError(fmt::format("--time {}: more than 1e15 steps of h = {}", *request_.time,
+                                   short_text(*values.h)));
+    return Rational(Integer(ratio.get_num() / ratio.get_den()));
   }
 
   const Model& model_;
@@ -362,12 +363,16 @@ std::set<std::string> names_computed_from(const Model& model, const SceneRequest
   for (const Setting& setting : settings) add(setting.name, setting.values);
   if (chosen != model.scenes.end()) {
     if (chosen->h && !request.h) add("h", {chosen->h});
-    if (chosen->steps && !request.steps) add("steps", {chosen->steps});
+    if (chosen->steps && !request.steps && !request.time) add("steps", {chosen->steps});
   }
   std::vector<std::string> parameters = element_names(model.parameters);
   for (const Size& size : model.sizes) parameters.push_back(size.name);
   if (request.h) add("h", {read_expression("--h", *request.h, parameters)});
   if (request.steps) add("steps", {read_expression("--steps", *request.steps, parameters)});
+  if (request.time) {
+    add("steps", {read_expression("--time", *request.time, parameters)});
+    if (found.contains("h")) found.insert("steps");
+  }
   return found;
 }
 

@@ -20,6 +20,7 @@ struct SceneRequest {
   std::vector<std::pair<std::string, std::string>> reference = {};
   std::optional<std::string> h = {};
   std::optional<std::string> steps = {};
+  std::optional<std::string> time = {};     // --time T: as many whole steps as it has room for
   std::optional<std::string> observe = {};  // --observe LIST
 };
 
@@ -43,6 +44,8 @@ struct SceneValues {
   // "energy", invariants, elements of the state, names of formulas; empty: all there is.
   std::vector<std::string> observe = {};
   std::vector<ObservedFormula> formulas = {};
+  // Computed for the run itself: not observed, and in none of its results.
+  std::vector<ObservedFormula> watched = {};
 };
 
 // Is it observed?

@@ -7,6 +7,17 @@
 #include "generator/base/utf8.hpp"
 
 namespace hamgen {
+namespace {
+
+template <typename Declared>
+void declare_arrays(const std::vector<Declared>& declared, SymbolKind kind, Symbols& symbols) {
+  for (const Declared& each : declared) {
+    if (symbols.find(each.name) != nullptr) continue;
+    symbols.declare({each.name, each.span}, {.kind = kind, .span = each.span, .range = each.range});
+  }
+}
+
+}  // namespace
 
 std::string_view description(SymbolKind kind) {
   switch (kind) {
@@ -22,6 +33,8 @@ std::string_view description(SymbolKind kind) {
       return "a definition";
     case SymbolKind::invariant:
       return "an invariant";
+    case SymbolKind::event:
+      return "an event";
   }
   internal_error("unknown kind of symbol");
 }
@@ -72,6 +85,20 @@ std::string Symbols::suggestion(const std::string& name,
   }
   if (candidates.empty() || candidates.size() > 12) return {};
   return fmt::format("declared are {}", fmt::join(candidates, ", "));
+}
+
+void declare_names(const Model& model, Symbols& symbols) {
+  for (const Size& each : model.sizes)
+    symbols.declare({each.name, each.span}, {.kind = SymbolKind::size, .span = each.span});
+  declare_arrays(model.coordinates, SymbolKind::coordinate, symbols);
+  declare_arrays(model.momenta, SymbolKind::momentum, symbols);
+  declare_arrays(model.parameters, SymbolKind::parameter, symbols);
+  for (const Definition& each : model.definitions)
+    symbols.declare({each.name, each.span}, {.kind = SymbolKind::definition, .span = each.span});
+  for (const Invariant& each : model.invariants)
+    symbols.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
+  for (const ModelEvent& each : model.events)
+    symbols.declare({each.name, each.span}, {.kind = SymbolKind::event, .span = each.span});
 }
 
 }  // namespace hamgen

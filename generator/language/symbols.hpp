@@ -12,7 +12,7 @@
 
 namespace hamgen {
 
-enum class SymbolKind { size, coordinate, momentum, parameter, definition, invariant };
+enum class SymbolKind { size, coordinate, momentum, parameter, definition, invariant, event };
 
 // "a coordinate"
 [[nodiscard]] std::string_view description(SymbolKind kind);
@@ -53,5 +53,8 @@ class Symbols {
   std::map<std::string, Symbol> symbols_;
   std::set<std::string> spoiled_;
 };
+
+// All names of a model.
+void declare_names(const Model& model, Symbols& symbols);
 
 }  // namespace hamgen

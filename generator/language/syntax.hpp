@@ -71,6 +71,7 @@ struct Syntax {
   std::vector<Formula> definitions;
   std::vector<Formula> hamiltonians;
   std::vector<Formula> invariants;
+  std::vector<ModelEvent> events;
   std::vector<SceneStatement> scenes;
   std::vector<Diagnostic> diagnostics;
   bool variables_are_read = true;    // no line that could not be read may have declared one

@@ -223,6 +223,13 @@ std::string to_text(const Model& model) {
     text += fmt::format("invariant {} = {}{}\n", each.name, to_text(each.value),
                         comment_text(each.comment));
   }
+  for (const ModelEvent& each : model.events) {
+    text += fmt::format("event {} = {}{}{}\n", each.name, to_text(each.value),
+                        !each.falling  ? " rising"
+                        : !each.rising ? " falling"
+                                       : "",
+                        comment_text(each.comment));
+  }
   for (const Scene& each : model.scenes) text += scene_text(each);
   return text;
 }

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> meanings
 const std::vector<std::string>& statement_words() {
   static const std::vector<std::string> words = {"system",    "size",      "coordinate", "momentum",
                                                  "time",      "parameter", "let",        "H",
-                                                 "invariant", "scene"};
+                                                 "invariant", "event",     "scene"};
   return words;
 }
 

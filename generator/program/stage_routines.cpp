@@ -2,12 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <set>
+
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/stage_numbers.hpp"
 
 namespace hamgen {
 
 namespace {
+
+// An entry of T''.
+struct KineticEntry {
+  int row, column;
+  Expression value;
+};
+
+// T'' of a separable H that is written out, if it is constant; else nothing.
+std::vector<KineticEntry> constant_kinetic_entries(const SolvePlan& plan) {
+  const Mechanics& mechanics = plan.equations.mechanics;
+  if (plan.arrays || !mechanics.is_separable()) return {};
+  const int n = mechanics.degrees_of_freedom;
+  std::set<std::string> variables;
+  for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  std::vector<KineticEntry> entries;
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      const Expression value = mechanics.second_derivative(n + row, n + column);
+      const std::set<std::string> used = symbols(value);
+      if (std::ranges::any_of(used, [&](const auto& name) { return variables.contains(name); }))
+        return {};
+      if (!value.is_zero()) entries.push_back({row, column, value});
+    }
+  }
+  return entries;
+}
 
 class StageRoutines {
  public:
@@ -18,7 +48,8 @@ class StageRoutines {
         solver_(*program.plan.stage_solver),
         stages_(static_cast<int>(program.sequence.stages.weight.size())),
         n_(environment.degrees_of_freedom),
-        dimension_(2 * n_) {}
+        dimension_(2 * n_),
+        masses_(constant_kinetic_entries(program.plan)) {}
 
   void add() {
     Coefficients coefficients = stage_coefficients(program_);
@@ -26,6 +57,7 @@ class StageRoutines {
     code_.routines.push_back(std::move(coefficients.prepare));
     code_.records.push_back(start());
     code_.routines.push_back(evaluate());
+    if (has_follow()) code_.routines.push_back(follow());
     if (has_newton()) code_.routines.push_back(differentiate());
     if (solver_ == StageSolver::both) {
       code_.routines.push_back(fixed_point());
@@ -41,6 +73,7 @@ class StageRoutines {
   [[nodiscard]] int unknowns() const { return stages_ * dimension_; }
   [[nodiscard]] bool has_newton() const { return solver_ != StageSolver::fixed_point; }
   [[nodiscard]] bool has_fixed_point() const { return solver_ != StageSolver::newton; }
+  [[nodiscard]] bool has_follow() const { return has_fixed_point() && !masses_.empty(); }
 
   [[nodiscard]] Record start() const {
     Record record{.name = "Start",
@@ -56,6 +89,7 @@ class StageRoutines {
     record.fields.push_back(
         {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
     array("lack", unknowns(), "of the equations at Y_i, then the increment");
+    if (has_follow()) array("pushed", stages_ * n_, "h b_i T'' lack of the momenta");
     if (has_fixed_point()) {
       const bool impatient = solver_ == StageSolver::both;
       record.fields.push_back(
@@ -141,6 +175,46 @@ class StageRoutines {
     return b.take();
   }
 
+  // Note [the coordinates follow]
+  // An iteration of a separable H takes the coordinates on by the momenta before it, and these by
+  // the coordinates before it: each is one iteration behind.  Where T'' is constant the velocities
+  // of the new momenta are known without another gradient, and the coordinates move by them at
+  // once:
+  //   lack_q += coupling h b T'' lack_p.
+  // That is the fixed point of Q alone, q + coupling h b T'(p - coupling h b V'(Q)): an iteration
+  // does what two did.  It ends where both lack nothing, so at the same stages.
+  [[nodiscard]] Routine follow() const {
+    RoutineBuilder b({.name = "follow",
+                      .remark = {"The coordinates follow what the momenta lack at once: T is "
+                                 "quadratic."},
+                      .arguments = with_start(false)});
+    environment_.bind_parameters(b.routine());
+    const Expression scaled = b.at("k", "scaled", {affine("i")});
+    std::map<int, Expression> rows;
+    for (const KineticEntry& entry : masses_) {
+      const Expression lack = of_start(b, "lack", affine("i", n_ + entry.column, dimension_));
+      rows.try_emplace(entry.row, 0).first->second += entry.value * lack;
+    }
+    Body push;
+    for (const auto& [j, velocity] : rows) {
+      const Expression pushed = of_start(b, "pushed", affine("i", j, n_));
+      push.push_back({Assign{pushed.name(), scaled * velocity}});
+    }
+    b.body().push_back(for_each(all_stages(), std::move(push)));
+    Expression sum(0);
+    for (int m = 0; m < stages_; ++m) {
+      const Expression entry = b.at("k", "coupling", {affine("i"), affine(m)});
+      sum += entry * of_start(b, "pushed", affine("j", static_cast<long>(m) * n_));
+    }
+    Body move;
+    const Expression moved = b.let(move, "moved", sum);
+    move.push_back({Accumulate{of_start(b, "lack", row()).name(), moved}});
+    Body coordinates;
+    coordinates.push_back(for_each(counting("j", n_), std::move(move)));
+    b.body().push_back(for_each(all_stages(), std::move(coordinates)));
+    return b.take();
+  }
+
   // I - coupling h b J H'' with the Hessian at the mean of the stages.
   [[nodiscard]] Routine differentiate() const {
     RoutineBuilder b(
@@ -200,6 +274,7 @@ class StageRoutines {
 
   void add_fixed_point(RoutineBuilder& b) const {
     Body body{{call("evaluate")}};
+    if (has_follow()) body.push_back({call("follow")});
     b.body().push_back({iteration(b, Rule::fixed_point, std::move(body))});
   }
 
@@ -294,9 +369,15 @@ class StageRoutines {
         break;
     }
     Body again{{call("evaluate")}};
+    const Place factorised{"start", "factorised"};
     if (has_newton()) {
       Body contract{{SolveFactorised{{"start", "matrix"}, {"start", "lack"}}}};
-      again.push_back({If{{"start", "factorised"}, true, std::move(contract)}});
+      again.push_back({If{factorised, true, std::move(contract)}});
+    }
+    if (has_follow()) {
+      Body push{{call("follow")}};
+      if (has_newton()) push = {{If{factorised, false, std::move(push)}}};
+      for (Instruction& instruction : push) again.push_back(std::move(instruction));
     }
     b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
                                     .point = {"start", "value"},
@@ -356,6 +437,7 @@ class StageRoutines {
   const Program& program_;
   StageSolver solver_;
   int stages_, n_, dimension_;
+  std::vector<KineticEntry> masses_;
 };
 
 }  // namespace

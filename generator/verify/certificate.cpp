@@ -14,6 +14,7 @@ namespace hamgen {
 namespace {
 
 constexpr std::size_t kMostTermsOfCertificate = 20000;
+constexpr int kMostCertified = 64;  // degrees of freedom
 
 // Functions whose derivatives are polynomials in themselves and these.
 constexpr std::string_view kCertified[] = {"sin", "cos",  "tan",  "exp",
@@ -21,9 +22,9 @@ constexpr std::string_view kCertified[] = {"sin", "cos",  "tan",  "exp",
 
 [[noreturn]] void refuse_certificate(const std::string& why) {
   throw UsageError(fmt::format(
-      "--certificate: {}\nhelp: there are certificates of members of the family, of systems that "
-      "are written out and made of powers, roots, sin, cos, tan, exp, log, sinh, cosh, tanh",
-      why));
+      "--certificate: {}\nhelp: there are certificates of members of the family, of systems of up "
+      "to {} degrees of freedom made of powers, roots, sin, cos, tan, exp, log, sinh, cosh, tanh",
+      why, kMostCertified));
 }
 
 // The common denominator of the powers of every base.
@@ -333,11 +334,16 @@ class CertificateWriter {
 
 }  // namespace
 
+void require_certified_size(const Mechanics& mechanics) {
+  const int n = mechanics.degrees_of_freedom;
+  if (n > kMostCertified) refuse_certificate(fmt::format("{} degrees of freedom", n));
+}
+
 ProofCertificate make_certificate(const Mechanics& mechanics, const Scheme& scheme, bool symmetric,
                                   const std::vector<NamedExpression>& invariants) {
   if (!scheme.is_member()) refuse_certificate(scheme.name + " is no member of the family");
   if (scheme.member().generating_order > 0) refuse_certificate("a step that takes K in place of H");
-  if (mechanics.keeps_sums()) refuse_certificate("the sums of this system stay loops");
+  require_certified_size(mechanics);
   if (!mechanics.constants.empty())
     refuse_certificate("parameters whose values are part of the code");
   Mechanics unified = mechanics;

@@ -43,10 +43,13 @@ struct ProofCertificate {
   std::vector<CertificateInvariant> invariants;
 };
 
-// Of a member of the family whose system is written out.  `invariants` are those that are conserved
-// along the flow.  Throws UsageError for what there is no certificate of.
+// Of a member of the family, for a system that is written out.  `invariants` are those that are
+// conserved along the flow.  Throws UsageError for what there is no certificate of.
 [[nodiscard]] ProofCertificate make_certificate(const Mechanics& mechanics, const Scheme& scheme,
                                                 bool symmetric,
                                                 const std::vector<NamedExpression>& invariants);
+
+// Throws UsageError for a system that is too large: C has (2n)^2 entries.
+void require_certified_size(const Mechanics& mechanics);
 
 }  // namespace hamgen

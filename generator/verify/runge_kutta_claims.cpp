@@ -178,6 +178,7 @@ Identities implicit_identities(const StepUnderProof& step, const RungeKutta& tab
   };
   claims.add_count("the number of iterations", machine.iterations.empty() ? 0 : 1, 1);
   if (machine.iterations.empty()) return claims.take();
+  const bool follows = step.code.routine("follow") != nullptr;
   std::size_t system = 0;
   for (const IterationTrace& trace : machine.iterations) {
     claims.add_count("the number of stages", trace.unknowns.size(), at(stages * dimension));
@@ -185,14 +186,35 @@ Identities implicit_identities(const StepUnderProof& step, const RungeKutta& tab
     const bool newton = trace.rule != Rule::fixed_point;
     if (newton && system == machine.systems.size()) break;
     const EliminatedSystem* solved = newton ? &machine.systems[system++] : nullptr;
+    const auto lack_of = [&](long i, long j) {
+      Expression lack = step.mechanics.variable(static_cast<int>(j)) +
+                        step.carry(static_cast<int>(j)) - trace.unknowns[at(i * dimension + j)];
+      for (long m = 0; m < stages; ++m) lack += coupling[at(i * stages + m)] * slope(trace, m, j);
+      return lack;
+    };
+    // Of a fixed point: what the coordinates move by because the momenta do.  A triangular matrix
+    // with the diagonal 1 takes one to the other, so that both vanish where the equations hold.
+    const auto followed = [&](long i, long j) {
+      Expression sum(0);
+      const long n = dimension / 2;
+      if (solved != nullptr || !follows || j >= n) return sum;
+      for (long m = 0; m < stages; ++m) {
+        Expression velocity(0);
+        for (long c = n; c < dimension; ++c) {
+          const Expression entry =
+              step.mechanics.second_derivative(static_cast<int>(j + n), static_cast<int>(c));
+          if (!entry.is_zero()) velocity += entry * lack_of(m, c);
+        }
+        sum += coupling[at(i * stages + m)] * scaled[at(m)] * velocity;
+      }
+      return sum;
+    };
     for (long i = 0; i < stages; ++i) {
       for (long j = 0; j < dimension; ++j) {
         const std::size_t row = at(i * dimension + j);
-        Expression lack = step.mechanics.variable(static_cast<int>(j)) +
-                          step.carry(static_cast<int>(j)) - trace.unknowns[row];
-        for (long m = 0; m < stages; ++m) lack += coupling[at(i * stages + m)] * slope(trace, m, j);
         claims.add(fmt::format("what stage {} lacks of {}", i + 1, step.name(static_cast<int>(j))),
-                   solved != nullptr ? solved->right_side.at(row) : trace.corrections[row], lack);
+                   solved != nullptr ? solved->right_side.at(row) : trace.corrections[row],
+                   lack_of(i, j) + followed(i, j));
         if (solved == nullptr) continue;
         claims.add(
             fmt::format("the increment of stage {}, {}", i + 1, step.name(static_cast<int>(j))),

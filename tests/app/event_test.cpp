@@ -1,5 +1,5 @@
 // Crossings: found to rounding, of the order of the step.
-#include "app/studies/event.hpp"
+#include "runtime/event.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,18 @@
 namespace hamgen::app_test {
 namespace {
 
-using app::Crossing;
-using app::Direction;
-using app::EventLocator;
+using runtime::Crossing;
+using runtime::Direction;
+using runtime::EventLocator;
+using State = std::vector<runtime::Wide>;
+
+// Of the first invariant.
+EventLocator locator_of(const InterpretedOrbit& orbit, Direction direction) {
+  const auto value = [&orbit](std::span<const runtime::Wide> state) {
+    return orbit.library->invariants(orbit.start.parameters, state)[0].hi;
+  };
+  return {orbit.library, orbit.start, value, direction};
+}
 
 // q = cos(t), p = -sin(t).
 constexpr const char* kOscillator =
@@ -29,15 +38,17 @@ struct Found {
 // The first time at which q vanishes: pi/2.  And what the cubic through both ends and slopes says.
 Found first_zero(const std::string& scheme, double h) {
   const auto orbit = interpreted_orbit(kOscillator, scheme, std::to_string(h));
-  const EventLocator locator(orbit->library, orbit->start, 0, Direction::both);
+  const EventLocator locator = locator_of(*orbit, Direction::both);
   runtime::Integrator integrator(orbit->library, orbit->start);
   auto before = integrator.state();
   for (int step = 0; step < 100'000; ++step) {
     EXPECT_EQ(integrator.advance(1, false).status, runtime::Status::done);
     const auto after = integrator.state();
-    const auto crossing = locator.within(before, before[0].hi, after, after[0].hi);
-    if (crossing) {
-      Found found{.time = h * (step + crossing->fraction), .value = crossing->state[0].hi};
+    const auto crossings = locator.within(before, before[0].hi, after, after[0].hi);
+    if (!crossings.empty()) {
+      EXPECT_EQ(crossings.size(), 1U);
+      const Crossing& crossing = crossings[0];
+      Found found{.time = h * (step + crossing.fraction), .value = crossing.state[0].hi};
       double low = 0.0;
       double high = 1.0;
       for (int i = 0; i < 60; ++i) {
@@ -85,19 +96,78 @@ TEST(Event, IsARootToRounding) {
 
 TEST(Event, KnowsItsDirection) {
   const auto orbit = interpreted_orbit(kOscillator, "gauss-4", "0.1");
-  const std::vector<runtime::Wide> left = {{-0.01, 0.0}, {1.0, 0.0}};
-  const std::vector<runtime::Wide> right = {{0.09, 0.0}, {0.99, 0.0}};
-  const auto crosses = [&](Direction direction, double from, double to) {
-    const EventLocator locator(orbit->library, orbit->start, 0, direction);
-    return locator.within(left, from, right, to).has_value();
+  const State left = {{-0.01, 0.0}, {1.0, 0.0}};
+  const auto right = runtime::part_of_step(orbit->library, orbit->start, left, {1.0, 0.0});
+  ASSERT_TRUE(right);
+  const auto crosses = [&](Direction direction, double sign, double line) {
+    const auto value = [=](std::span<const runtime::Wide> state) {
+      return sign * (state[0].hi - line);
+    };
+    return !EventLocator(orbit->library, orbit->start, value, direction)
+                .within(left, value(left), *right, value(*right))
+                .empty();
   };
-  EXPECT_TRUE(crosses(Direction::rising, -0.01, 0.09));
-  EXPECT_FALSE(crosses(Direction::falling, -0.01, 0.09));
-  EXPECT_TRUE(crosses(Direction::both, -0.01, 0.09));
-  EXPECT_FALSE(crosses(Direction::both, 0.01, 0.09));
+  EXPECT_TRUE(crosses(Direction::rising, 1, 0));
+  EXPECT_FALSE(crosses(Direction::falling, 1, 0));
+  EXPECT_TRUE(crosses(Direction::both, 1, 0));
+  EXPECT_TRUE(crosses(Direction::falling, -1, 0));
+  EXPECT_FALSE(crosses(Direction::rising, -1, 0));
+  EXPECT_FALSE(crosses(Direction::both, 1, 0.2));
   // A zero belongs to the step that ends there.
-  EXPECT_TRUE(crosses(Direction::rising, -0.01, 0.0));
-  EXPECT_FALSE(crosses(Direction::rising, 0.0, 0.09));
+  EXPECT_TRUE(crosses(Direction::rising, 1, (*right)[0].hi));
+  EXPECT_FALSE(crosses(Direction::rising, 1, left[0].hi));
+}
+
+// A step from just before a turn to just behind it crosses a line below the turn twice; the signs
+// at its ends are the same.
+TEST(Event, FindsTwoCrossingsInOneStep) {
+  const auto orbit = interpreted_orbit(kOscillator, "gauss-8", "0.6");
+  for (const double depth : {0.04, 0.01, 1e-3, 1e-6, 1e-9}) {
+    // q = cos(t) from t = -0.3 to 0.3, against 1 - depth: at t = -+acos(1 - depth).
+    const State before = {{std::cos(0.3), 0.0}, {std::sin(0.3), 0.0}};
+    const auto after = runtime::part_of_step(orbit->library, orbit->start, before, {1.0, 0.0});
+    ASSERT_TRUE(after);
+    const auto value = [depth](std::span<const runtime::Wide> state) {
+      return state[0].hi - (1.0 - depth);
+    };
+    const auto within = [&](Direction direction) {
+      return EventLocator(orbit->library, orbit->start, value, direction)
+          .within(before, value(before), *after, value(*after));
+    };
+    const auto both = within(Direction::both);
+    ASSERT_EQ(both.size(), 2U) << depth;
+    const double t = std::acos(1.0 - depth);
+    // A relative error of rounding in depth is one of half as much in t; the step's own is 1e-10.
+    const double tolerance = 1e-9 + 4e-16 / t;
+    EXPECT_NEAR(both[0].fraction, 0.5 - t / 0.6, tolerance) << depth;
+    EXPECT_NEAR(both[1].fraction, 0.5 + t / 0.6, tolerance) << depth;
+    const auto rising = within(Direction::rising);
+    ASSERT_EQ(rising.size(), 1U) << depth;
+    EXPECT_EQ(rising[0].fraction, both[0].fraction);
+    EXPECT_EQ(within(Direction::falling).size(), 1U);
+  }
+  // The negative control: a line above the turn is not crossed.
+  const auto above = [](std::span<const runtime::Wide> state) { return state[0].hi - 1.001; };
+  const State before = {{std::cos(0.3), 0.0}, {std::sin(0.3), 0.0}};
+  const auto after = runtime::part_of_step(orbit->library, orbit->start, before, {1.0, 0.0});
+  EXPECT_TRUE(EventLocator(orbit->library, orbit->start, above, Direction::both)
+                  .within(before, above(before), *after, above(*after))
+                  .empty());
+}
+
+// Three and more: cos(8 t) over a step of 0.6 changes its sign twice, with q = cos(t).
+TEST(Event, FindsManyCrossingsInTheirOrder) {
+  const auto orbit = interpreted_orbit(kOscillator, "gauss-8", "0.6");
+  const State before = {{1.0, 0.0}, {0.0, 0.0}};
+  const auto after = runtime::part_of_step(orbit->library, orbit->start, before, {1.0, 0.0});
+  const auto value = [](std::span<const runtime::Wide> state) {
+    return std::cos(8.0 * std::atan2(-state[1].hi, state[0].hi));
+  };
+  const auto found = EventLocator(orbit->library, orbit->start, value, Direction::both)
+                         .within(before, value(before), *after, value(*after));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].fraction * 0.6, std::numbers::pi / 16, 1e-9);
+  EXPECT_NEAR(found[1].fraction * 0.6, 3 * std::numbers::pi / 16, 1e-9);
 }
 
 }  // namespace

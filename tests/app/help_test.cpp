@@ -6,8 +6,8 @@ namespace hamgen::app_test {
 namespace {
 
 const std::vector<std::string> commands = {
-    "new",  "check",  "show",    "generate", "run",   "bench",    "report", "stress",
-    "tune", "verify", "certify", "section",  "chaos", "ensemble", "list",   "cache"};
+    "new",    "check",   "show",    "generate", "run",  "bench",    "report", "stress", "tune",
+    "verify", "certify", "section", "chaos",    "plot", "ensemble", "list",   "cache"};
 
 // A screen is 24 lines of 100 columns.
 void expect_one_screen(const std::vector<std::string>& arguments) {

@@ -20,11 +20,13 @@ struct InterpretedOrbit {
 // The first scene of the model.
 inline std::shared_ptr<InterpretedOrbit> interpreted_orbit(const std::string& text,
                                                            const std::string& scheme,
-                                                           const std::string& h) {
+                                                           const std::string& h,
+                                                           const std::string& scalar = "") {
   auto orbit = std::make_shared<InterpretedOrbit>();
   orbit->source = make_source("model.ham", text);
   Request request;
   request.scheme = scheme;
+  request.scalar = scalar;
   orbit->plugin = generate_plugin(orbit->source, request);
   orbit->library = app::interpreted_integrator(orbit->source, request, orbit->plugin).library;
   const SceneValues scene =

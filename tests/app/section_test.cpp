@@ -62,12 +62,12 @@ TEST(Section, GivesTheLastMomentumTheEnergy) {
   std::vector<runtime::Wide> state(4);
   state[1] = {0.2, 0.0};
   state[3] = {-0.1, 0.0};
-  for (const auto direction : {app::Direction::rising, app::Direction::falling}) {
+  for (const auto direction : {runtime::Direction::rising, runtime::Direction::falling}) {
     request.direction = direction;
     const auto found = app::with_energy(request, state);
     ASSERT_TRUE(found);
     EXPECT_NEAR(orbit->library->energy(request.start.parameters, *found).hi, 0.125, 1e-16);
-    EXPECT_EQ((*found)[2].hi > 0, direction == app::Direction::rising);
+    EXPECT_EQ((*found)[2].hi > 0, direction == runtime::Direction::rising);
   }
   state[3] = {0.6, 0.0};  // v^2/2 alone is more
   EXPECT_FALSE(app::with_energy(request, state));
@@ -84,7 +84,7 @@ TEST(Section, FindsAMomentumThatIsCoupled) {
       "implicit-midpoint", "0.05");
   app::SectionRequest request = request_of(*orbit);
   request.energy = 0;
-  request.direction = app::Direction::falling;
+  request.direction = runtime::Direction::falling;
   std::vector<runtime::Wide> state = orbit->start.state;
   const auto found = app::with_energy(request, state);
   ASSERT_TRUE(found);

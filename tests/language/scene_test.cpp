@@ -86,6 +86,22 @@ TEST(Scene, options_of_the_command_line_win) {
   EXPECT_EQ(values.steps, 1000000);
 }
 
+TEST(Scene, a_time_is_as_many_steps_as_it_has_room_for) {
+  const auto steps = [](const std::string& time, const std::string& h) {
+    return scene_values(model(), {.scene = "first", .h = h, .time = time}).steps;
+  };
+  EXPECT_EQ(steps("1", "1/10"), 10);
+  EXPECT_EQ(steps("1", "3/10"), 3);
+  EXPECT_EQ(steps("-1", "-0.3"), 3);
+  EXPECT_EQ(steps("e*10", "e/2"), 20);
+  EXPECT_EQ(steps("0", "1"), 0);
+  EXPECT_EQ(scene_values(model(), {.scene = "first", .time = "1"}).steps, 10);
+  EXPECT_EQ(refusal({.steps = "3", .time = "1"}),
+            "--time 1 and --steps 3 both say how long\nhelp: drop one");
+  EXPECT_EQ(refusal({.time = "-1"}), "--time -1 and h = 1/10 go in opposite directions");
+  EXPECT_EQ(refusal({.time = "1e20"}), "--time 1e20: more than 1e15 steps of h = 1/10");
+}
+
 TEST(Scene, wrong_options_are_refused_by_name) {
   EXPECT_EQ(refusal({.scene = "frist"}), "x has no scene 'frist': did you mean 'first'?");
   EXPECT_EQ(refusal({.set = {{"e", "nan"}}}), "--set e=nan: not a finite number");

@@ -62,6 +62,7 @@ Counts read_all(const std::vector<Request>& requests, std::size_t every = 7) {
       counts.read += found.outcome == ReadBack::Outcome::same ? 1 : 0;
     }
   }
+  ::testing::Test::RecordProperty("texts", counts.read);
   return counts;
 }
 

@@ -1,0 +1,27 @@
+// A table of numbers small enough to draw.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hamgen::app {
+
+struct NumberTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  // a value for each column; not a number where it has none
+  long long each = 1;                     // of the rows there were, how far those kept are apart
+  bool is_whole = true;                   // a trajectory file that ends with its status
+
+  // Keeps every row at first, then every second, fourth, ...: at most as many as can be told apart.
+  void add(const std::vector<double>& row);
+
+ private:
+  long long seen_ = 0;
+};
+
+// Of a file as `run -o` writes it: remarks, a line of names, rows.  Throws UsageError with the
+// place where it is something else, or cut off within a line.
+[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& path);
+
+}  // namespace hamgen::app

@@ -1,0 +1,210 @@
+#include "app/output/trajectory_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/pieces.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr const char* kEnergyErrorColumn = "energy_error";
+constexpr std::size_t kMostLines = 8;  // in a panel
+
+class TrajectoryPlotter {
+ public:
+  TrajectoryPlotter(const NumberTable& table, const std::string& title)
+      : table_(table), title_(title) {
+    for (const char* name : {"H", "H+p_t"}) {
+      if (!energy_) energy_ = find(name);
+    }
+  }
+
+  Plot named(const std::string& columns) {
+    for (const std::string_view piece : outermost_pieces(columns)) {
+      std::vector<std::string> names;
+      std::string text(without_blanks(piece));
+      for (std::size_t colon; (colon = text.find(':')) != std::string::npos;) {
+        names.push_back(text.substr(0, colon));
+        text.erase(0, colon + 1);
+      }
+      names.push_back(text);
+      add(names);
+    }
+    return finish();
+  }
+
+  Plot usual() {
+    const std::vector<std::string> state = state_names();
+    const std::size_t n = state.size() / 2;
+    const auto begin = state.begin();
+    const auto middle = begin + static_cast<std::ptrdiff_t>(n);
+    if (n == 1) across(state[0], state[1], false);
+    if (n == 2 || n == 3) {
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) across(state[i], state[j], true);
+      }
+    }
+    if (n > 3) over_time({begin, middle}, "coordinates");
+    if (n > 0) over_time({middle, state.end()}, "momenta");
+    if (n == 0) over_time(others(), "");
+    if (energy_) over_time({kEnergyErrorColumn}, "energy error");
+    return finish();
+  }
+
+ private:
+  std::optional<std::size_t> find(const std::string& name) const {
+    const auto it = std::ranges::find(table_.columns, name);
+    if (it == table_.columns.end()) return {};
+    return static_cast<std::size_t>(it - table_.columns.begin());
+  }
+
+  std::size_t place_of_column(const std::string& name) const {
+    if (const auto place = find(name)) return *place;
+    std::vector<std::string> names = table_.columns;
+    if (energy_) names.emplace_back(kEnergyErrorColumn);
+    const std::string near = nearest(name, names);
+    throw UsageError(fmt::format("--columns: there is no '{}'\nhelp: {}", name,
+                                 near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                              : fmt::format("did you mean '{}'?", near)));
+  }
+
+  std::vector<double> values_of(const std::string& name) const {
+    const bool is_error = name == kEnergyErrorColumn && energy_ && !find(name);
+    const std::size_t place = is_error ? *energy_ : place_of_column(name);
+    std::vector<double> values;
+    for (const std::vector<double>& row : table_.rows)
+      values.push_back(row[place] - (is_error ? table_.rows.front()[place] : 0.0));
+    return values;
+  }
+
+  // Behind step and t, before H: q then p.
+  std::vector<std::string> state_names() const {
+    const std::size_t first = 2;
+    if (!energy_ || *energy_ <= first || (*energy_ - first) % 2 != 0) return {};
+    return {table_.columns.begin() + first,
+            table_.columns.begin() + static_cast<std::ptrdiff_t>(*energy_)};
+  }
+  std::vector<std::string> others() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 2; i < table_.columns.size(); ++i) {
+      if (i != energy_) names.push_back(table_.columns[i]);
+    }
+    return names;
+  }
+
+  // Rows that were left out between two make a line through them mean nothing.
+  PlotSeries series(const std::string& label, const std::vector<double>& x,
+                    const std::vector<double>& y, int colour) const {
+    PlotSeries result{.label = label,
+                      .points = {},
+                      .style = table_.each == 1 ? PlotStyle::lines : PlotStyle::dots,
+                      .colour = colour};
+    for (std::size_t i = 0; i < x.size(); ++i) result.points.push_back({x[i], y[i]});
+    return result;
+  }
+
+  void across(const std::string& x, const std::string& y, bool square) {
+    plot_.panels.push_back({.title = title(y + " over " + x),
+                            .x_label = x,
+                            .y_label = y,
+                            .square = square,
+                            .series = {series("", values_of(x), values_of(y), 0)}});
+  }
+
+  void over_time(const std::vector<std::string>& names, const std::string& what) {
+    if (names.empty()) return;
+    const std::string& time = table_.columns[std::min<std::size_t>(1, table_.columns.size() - 1)];
+    const std::vector<double> times = values_of(time);
+    const bool one = names.size() == 1;
+    PlotPanel panel{.title = title(what.empty() ? names.front() : what),
+                    .x_label = time,
+                    .y_label = one && names.front() != kEnergyErrorColumn ? names.front()
+                               : one                                      ? "H - H(0)"
+                                                                          : what,
+                    .series = {}};
+    for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
+      panel.series.push_back(
+          series(one ? "" : names[i], times, values_of(names[i]), static_cast<int>(i)));
+    plot_.panels.push_back(std::move(panel));
+  }
+
+  // The diagonal of the axes is the line of sight: each leaves it by 120 degrees from the others.
+  void along_diagonal(const std::vector<std::string>& names) {
+    std::array<std::vector<double>, 3> values;
+    std::array<double, 3> low{}, high{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      values[i] = values_of(names[i]);
+      low[i] = std::numeric_limits<double>::infinity();
+      high[i] = -low[i];
+      for (const double value : values[i]) {
+        if (!std::isfinite(value)) continue;
+        low[i] = std::min(low[i], value);
+        high[i] = std::max(high[i], value);
+      }
+    }
+    const auto seen = [](const std::array<double, 3>& point) {
+      return PlotPoint{std::sqrt(0.75) * (point[1] - point[0]),
+                       point[2] - 0.5 * (point[0] + point[1])};
+    };
+    PlotPanel panel{.title = title(fmt::format("{}", fmt::join(names, ", "))),
+                    .x_label = "seen along the diagonal",
+                    .y_label = "",
+                    .square = true,
+                    .series = {series("", {}, {}, 0)}};
+    for (std::size_t k = 0; k < table_.rows.size(); ++k)
+      panel.series[0].points.push_back(seen({values[0][k], values[1][k], values[2][k]}));
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<double, 3> end = low;
+      end[i] = high[i];
+      panel.series.push_back({.label = names[i],
+                              .points = {seen(low), seen(end)},
+                              .style = PlotStyle::lines,
+                              .colour = static_cast<int>(i) + 1});
+    }
+    plot_.panels.push_back(std::move(panel));
+  }
+
+  void add(const std::vector<std::string>& names) {
+    if (names.size() == 1) return over_time(names, "");
+    if (names.size() == 2) return across(names[0], names[1], false);
+    if (names.size() == 3) return along_diagonal(names);
+    throw UsageError(fmt::format("--columns {}: more than three axes\nhelp: a, a:b or a:b:c",
+                                 fmt::join(names, ":")));
+  }
+
+  std::string title(const std::string& what) const {
+    return plot_.panels.empty() ? title_ + ": " + what : what;
+  }
+
+  Plot finish() {
+    if (plot_.panels.size() > 2) plot_.width = 440;
+    return std::move(plot_);
+  }
+
+  const NumberTable& table_;
+  std::string title_;
+  std::optional<std::size_t> energy_;
+  Plot plot_;
+};
+
+}  // namespace
+
+Plot trajectory_plot(const NumberTable& table, const std::string& columns,
+                     const std::string& title) {
+  TrajectoryPlotter plotter(table, title);
+  return columns.empty() ? plotter.usual() : plotter.named(columns);
+}
+
+void require_picture_name(const std::string& option, const std::string& path) {
+  if (path.ends_with(".svg") || path.ends_with(".png")) return;
+  throw UsageError(fmt::format("{} {}: a picture's name ends in .svg or .png", option, path));
+}
+
+}  // namespace hamgen::app
