@@ -88,9 +88,9 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_option("--scene", options.scene, "of the model; default: its first")
-      ->type_name("NAME");
-  add_repeated(command, "--set", options.set, "a parameter, or a size, of the model")
+  command.add_option("--scene", options.scene, "")->type_name("NAME");
+  add_repeated(command, "--set", options.set,
+               "of the model, default: its first; a parameter or size of it")
       ->type_name("NAME=VALUE");
   add_repeated(command, "--initial", options.initial, "initial state, for example q=3.1,p=0")
       ->type_name("NAME=VALUE,...");

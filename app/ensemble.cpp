@@ -61,7 +61,7 @@ EnsembleManifest manifest_of(const EnsembleOptions& options, const Prepared& pre
                                                     prepared.plugin, options.compiler),
                             .columns = ensemble.columns(),
                             .count = ensemble.count(),
-                            .block = block_size(*prepared.request.values.steps)};
+                            .block = block_size(*prepared.request.values.steps, ensemble.count())};
   std::vector<std::string>& lines = manifest.lines;
   std::ranges::move(prepared.request.plan.to_text(), std::back_inserter(lines));
   if (!prepared.request.statistics.empty())

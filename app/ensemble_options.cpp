@@ -172,17 +172,18 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
   parser.add_option("--seed", options.seed, "")->type_name("S");
   parser.add_option("--from", options.from, "random values for each point; a CSV file of starts")
       ->type_name("FILE");
-  parser.add_option("--observe", options.scene.observe, "")->type_name("LIST");
   parser
-      .add_option("--statistics", options.statistics,
-                  "at the end; least, largest, mean: r = sqrt(x^2 + y^2)")
+      .add_option("--observe", options.scene.observe,
+                  "at the end: q, energy, r = sqrt(x^2 + y^2); default: the scene's")
       ->type_name("LIST");
-  parser.add_option("--every", options.every, "")->type_name("K");
+  parser.add_option("--statistics", options.statistics, "")->type_name("LIST");
+  parser.add_option("--every", options.every, "least, largest, mean; over every K steps")
+      ->type_name("K");
   parser.add_option("--h", options.scene.h, "")->type_name("H");
   parser.add_option("--steps", options.scene.steps, "")->type_name("N");
   parser
       .add_option("--time", options.scene.time,
-                  "statistics every K steps; size, number or time of steps")
+                  "size, and number or time of steps; default: the scene's")
       ->type_name("T");
   parser.add_option("-o,--output", options.output, "")->type_name("FILE");
   parser.add_flag("--resume", options.resume, "results: .csv, .h5; go on with what is missing");

@@ -137,24 +137,6 @@ std::optional<TrajectoryTable> table_of(const std::string& output, const Columns
   return std::optional<TrajectoryTable>(std::in_place, output, remarks, columns);
 }
 
-// What has been seen of an orbit is not in a checkpoint.
-void require_nothing_watched(const RunOptions& options, const std::vector<WatchedEvent>& events) {
-  const std::pair<const char*, bool> watched[] = {
-      {"--plot", !options.plot.empty()},
-      {"--at", !options.watch.at.empty()},
-      {"--every-time", !options.watch.every_time.empty()},
-      {"--events", !options.watch.events.empty()},
-      {"--until", !options.watch.until.empty()},
-      {"events of the model", !events.empty()}};
-  for (const auto& [name, is_there] : watched) {
-    if (is_there)
-      throw UsageError(fmt::format(
-          "--checkpoint: {}: what has been seen of an orbit is not in a checkpoint\nhelp: write "
-          "rows with -o FILE.csv, and look at them afterwards",
-          name));
-  }
-}
-
 std::string trajectory_text(const std::string& output, const TrajectoryTable& table) {
   return fmt::format("{}, {} rows", output == "-" ? "on standard output" : output, table.rows());
 }
@@ -188,6 +170,11 @@ std::vector<std::string> manifest(const RunOptions& options, const Setting& sett
   std::vector<std::string> lines = manifest_lines(setting, scene, plugin, options.compiler);
   if (!options.output.empty()) lines.push_back(fmt::format("rows      every {} steps", every));
   return lines;
+}
+
+// It ended before its end, in good order.
+bool has_steps_left(runtime::Status status) {
+  return status == runtime::Status::stopped || status == runtime::Status::out_of_time;
 }
 
 void say(const RunReport& report, const RunOptions& options) {
@@ -251,6 +238,8 @@ int run(const RunOptions& options) {
   SceneValues scene = complete_scene(model, setting.scene);
   std::vector<WatchedEvent> events = watched_events(options.watch, model, scene);
   const RowTimes times = row_times(options.watch, scene);
+  require_to_be_kept(options.checkpoint, options.output,
+                     !events.empty() || !times.empty() || !options.plot.empty());
   const long every = times.empty() ? record_distance(options, scene) : 0;
   take_gauge_at(scene, model, request);
   specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
@@ -259,9 +248,6 @@ int run(const RunOptions& options) {
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
-  if (options.checkpoint.checkpoint.empty() && options.checkpoint.resume.empty() &&
-      !options.checkpoint.every_seconds.empty())
-    throw UsageError("--every-seconds is for --checkpoint FILE");
   if (options.interpret && !options.compiler.empty())
     throw UsageError("--interpret needs no --compiler: leave out one of the two");
   if (!options.watch_modified.empty()) {
@@ -302,11 +288,9 @@ int run(const RunOptions& options) {
   const std::vector<std::string> remarks = metadata(plugin, scene, start, every);
   runtime::Integrator integrator(loaded.library, start);
   std::optional<RunKeeper> keeper;
-  if (options.checkpoint.is_wanted()) {
-    require_nothing_watched(options, events);
+  if (options.checkpoint.is_wanted())
     keeper.emplace(options.checkpoint, manifest(options, setting, scene, plugin, every),
                    integrator);
-  }
   Columns columns = columns_of(plugin, scene, loaded.library->is_wide());
   std::optional<TrajectoryTable> kept;
   if (keeper && !options.output.empty())
@@ -382,8 +366,7 @@ int run(const RunOptions& options) {
   report.final_invariants = loaded.library->invariants(start.parameters, last);
   if (watch.ending() && rows.wanted() && rows.time() != watch.ending()->second.time)
     add_point(watch.ending()->second);
-  const bool is_kept = keeper && (report.summary.status == runtime::Status::stopped ||
-                                  report.summary.status == runtime::Status::out_of_time);
+  const bool is_kept = keeper && has_steps_left(report.summary.status);
   if (rows.table()) {
     if (!is_kept) rows.table()->publish(outcome_text(report));
     report.trajectory = trajectory_text(options.output, *rows.table());
@@ -403,7 +386,11 @@ Command add_run(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
-  add_observe_option(*parser, options->scene);
+  parser->add_option("--header", options->header, "")->type_name("DIR");
+  parser
+      ->add_option("--observe", options->scene.observe,
+                   "the emitted header; q, energy, r = sqrt(x^2 + y^2)")
+      ->type_name("LIST");
   parser->add_option("--h", options->scene.h, "")->type_name("H");
   parser->add_option("--steps", options->scene.steps, "")->type_name("N");
   parser

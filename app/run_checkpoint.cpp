@@ -31,6 +31,21 @@ void add_checkpoint_interval(CLI::App& parser, CheckpointOptions& options) {
   parser.add_option("--every-seconds", options.every_seconds, "")->type_name("S");
 }
 
+void require_to_be_kept(const CheckpointOptions& options, const std::string& output,
+                        bool looks_between_steps) {
+  if (!options.is_wanted() && !options.every_seconds.empty())
+    throw UsageError("--every-seconds is for --checkpoint FILE");
+  if (!options.is_wanted()) return;
+  if (looks_between_steps)
+    throw UsageError(
+        "--checkpoint and --resume keep steps and their rows, and no events, --at, --every-time, "
+        "--until or --plot\nhelp: leave these out; `hamgen plot` draws the finished trajectory");
+  if (output == "-")
+    throw UsageError(
+        "-o - and --checkpoint: what is on standard output cannot be gone on with\nhelp: give the "
+        "trajectory a file: -o FILE.csv");
+}
+
 RunKeeper::RunKeeper(const CheckpointOptions& options, std::vector<std::string> manifest,
                      const runtime::Integrator& integrator)
     : path_(options.checkpoint.empty() ? options.resume : options.checkpoint),
@@ -60,10 +75,6 @@ RunKeeper::RunKeeper(const CheckpointOptions& options, std::vector<std::string> 
 
 TrajectoryTable RunKeeper::table(const std::string& output,
                                  const std::vector<std::string>& metadata, Columns columns) const {
-  if (output == "-")
-    throw UsageError(
-        "-o - and --checkpoint: what is on standard output cannot be gone on with\nhelp: give the "
-        "trajectory a file: -o FILE.csv");
   return {output,
           metadata,
           std::move(columns),

@@ -22,6 +22,11 @@ void add_checkpoint_options(CLI::App& parser, CheckpointOptions& options);
 // Adds --every-seconds, whose help is with that of what comes behind it.
 void add_checkpoint_interval(CLI::App& parser, CheckpointOptions& options);
 
+// Throws UsageError where it cannot be done: a checkpoint has steps and rows, not what is found
+// between steps or drawn of them.
+void require_to_be_kept(const CheckpointOptions& options, const std::string& output,
+                        bool looks_between_steps);
+
 class RunKeeper {
  public:
   // `manifest` is what the run is.  Throws UsageError where the options make no sense or the

@@ -184,9 +184,11 @@ std::vector<EnsembleRow> Ensemble::block(long long first, long long count) const
   return rows;
 }
 
-long long block_size(long long steps) {
-  constexpr long long work = 1'000'000;  // steps: about a tenth of a second
-  return std::clamp(work / std::max(1LL, steps), 1LL, 256LL);
+long long block_size(long long steps, long long count) {
+  constexpr long long work = 1'000'000;         // steps: about a tenth of a second
+  constexpr long long most_blocks = 4'000'000;  // whoever leads has them all in memory
+  return std::max(std::clamp(work / std::max(1LL, steps), 1LL, 256LL),
+                  (count + most_blocks - 1) / most_blocks);
 }
 
 std::vector<std::byte> packed(const std::vector<EnsembleRow>& rows) {

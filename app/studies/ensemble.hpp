@@ -74,7 +74,7 @@ class Ensemble {
 
 // How many trajectories are handed out, and kept, at a time: about this much work, whatever runs
 // it.
-[[nodiscard]] long long block_size(long long steps);
+[[nodiscard]] long long block_size(long long steps, long long count);
 
 // The rows as bytes and back; `columns` is the number of values of each.
 [[nodiscard]] std::vector<std::byte> packed(const std::vector<EnsembleRow>& rows);
