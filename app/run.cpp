@@ -386,11 +386,7 @@ Command add_run(CLI::App& app) {
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
   add_scene_options(*parser, options->scene);
-  parser->add_option("--header", options->header, "")->type_name("DIR");
-  parser
-      ->add_option("--observe", options->scene.observe,
-                   "the emitted header; q, energy, r = sqrt(x^2 + y^2)")
-      ->type_name("LIST");
+  add_observe_option(*parser, options->scene);
   parser->add_option("--h", options->scene.h, "")->type_name("H");
   parser->add_option("--steps", options->scene.steps, "")->type_name("N");
   parser
@@ -432,9 +428,6 @@ Command add_run(CLI::App& app) {
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
                    "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
-  // A screen has 24 lines.
-  parser->get_option("MODEL")->description("");
-  parser->get_option("--scene")->description("a .ham file; its scene, default: the first");
   return {parser, [options] { return run(*options); }};
 }
 
