@@ -37,7 +37,8 @@ using Clock = std::chrono::steady_clock;
 
 struct RunOptions {
   MethodOptions method;
-  std::string compiler;
+  std::string compiler, flags;
+  bool portable = false;
   bool interpret = false;
   SceneOptions scene;
   std::string every;
@@ -248,8 +249,10 @@ int run(const RunOptions& options) {
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
-  if (options.interpret && !options.compiler.empty())
-    throw UsageError("--interpret needs no --compiler: leave out one of the two");
+  const std::string compiler = compiler_choice(options.compiler, options.flags, options.portable);
+  if (options.interpret && !compiler.empty())
+    throw UsageError(
+        "--interpret needs no --compiler, --flags and --portable: leave out one of the two");
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
     request.step = *scene.h;
@@ -271,9 +274,9 @@ int run(const RunOptions& options) {
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
-  const runtime::LoadedPlugin loaded =
-      options.interpret ? interpreted_integrator(source, request, plugin)
-                        : load_integrator(plugin, options.compiler, &interrupt_flag());
+  const runtime::LoadedPlugin loaded = options.interpret
+                                           ? interpreted_integrator(source, request, plugin)
+                                           : load_integrator(plugin, compiler, &interrupt_flag());
   report.interpreted = options.interpret;
   report.from_cache = loaded.from_cache;
   report.compile_seconds = loaded.compile_seconds;
@@ -428,6 +431,9 @@ Command add_run(CLI::App& app) {
   parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
                    "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
+  parser->add_option("--flags", options->flags, "")->type_name("FLAGS");
+  parser->add_flag("--portable", options->portable,
+                   "more for the compiler; not for this machine's processor alone");
   return {parser, [options] { return run(*options); }};
 }
 

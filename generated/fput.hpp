@@ -9,14 +9,15 @@
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
 //   proved    symplectic, symmetric, order 2, emitted code
-//   solve     banded Newton of size 32; momenta torn out, in loops
+//   solve     fixed point, banded Newton of size 32 where it contracts slowly; momenta torn out,
+//             in loops
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
 //             expansion of the sums: 32 degrees of freedom stay loops
 //             Eigen: the matrix has bandwidth 1
 //             32 of the unknowns: torn out
 //             masses as an array: all are 1
-//   cost      per iteration: 1087 + - *, 32 /; per step besides: 513 + - *
+//   cost      per iteration: 636 + - *; per step besides: 1052 + - *
 #pragma once
 #include <cmath>
 
@@ -33,9 +34,9 @@
 #endif
 
 #ifndef HAMGEN_SYSTEM_fput
-#define HAMGEN_SYSTEM_fput 0xb84d0483
+#define HAMGEN_SYSTEM_fput 0x7c5c8dfb
 namespace fput {
-inline namespace emitted_b84d0483 {
+inline namespace emitted_7c5c8dfb {
 
 using Real = double;
 inline constexpr int n = 32;  // degrees of freedom
@@ -75,18 +76,33 @@ inline Real energy(const Parameters& par, const State& z) {
 // dq[i] = dH/dq_i.
 inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
   for (int i = 0; i < n; ++i) dq[i] = 0.0;
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = q[i];
+  for (int i = 2; i <= 31; ++i) {
     const Real q_i = q[i - 1];
-    const Real t1 = q_i_plus_1 - q_i;
-    const Real t2 = q_i_plus_1 - q_i + par.alpha * (t1 * t1);
-    dq[i] += t2;
-    dq[i - 1] -= t2;
+    const Real q_i_minus_1 = q[i - 2];
+    const Real q_i_plus_1 = q[i];
+    const Real t1 = q_i_minus_1 - q_i;
+    const Real t2 = q_i - q_i_plus_1;
+    dq[i - 1] += -(q_i_minus_1 - q_i - par.alpha * (t1 * t1));
+    dq[i - 1] += q_i - q_i_plus_1 - par.alpha * (t2 * t2);
   }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  dq[0] += q_1 + par.alpha * (q_1 * q_1);
-  dq[31] += q_32 - par.alpha * (q_32 * q_32);
+  {
+    const Real q_2 = q[1];
+    const Real q_1 = q[0];
+    const Real t1 = q_1 - q_2;
+    dq[0] += q_1 - q_2 - par.alpha * (t1 * t1);
+  }
+  {
+    const Real q_32 = q[31];
+    const Real q_31 = q[30];
+    const Real t1 = q_31 - q_32;
+    dq[31] += -(q_31 - q_32 - par.alpha * (t1 * t1));
+  }
+  {
+    const Real q_1 = q[0];
+    const Real q_32 = q[31];
+    dq[0] += q_1 + par.alpha * (q_1 * q_1);
+    dq[31] += q_32 - par.alpha * (q_32 * q_32);
+  }
 }
 
 // dp[i] = dH/dp_i.
@@ -109,18 +125,18 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
   gradient(par, z.q, z.p, values, values + n);
 }
 
-}  // namespace emitted_b84d0483
+}  // namespace emitted_7c5c8dfb
 }  // namespace fput
-#elif HAMGEN_SYSTEM_fput != 0xb84d0483
+#elif HAMGEN_SYSTEM_fput != 0x7c5c8dfb
 #error "another system of this name is included before: generate one with --namespace"
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_d4944b4b::float64 {
+namespace hamgen_a1712620::float64 {
 using Real = double;
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
-#define HAMGEN_D4944B4B_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_A1712620_FLOAT64_STEP_REPORT
+#define HAMGEN_A1712620_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -130,15 +146,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_VOCABULARY
-#define HAMGEN_D4944B4B_FLOAT64_VOCABULARY
+#ifndef HAMGEN_A1712620_FLOAT64_VOCABULARY
+#define HAMGEN_A1712620_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_TWO_SUM
-#define HAMGEN_D4944B4B_FLOAT64_TWO_SUM
+#ifndef HAMGEN_A1712620_FLOAT64_TWO_SUM
+#define HAMGEN_A1712620_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -148,8 +164,20 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_BAND_MATRIX
-#define HAMGEN_D4944B4B_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_A1712620_FLOAT64_SUM_WITH_REST
+#define HAMGEN_A1712620_FLOAT64_SUM_WITH_REST
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.
+inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
+  Real lost = 0;
+  two_sum(increment, lost, rest);
+  two_sum(value, carry, increment);
+  carry += lost;
+}
+#endif
+
+#ifndef HAMGEN_A1712620_FLOAT64_BAND_MATRIX
+#define HAMGEN_A1712620_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -214,14 +242,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_VERDICT
-#define HAMGEN_D4944B4B_FLOAT64_VERDICT
+#ifndef HAMGEN_A1712620_FLOAT64_VERDICT
+#define HAMGEN_A1712620_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_NEWTON_RULE
-#define HAMGEN_D4944B4B_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_A1712620_FLOAT64_NEWTON_RULE
+#define HAMGEN_A1712620_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -311,8 +339,260 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_HISTORY
-#define HAMGEN_D4944B4B_FLOAT64_HISTORY
+#ifndef HAMGEN_A1712620_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_A1712620_FLOAT64_WAITING_NEWTON_RULE
+// NewtonRule of an iteration that many steps do without: these are not watched.
+template <int Power>
+struct WaitingNewtonRule : NewtonRule<Power> {
+  bool used = false;
+
+  void begin(bool from_prediction) {
+    NewtonRule<Power>::begin(from_prediction);
+    used = true;
+  }
+  template <class Past, int Unknowns>
+  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+    if (used) {
+      NewtonRule<Power>::watch(past, solution, first, count);
+    } else {
+      this->motion = {};
+    }
+    used = false;
+  }
+};
+#endif
+
+#ifndef HAMGEN_A1712620_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_A1712620_FLOAT64_FIXED_POINT_RULE
+// How far an iteration has moved: sums over the unknowns of their increments and of what these are
+// rounded with, and whether each is close to its end.
+struct Distance {
+  // What is left below that is solved for by Refinement.
+  static constexpr Real units = 64;
+  Real size = 0;
+  Real scale = 0;
+  bool close = true;
+
+  void add(Real moved, Real length) {
+    size += moved;
+    scale += length;
+    close = close && moved <= units * epsilon * length;
+  }
+};
+// When to stop an iteration that has no other end than rounding: where all unknowns are close to
+// it, or at stagnation, when twice in a row it has not moved less than ever before.  Every Cycle-th
+// iteration is compared: 2 for a fixed point, where q hangs on p and p on q alone, so that even and
+// odd iterations are two sequences, and one may be far ahead of the other; 1 for Newton's
+// iteration. The larger the last increment, the longer it must stand still: 64, 512, 4096 units of
+// rounding after 2, 3, 4 times.
+template <int Cycle>
+struct FixedPointRule {
+  Real least[Cycle] = {};  // 0 before the first increment
+  Real size = 0;           // of the last increment
+  int stuck = 0;
+
+  void begin() {
+    for (Real& smallest : least) smallest = 0;
+    stuck = 0;
+  }
+  Verdict operator()(const Distance& moved, int iterations) {
+    size = moved.size;
+    if (!(size <= largest)) return Verdict::failed;
+    if (moved.close) return Verdict::done;
+    Real& smallest = least[iterations % Cycle];
+    const bool decreased = smallest <= 0 || size < smallest;
+    if (decreased) smallest = size;
+    stuck = decreased ? 0 : stuck + 1;
+    const Real round_off = epsilon * moved.scale;
+    if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
+    if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
+    if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;
+    // What still decreases then does so by a few hundredths at a time: much more is missing.
+    return iterations < 500 ? Verdict::go_on : Verdict::failed;
+  }
+};
+#endif
+
+#ifndef HAMGEN_A1712620_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_A1712620_FLOAT64_CONTRACTION_RULE
+// When to stop a fixed point that starts near its end: where what is still missing is lost in
+// rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
+//
+// Note [what an increment leaves]
+// An increment of this size leaves the unknowns contraction * size from the solution, and the
+// slopes taken there, which are all that a step keeps, another factor of the contraction.  That is
+// a bias where rounding is a random walk, and in the momenta it counts 1/h times: the factor 2^-20
+// keeps it below the sum of the rounding errors.  The slopes are then taken without Refinement.
+//
+// The contraction is that of two increments well above rounding, or what Refinement finds, at least
+// in every 32nd step.  Whatever it was, what the equations lack where the slopes are taken is
+// looked at in every step: if it is not lost in the rounding of the unknowns, Refinement goes on.
+struct ContractionRule {
+  FixedPointRule<2> rule;
+  Real contraction = largest;  // where nothing is known
+  Real size = 0;               // of the last increment
+  Real round_off = 0;
+  int work = 0;
+  int unchecked = 0;
+  bool settled = false;
+
+  // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
+  void begin(int matrix_work) {
+    rule.begin();
+    size = 0;
+    work = matrix_work;
+    settled = false;
+  }
+  Verdict operator()(const Distance& moved, int iterations) {
+    const Real before = size;
+    Verdict verdict = rule(moved, iterations);
+    size = rule.size;
+    round_off = epsilon * moved.scale;
+    if (verdict == Verdict::failed) return give_up();
+    if (before > 0 && size > 64 * round_off) learn(size / before);
+    if (is_slow()) return give_up();
+    // Of an increment that is mostly rounding, what is missing from before.
+    Real missing = size;
+    if (before > 0 && size <= round_off && contraction * before < size) {
+      missing = contraction * before;
+    }
+    settled = unchecked < 32 && is_lost(missing);
+    if (settled) return Verdict::done;
+    // One increment alone says nothing of the contraction, and another may settle it.
+    const bool grows = before > 0 && 2 * size > before && size > 8 * round_off;
+    const bool goes_on =
+        before > 0 ? grows && work > 0 : contraction >= largest || is_lost(contraction * size);
+    return verdict == Verdict::done && goes_on ? Verdict::go_on : verdict;
+  }
+  // It may rise at once but falls slowly: one small increment may be luck.
+  void learn(Real seen) {
+    const bool first = contraction >= largest;
+    if (first || seen > contraction || 4 * seen > contraction) {
+      contraction = seen;
+    } else {
+      contraction /= 4;
+    }
+    unchecked = 0;
+  }
+  // Would so many rounds of Refinement cost more than the matrix?
+  bool is_slow() const {
+    if (work == 0 || contraction >= largest) return false;
+    Real left = 1;
+    for (int round = 0; round < work; ++round) left *= contraction;
+    return 2 * contraction > 1 || left * 8192 > 1;
+  }
+
+ private:
+  bool is_lost(Real missing) const {
+    return contraction < 1 && contraction * contraction * missing * 1048576 <= round_off;
+  }
+  // When it is tried again, things may have changed.
+  Verdict give_up() {
+    if (work > 0) contraction = largest;
+    return Verdict::failed;
+  }
+};
+#endif
+
+#ifndef HAMGEN_A1712620_FLOAT64_REFINEMENT
+#define HAMGEN_A1712620_FLOAT64_REFINEMENT
+// The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
+// rounded map takes to themselves it ends at one on the side it came from, and at one where the
+// rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
+// point close by, some ten units of rounding from the solution.  What the equations lack there is
+// small, and known without an error.  Over that distance they are linear, and their change along it
+// is found by a difference over one `amplifier` times as long: what is not linear, and what a
+// difference loses, are both far below a unit of rounding.
+template <int Size, int Components>
+struct Refinement {
+  // A power of two near the third root of 1/epsilon.
+  static constexpr Real find_amplifier() {
+    Real power = 1;
+    while (power * power * power * (8 * epsilon) < 1) power *= 2;
+    return power;
+  }
+  static constexpr Real amplifier = find_amplifier();
+  Real change[Components] = {};  // of the gradient, from the rounded point to the solution
+  Real slope[Components] = {};   // the gradient at the rounded point
+  Real at[Size] = {};            // that point
+  Real missing[Size] = {};       // by the equations there
+  Real moved[Size] = {};         // the solution less the point
+  Real last = 0;                 // what the last round moved all together
+  Real least = 0;                // of these
+  int stuck = 0;                 // rounds that moved no less
+  int rounds = 0;
+
+  // The sum of the magnitudes, in eight parts that do not wait for each other.
+  static Real length_of(const Real (&vector)[Size]) {
+    Real parts[8] = {};
+    int j = 0;
+    for (; j + 8 <= Size; j += 8) {
+      for (int k = 0; k < 8; ++k) parts[k] += magnitude(vector[j + k]);
+    }
+    for (int k = 0; j + k < Size; ++k) parts[k] += magnitude(vector[j + k]);
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+  }
+  // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
+  // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  template <class Rule>
+  bool operator()(Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
+                  const Real (&gradient)[Components]) {
+    if (rule.settled && length_of(lack) <= rule.round_off) {
+      ++rule.unchecked;
+      for (int k = 0; k < Components; ++k) {
+        slope[k] = gradient[k];
+        change[k] = 0;
+      }
+      return false;
+    }
+    rule.settled = false;
+    const Real before = least;
+    const bool first = rounds == 1;
+    const bool more = (*this)(point, lack, gradient);
+    if (first && before > 0) rule.learn(last / before);
+    if (!more || !rule.is_slow()) return more;
+    rounds = 0;
+    for (int j = 0; j < Size; ++j) point[j] = at[j];
+    return false;
+  }
+  // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
+  // if it wants these and the gradient once more, at the point it has moved; else that is the
+  // rounded one again.
+  bool operator()(Real (&point)[Size], const Real (&lack)[Size],
+                  const Real (&gradient)[Components]) {
+    bool open = false;
+    last = 0;
+    for (int j = 0; j < Size; ++j) {
+      if (rounds == 0) {
+        at[j] = point[j];
+        missing[j] = lack[j];
+        moved[j] = 0;
+      }
+      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
+      moved[j] += error;
+      last += magnitude(error);
+      // What is cut off is a bias: a 2^-13th of a unit.
+      open =
+          open || magnitude(error) * 8192 > epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
+    }
+    for (int k = 0; k < Components; ++k) {
+      if (rounds == 0) slope[k] = gradient[k];
+      change[k] = (gradient[k] - slope[k]) / amplifier;
+    }
+    // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+    stuck = rounds == 0 || last < least ? 0 : stuck + 1;
+    if (stuck == 0) least = last;
+    const bool more = open && stuck < 4 && rounds < 500;
+    rounds = more ? rounds + 1 : 0;
+    for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
+    return more;
+  }
+};
+#endif
+
+#ifndef HAMGEN_A1712620_FLOAT64_HISTORY
+#define HAMGEN_A1712620_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -373,8 +653,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_D4944B4B_FLOAT64_FORGET
-#define HAMGEN_D4944B4B_FLOAT64_FORGET
+#ifndef HAMGEN_A1712620_FLOAT64_FORGET
+#define HAMGEN_A1712620_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -384,16 +664,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_d4944b4b::float64
+}  // namespace hamgen_a1712620::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x3ab01968
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x5afc9c18
 namespace fput::implicit_midpoint {
-inline namespace emitted_3ab01968 {
+inline namespace emitted_5afc9c18 {
 
-namespace numerics = ::hamgen_d4944b4b::float64;
-using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::BandMatrix,
-    numerics::Verdict, numerics::NewtonRule, numerics::History, numerics::forget;
+namespace numerics = ::hamgen_a1712620::float64;
+using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::BandMatrix,
+    numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance, numerics::ContractionRule,
+    numerics::Refinement, numerics::History, numerics::forget;
 
 using Matrix = BandMatrix<32, 1>;
 
@@ -417,8 +698,11 @@ struct Start {
   Real momentum[32] = {};  // of zbar
   Real slope[64] = {};     // grad H(zbar), dH/dq first
   Real lack[32] = {};      // of the equations at zbar, then the increment
-  NewtonRule<2> rule;
   Matrix matrix;
+  WaitingNewtonRule<2> newton_rule;
+  int patience = 0;        // steps left to Newton
+  ContractionRule rule;
+  Refinement<32, 64> refinement;
 };
 
 // grad H at the stage, whose momenta follow from its coordinates.
@@ -455,15 +739,60 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
   matrix.put(31, 31, k.scale * entry_2);
 }
 
-// dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, Start& start, State& dz) {
-  StepReport report;
-  if (!start.known) {
-    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+// False if the fixed point contracts so slowly that Newton's matrix is worth its work.
+inline bool contract(const Parameters& par, const Coefficients& k, Real h, const State& z,
+                     const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
+  // Fixed-point iteration.
+  start.rule.begin(6);
+  for (int iteration = 1;; ++iteration) {
+    evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
+    Distance distance;
+    for (int i = 0; i < n; ++i) {
+      distance.add(magnitude(start.lack[i]), magnitude(start.value[i]) + magnitude(z.q[i]));
+    }
+    for (int i = 0; i < n; ++i) {
+      start.value[i] += start.lack[i];
+    }
+    const Verdict verdict = start.rule(distance, iteration);
+    if (verdict == Verdict::go_on) continue;
+    report.iterations += iteration;
+    if (verdict == Verdict::done) break;
+    report.increment = start.rule.size;
+    return false;
   }
+  // What the equations lack at the rounded unknowns is solved for, too.
+  for (bool more = true; more;) {
+    evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
+    more = start.refinement(start.rule, start.value, start.lack, start.slope);
+  }
+  for (int i = 0; i < n; ++i) {
+    dz.q[i] = h * start.refinement.slope[n + i];
+    const Real p_push = k.half_h * start.refinement.slope[i];
+    const Real moved = carry.p[i] - p_push;
+    const Real bar = z.p[i] + moved;
+    rest.q[i] = carry.q[i] + h * start.refinement.change[n + i] + h * (z.p[i] - bar + moved);
+    dz.p[i] = -h * start.refinement.slope[i];
+    rest.p[i] = carry.p[i] - h * start.refinement.change[i];
+  }
+  Real length = 0;
+  for (int i = 0; i < n; ++i) length += dz.q[i] * dz.q[i] + rest.q[i] * rest.q[i] +
+               dz.p[i] * dz.p[i] + rest.p[i] * rest.p[i];
+  // False for infinities and NaN alike.
+  return length <= 1.0e308;
+}
+
+inline bool newton(const Parameters& par, const Coefficients& k, Real h, const State& z,
+                   const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
   // Newton's iteration on what the equations lack.
-  start.rule.begin(start.known);
+  start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
     for (int i = 0; i < n; ++i) {
@@ -473,7 +802,7 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
     differentiate(par, k, start.value, start.matrix);
     if (!start.matrix.factorise()) {
       report.iterations += iteration;
-      return report;
+      return false;
     }
     start.matrix.solve(start.lack);
     Real size = 0;
@@ -482,11 +811,11 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
       size += magnitude(start.lack[i]);
       scale += magnitude(start.value[i]) + magnitude(z.q[i]);
     }
-    const Verdict verdict = start.rule(size, scale, iteration);
+    const Verdict verdict = start.newton_rule(size, scale, iteration);
     if (verdict == Verdict::failed) {
       report.iterations += iteration;
       report.increment = size;
-      return report;
+      return false;
     }
     if (verdict == Verdict::done) {
       report.iterations += iteration;
@@ -500,13 +829,35 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
   evaluate(par, k, z, carry, start);
   for (int i = 0; i < n; ++i) {
     dz.q[i] = carry.q[i] + h * start.slope[n + i];
+    rest.q[i] = 0.0;
     dz.p[i] = carry.p[i] - h * start.slope[i];
+    rest.p[i] = 0.0;
   }
   Real length = 0;
   for (int i = 0; i < n; ++i) length += dz.q[i] * dz.q[i] + dz.p[i] * dz.p[i];
   // False for infinities and NaN alike.
-  report.converged = length <= 1.0e308;
-  if (!report.converged) report.increment = length;
+  return length <= 1.0e308;
+}
+
+// dz + rest = Z - z for one step from z + carry; rest is small.
+[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, Start& start, State& dz,
+                                      State& rest) {
+  StepReport report;
+  if (!start.known) {
+    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+  }
+  // Newton where the fixed point contracts slowly, and then for 32 steps.
+  if (start.patience == 0 && !contract(par, k, h, z, carry, start, dz, rest, report)) {
+    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+    start.known = false;
+    start.patience = 32;
+  }
+  if (start.patience > 0) {
+    --start.patience;
+    if (!newton(par, k, h, z, carry, start, dz, rest, report)) return report;
+  }
+  report.converged = true;
   return report;
 }
 
@@ -520,21 +871,21 @@ class Propagator {
   StepReport step() {
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz_);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz_, rest_);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const long long wasted = report.iterations;
       start_.known = false;
-      start_.rule = {};
-      report = solve(par_, k_, h_, z_, carry_, start_, dz_);
+      start_.newton_rule = {};
+      report = solve(par_, k_, h_, z_, carry_, start_, dz_, rest_);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
-    start_.rule.watch(history_, start_.value, 0, 32);
+    start_.newton_rule.watch(history_, start_.value, 0, 32);
     history_.record(start_.value);
     for (int i = 0; i < n; ++i) {
-      two_sum(z_.q[i], carry_.q[i], dz_.q[i]);
-      two_sum(z_.p[i], carry_.p[i], dz_.p[i]);
+      two_sum_with_rest(z_.q[i], carry_.q[i], dz_.q[i], rest_.q[i]);
+      two_sum_with_rest(z_.p[i], carry_.p[i], dz_.p[i], rest_.p[i]);
     }
     ++steps_;
     return report;
@@ -562,7 +913,10 @@ class Propagator {
     carry_ = State();
     steps_ = 0;
     start_.known = false;
+    start_.newton_rule = {};
+    start_.patience = 0;
     start_.rule = {};
+    start_.refinement.rounds = 0;
     forget(history_);
   }
 
@@ -583,7 +937,7 @@ class Propagator {
   Coefficients k_;
   Start start_;
   History<32> history_;
-  State dz_;
+  State dz_, rest_;
 };
 
 // Advances z by one step of size h.  On failure z is left unchanged.
@@ -594,9 +948,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_3ab01968
+}  // namespace emitted_5afc9c18
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x3ab01968
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x5afc9c18
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

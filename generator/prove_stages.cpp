@@ -1,4 +1,6 @@
 // Stages against the mathematics they come from.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
@@ -13,6 +15,20 @@ namespace hamgen {
 
 namespace {
 
+// What the front end has read; a scene's own values are put in later, and proved by "specialised".
+Finding prove_front_end(const Stages& stages, const Surroundings& around) {
+  const Mechanics& mechanics = stages.system.given;
+  DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(stages.model)};
+  const bool folded = !stages.folded.folding.left_out.empty();
+  if (!folded && !mechanics.keeps_sums()) {
+    derived.gradient = mechanics.gradient;
+    derived.invariants = mechanics.invariants;
+  } else if (!folded && mechanics.degrees_of_freedom <= kMostLookedAt) {
+    derived.gradient = Derivatives(mechanics, derived.hamiltonian).gradient();
+  }
+  return prove_model_read(stages.model, mechanics, derived, around);
+}
+
 SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
                          long size) {
   request.sizes[constant] = size;
@@ -25,8 +41,13 @@ SizedSystem sized_system(const SourceText& source, Request request, const std::s
   }
   Stages stages = run_stages(source, request);
   Expression hamiltonian = written_out_hamiltonian(stages);
-  return {size, std::move(stages.system.mechanics), std::move(stages.equations.scheme),
-          std::move(stages.program), std::move(hamiltonian)};
+  Finding read = prove_front_end(stages, surroundings_of(stages.model));
+  return {size,
+          std::move(stages.system.mechanics),
+          std::move(stages.equations.scheme),
+          std::move(stages.program),
+          std::move(hamiltonian),
+          std::move(read)};
 }
 
 // Of a large system in loops: its largest size as small as loops are made of, and the next one.
@@ -63,22 +84,13 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
   }
 }
 
-}  // namespace
-
-namespace {
-
-// What the front end has read; a scene's own values are put in later, and proved by "specialised".
-Finding prove_front_end(const Stages& stages, const Surroundings& around) {
-  const Mechanics& mechanics = stages.system.given;
-  DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(stages.model)};
-  const bool folded = !stages.folded.folding.left_out.empty();
-  if (!folded && !mechanics.keeps_sums()) {
-    derived.gradient = mechanics.gradient;
-    derived.invariants = mechanics.invariants;
-  } else if (!folded && mechanics.degrees_of_freedom <= kMostLookedAt) {
-    derived.gradient = Derivatives(mechanics, derived.hamiltonian).gradient();
-  }
-  return prove_model_read(stages.model, mechanics, derived, around);
+// Of a model that is a longer one of two that were read.
+Finding read_at_smaller_sizes(const SmallerSystems& smaller) {
+  Finding read = smaller.first.read;
+  if (holds(read.verdict) && !holds(smaller.second.read.verdict)) read = smaller.second.read;
+  read.detail += fmt::format(", at {0} = {1} and {0} = {2}; more elements repeat the inner ones",
+                             smaller.constant, smaller.first.size, smaller.second.size);
+  return read;
 }
 
 }  // namespace
@@ -87,10 +99,16 @@ Proof prove(const SourceText& source, const Request& request, const Stages& stag
             const std::optional<SceneValues>& scene) {
   Surroundings around = surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
+  const Mechanics& mechanics = stages.system.mechanics;
+  const std::optional<SmallerSystems> smaller = smaller_systems(source, request, stages);
+  // Then nothing of it need be written out.
+  const bool inherits = smaller && mechanics.invariants.empty() &&
+                        !why_not_inherited(mechanics, step_code(stages.program), *smaller);
+  std::optional<Expression> hamiltonian;
+  if (!inherits) hamiltonian = written_out_hamiltonian(stages);
   Proof proof =
-      verify(stages.system.mechanics, stages.equations.scheme, stages.program,
-             written_out_hamiltonian(stages), around, smaller_systems(source, request, stages));
-  proof.push_back(prove_front_end(stages, around));
+      verify(mechanics, stages.equations.scheme, stages.program, hamiltonian, around, smaller);
+  proof.push_back(inherits ? read_at_smaller_sizes(*smaller) : prove_front_end(stages, around));
   if (request.scene && is_something_left_out(stages))
     proof.push_back(
         prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));

@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <fstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "runtime/compile.hpp"
 
@@ -24,10 +26,13 @@ std::string processor_name() {
 
 Provenance provenance_of(const Compiler& compiler) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::vector<std::string> flags(compiler.command.begin() + 1, compiler.command.end());
+  const std::vector<std::string> always = compile_flags({}, {});
+  flags.insert(flags.end(), always.begin(), always.end());
   return {.machine =
               fmt::format("{}, {} threads", processor_name(), std::thread::hardware_concurrency()),
           .compiler = compiler_version(compiler),
-          .flags = fmt::format("{}", fmt::join(compile_flags({}, {}), " ")),
+          .flags = fmt::format("{}", fmt::join(flags, " ")),
           .date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(now))};
 }
 

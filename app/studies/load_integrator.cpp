@@ -2,17 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
+#include <sstream>
+#include <string_view>
 
 #include "generator/base/diagnostic.hpp"
 #include "runtime/arithmetic.hpp"
 
 namespace hamgen::app {
 
+namespace {
+
+constexpr std::string_view kPortable = " --portable";
+
+// Has somebody said which machine it is for?
+bool names_processor(const runtime::Compiler& compiler) {
+  return std::ranges::any_of(compiler.command, [](const std::string& word) {
+    return word.starts_with("-march=") || word.starts_with("-mcpu=");
+  });
+}
+
+std::vector<std::string> words_of_flags(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+}  // namespace
+
+std::string compiler_choice(const std::string& program, const std::string& flags, bool portable) {
+  return program + (flags.empty() ? "" : " " + flags) + std::string(portable ? kPortable : "");
+}
+
 runtime::Compiler chosen_compiler(const std::string& choice) {
+  std::string words = choice;
+  const std::size_t portable = words.find(kPortable);
+  if (portable != std::string::npos) words.erase(portable, kPortable.size());
+  const bool no_program = words.empty() || words.front() == ' ';
   runtime::Compiler compiler =
-      runtime::find_compiler(choice.empty() ? std::nullopt : std::optional(choice));
+      runtime::find_compiler(no_program ? std::nullopt : std::optional(words));
+  if (no_program) {
+    const std::vector<std::string> flags = words_of_flags(words);
+    if (!flags.empty()) compiler.chosen_by = "--flags";
+    compiler.command.insert(compiler.command.end(), flags.begin(), flags.end());
+  }
+#if defined(__x86_64__) || defined(__i386__)
+  // A plugin does not leave the machine; the cache knows which one it is for.
+  if (portable == std::string::npos && !names_processor(compiler))
+    compiler.command.emplace_back("-march=native");
+#endif
   const auto arguments = std::span(compiler.command).subspan(1);
   if (const std::optional<std::string> reason = runtime::refused_flag(arguments))
     throw UsageError(fmt::format("{}: {}", compiler.chosen_by, *reason));

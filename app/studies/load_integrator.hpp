@@ -9,7 +9,13 @@
 
 namespace hamgen::app {
 
-// The compiler to use; `choice` is --compiler, empty for the default.  Throws UsageError if flags
+// What a user says of the compiler in one text, "" for the defaults: a program with flags of its
+// own, further flags, and whether what it makes is for other machines than this one, too.
+[[nodiscard]] std::string compiler_choice(const std::string& program, const std::string& flags,
+                                          bool portable);
+
+// The compiler to use, by compiler_choice or the value of --compiler.  It compiles for the
+// processor it runs on unless that is said or the flags name one.  Throws UsageError if flags
 // that came with it would change what the arithmetic means, ToolError if it is not there.
 [[nodiscard]] runtime::Compiler chosen_compiler(const std::string& choice);
 

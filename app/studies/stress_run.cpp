@@ -10,8 +10,7 @@
 #include "app/studies/stress_grid.hpp"
 #include "app/studies/stress_references.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "runtime/compile.hpp"
-#include "runtime/compiler.hpp"
+#include "runtime/provenance.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -19,13 +18,13 @@ namespace {
 constexpr unsigned kThreads = 2;
 
 StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
+  const runtime::Provenance made_by = runtime::provenance_of(chosen_compiler(""));
   StressMap map{.model = grid.plugin().model.name,
                 .scene = grid.scene_name(),
                 .method = grid.plugin().scheme_name,
                 .axes = grid.axes(),
                 .steps = limits.steps,
-                .compiler = fmt::format("{} {}", runtime::compiler_version(chosen_compiler("")),
-                                        fmt::join(runtime::compile_flags({}, {}), " "))};
+                .compiler = made_by.compiler + " " + made_by.flags};
   map.cells.resize(map.columns() * map.rows());
   return map;
 }

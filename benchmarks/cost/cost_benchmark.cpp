@@ -3,12 +3,11 @@
 //
 //   cost_benchmark [TEXT]   the rows whose name holds TEXT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -42,8 +41,8 @@ struct StepRow {
   std::string scene;
   Request request;
   long steps;
-  HandSteps hand;       // may be empty
-  bool by_gsl = false;  // rk2imp at twice the step takes the same trajectory
+  HandSteps hand;                     // may be empty
+  bool by_gsl = false;                // rk2imp at twice the step takes the same trajectory
   std::optional<std::string> h = {};  // else the scene's
 };
 
@@ -86,13 +85,11 @@ std::string add_hamgen(const StepRow& row, const SourceText& source, const Scene
   const runtime::Report report = trial.advance(row.steps, false);
   const std::string outcome =
       report.status == runtime::Status::done
-          ? fmt::format("{:.3g} iterations/step", static_cast<double>(report.iterations) /
-                                                      static_cast<double>(row.steps))
+          ? fmt::format("{:.3g} iterations/step",
+                        static_cast<double>(report.iterations) / static_cast<double>(row.steps))
           : fmt::format("ends in step {}", report.steps_done + 1);
   list.push_back({.name = "hamgen" + (solver.empty() ? "" : " " + solver),
-                  .seconds = [=] {
-                    return app::processor_clock(*method, start, row.steps);
-                  }});
+                  .seconds = [=] { return app::processor_clock(*method, start, row.steps); }});
   return method->plugin.solver + ", " + outcome;
 }
 
@@ -143,8 +140,7 @@ void measure(const StepRow& row) {
   }
   fmt::print("{}: {}\n", row.name, solver);
   for (const Contender& c : list) {
-    fmt::print("  {:<24}{:>12.1f} ns/step", c.name,
-               1e9 * c.best / static_cast<double>(row.steps));
+    fmt::print("  {:<24}{:>12.1f} ns/step", c.name, 1e9 * c.best / static_cast<double>(row.steps));
     if (&c != &list.front()) fmt::print("   hamgen / this {:.2f}", list.front().best / c.best);
     fmt::print("\n");
   }
@@ -186,15 +182,25 @@ std::vector<StepRow> step_rows() {
       {"pendulum, midpoint", "pendulum.ham", "paper", {}, 400000, {}, true},
       {"Henon-Heiles, midpoint", "henon_heiles.ham", "regular", {}, 400000, {}, true},
       {"Kepler, midpoint", "kepler.ham", "", {}, 400000, {}, true},
-      {"outer solar system, midpoint, h = 10 d", "outer_solar_system.ham", "short_step", {}, 20000,
-       midpoint_of(planets), true},
+      {"outer solar system, midpoint, h = 10 d",
+       "outer_solar_system.ham",
+       "short_step",
+       {},
+       20000,
+       midpoint_of(planets),
+       true},
       {"50 bodies, midpoint", kBodies, "disk", {}, 500, midpoint_of(bodies)},
       {"chain of 24, midpoint", "fput.ham", "first_mode", sized(24), 20000,
        midpoint_of(HandFput<24>()), false, "1/20"},
       {"chain of 25, midpoint", "fput.ham", "first_mode", sized(25), 20000,
        midpoint_of(HandFput<25>()), false, "1/20"},
-      {"stiff FPU m = 3, midpoint, h = 0.001", "stiff_fpu.ham", "w300", {}, 200000,
-       midpoint_of(HandStiffFpu()), true},
+      {"stiff FPU m = 3, midpoint, h = 0.001",
+       "stiff_fpu.ham",
+       "w300",
+       {},
+       200000,
+       midpoint_of(HandStiffFpu()),
+       true},
       {"FPU N = 1000, midpoint", "fput.ham", "first_mode", sized(1000), 2000,
        midpoint_of(HandFput<1000>()), false, "1/20"},
       {"FPU N = 1000, midpoint, plucked", "fput.ham", "pluck", sized(1000), 2000,

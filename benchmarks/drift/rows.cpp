@@ -188,6 +188,16 @@ std::vector<Row> all_rows() {
         "yoshida-4-verlet", "gauss-4", "gauss-8"}) {
     add(rows, band, scheme, {.scheme = scheme});
   }
+  // The compiler of the model does not know that it is linear: the fixed point, and Newton behind
+  // it.
+  for (const double h : {0.1, 0.01}) {
+    const Problem soft_band{
+        .name = fmt::format("soft chain of 25, loops, h = {}", h), .model = soft_chain(25), .h = h};
+    add(rows, soft_band, "midpoint", {});
+    add(rows, soft_band, "midpoint, fixed point", {.solver = "fixed-point"});
+    add(rows, soft_band, "midpoint, Newton", {.solver = "newton"});
+    add(rows, soft_band, "alpha = 3/10", {.alpha = "3/10"});
+  }
   const Problem dense{.name = "all pairs of 30, loops, dense", .model = all_pairs(30)};
   add_members(rows, dense, 30);
   const Problem sparse{.name = "sheet of 256, loops, sparse", .model = sheet()};

@@ -76,8 +76,9 @@ void RoutinePrinter::operator()(const Refine& refine) {
 void RoutinePrinter::operator()(const RefineArray& refine) {
   out_.open("for (bool more = true; more;)");
   print(refine.body);
-  out_.line(fmt::format("more = {}({}, {}, {});", text(refine.refinement), text(refine.point),
-                        text(refine.lack), text(refine.gradient)));
+  const std::string rule = refine.rule.empty() ? "" : of("start") + refine.rule + ", ";
+  out_.line(fmt::format("more = {}({}{}, {}, {});", text(refine.refinement), rule,
+                        text(refine.point), text(refine.lack), text(refine.gradient)));
   out_.close();
 }
 
@@ -185,7 +186,8 @@ void RoutinePrinter::contraction(const IterateArray& iterate) {
   const std::string rule = of("start") + iterate.name;
   const bool newton = iterate.rule == Rule::simplified_newton;
   const std::string served = newton ? text(*iterate.factorised) : "";
-  out_.line(newton ? fmt::format("{}.begin({});", rule, served) : rule + ".begin();");
+  const std::string work = iterate.work ? std::to_string(*iterate.work) : "";
+  out_.line(fmt::format("{}.begin({});", rule, newton ? served : work));
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   out_.line("Distance distance;");

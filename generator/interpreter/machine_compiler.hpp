@@ -28,6 +28,7 @@ class MachineCompiler : public MachineIterations<Real> {
   using Base::run_fixed_point;
   using Base::run_newton;
   using Base::run_newton_on;
+  using Base::run_settling;
   using Base::size_of;
   using Base::sizes_of;
   using Base::span;
@@ -260,7 +261,7 @@ class MachineCompiler : public MachineIterations<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     return [this, unknowns, ranges, residual, start, flag, body, rule = iterate.rule,
-            name = iterate.name] {
+            name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -271,6 +272,7 @@ class MachineCompiler : public MachineIterations<Real> {
         const bool known = memory.flags.at("known") != 0;
         return run_newton_on(*memory.rules.at(name), known, each, body);
       }
+      if (work) return run_settling(*memory.settling.at(name), *work, each, body);
       return run_contraction(memory, name, flag, each, body, residual);
     };
   }
@@ -282,11 +284,15 @@ class MachineCompiler : public MachineIterations<Real> {
     const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
     const Whole change = whole(Place{refine.refinement.object, name + ".change"});
     const int target = index_of(refine.refinement.object);
-    return [this, point, lack, gradient, slope, change, target, name, body = steps(refine.body)] {
+    const int start = refine.rule.empty() ? 0 : index_of("start");
+    return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
+            body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
       for (bool more = true; more;) {
         if (!run_all(body)) return false;
-        more = refinement(span(point), span(lack), span(gradient));
+        more = rule.empty() ? refinement(span(point), span(lack), span(gradient))
+                            : refinement.refine(*object(start).settling.at(rule), span(point),
+                                                span(lack), span(gradient));
       }
       refinement.get_slope(span(slope));
       refinement.get_change(span(change));

@@ -80,6 +80,26 @@ class MachineIterations : public MachineAddresses<Real> {
       return answer == Answer::done;
     }
   }
+  template <class Each>
+  bool run_settling(AnyContractionRule<Real>& rule, int work, const Each& each,
+                    const Steps& body) const {
+    rule.begin(work);
+    for (m_.iteration = 1;; ++m_.iteration) {
+      if (!run_all(body)) return false;
+      Distance distance;
+      each([&](const Array2& u) {
+        Real& value = m_.frame.at(u.value);
+        const Real increment = m_.frame.at(u.increment);
+        distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame)));
+        value += increment;
+      });
+      const Answer answer = rule(distance, static_cast<int>(m_.iteration));
+      if (answer == Answer::go_on) continue;
+      m_.report.iterations += m_.iteration;
+      if (answer == Answer::failed) m_.report.increment = rule.size();
+      return answer == Answer::done;
+    }
+  }
   bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const std::vector<Compiled>& unknowns,
                   const Steps& body) const {
     rule.begin(predicted);

@@ -55,11 +55,17 @@ class HistoryOf final : public AnyHistory<Real> {
 template <class Real, int Power>
 class NewtonRuleOf final : public AnyNewtonRule<Real> {
  public:
-  void begin(bool predicted) override { rule_.begin(predicted); }
+  explicit NewtonRuleOf(bool waits) : waits_(waits) {}
+  void begin(bool predicted) override {
+    rule_.begin(predicted);
+    used_ = true;
+  }
   void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
              int count) override {
-    rule_.motion.move = past.error(0, solution, first, count);
-    rule_.motion.bend = past.error(Power + 1, solution, first, count);
+    const bool watched = used_ || !waits_;
+    rule_.motion.move = watched ? past.error(0, solution, first, count) : Real(0);
+    rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count) : Real(0);
+    used_ = false;
   }
   Answer operator()(Real size, Real scale, int iteration) override {
     return answer(rule_(size, scale, iteration));
@@ -67,6 +73,8 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
 
  private:
   typename NumericsOf<Real>::template Newton<Power> rule_;
+  bool waits_;  // as WaitingNewtonRule
+  bool used_ = false;
 };
 
 template <class Real, class Rule>
@@ -80,6 +88,20 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
 
  private:
   Rule rule_;
+};
+
+template <class Real>
+class ContractionRuleOf final : public AnyContractionRule<Real> {
+ public:
+  void begin(int work) override { rule_.begin(work); }
+  Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) override {
+    return answer(rule_(moved, iteration));
+  }
+  [[nodiscard]] Real size() const override { return rule_.size; }
+  [[nodiscard]] typename NumericsOf<Real>::Contraction& block() override { return rule_; }
+
+ private:
+  typename NumericsOf<Real>::Contraction rule_;
 };
 
 template <class Real>
@@ -103,6 +125,14 @@ class RefinementOf final : public AnyRefinement<Real> {
                   std::span<const Real> slope) override {
     Padded<Real, Size> all(point);
     const bool more = refinement_(all.padded, Padded<Real, Size>(lack).padded,
+                                  Padded<Real, 2 * Size>(slope).padded);
+    std::copy_n(all.padded, point.size(), point.begin());
+    return more;
+  }
+  bool refine(AnyContractionRule<Real>& rule, std::span<Real> point, std::span<const Real> lack,
+              std::span<const Real> slope) override {
+    Padded<Real, Size> all(point);
+    const bool more = refinement_(rule.block(), all.padded, Padded<Real, Size>(lack).padded,
                                   Padded<Real, 2 * Size>(slope).padded);
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
@@ -165,9 +195,9 @@ std::unique_ptr<AnyHistory<Real>> make_history(int size) {
 }
 
 template <class Real>
-std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power) {
-  if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1>>();
-  return std::make_unique<NewtonRuleOf<Real, 2>>();
+std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power, bool waits) {
+  if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1>>(waits);
+  return std::make_unique<NewtonRuleOf<Real, 2>>(waits);
 }
 
 template <class Real>
@@ -180,6 +210,11 @@ template <class Real>
 std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule() {
   using Rule = typename NumericsOf<Real>::Impatient;
   return std::make_unique<FixedPointRuleOf<Real, Rule>>();
+}
+
+template <class Real>
+std::unique_ptr<AnyContractionRule<Real>> make_contraction_rule() {
+  return std::make_unique<ContractionRuleOf<Real>>();
 }
 
 template <class Real>
@@ -206,14 +241,18 @@ template std::unique_ptr<AnyHistory<float>> make_history(int);
 template std::unique_ptr<AnyHistory<double>> make_history(int);
 template std::unique_ptr<AnyHistory<long double>> make_history(int);
 template std::unique_ptr<AnyHistory<Quad>> make_history(int);
-template std::unique_ptr<AnyNewtonRule<float>> make_newton_rule(int);
-template std::unique_ptr<AnyNewtonRule<double>> make_newton_rule(int);
-template std::unique_ptr<AnyNewtonRule<long double>> make_newton_rule(int);
-template std::unique_ptr<AnyNewtonRule<Quad>> make_newton_rule(int);
+template std::unique_ptr<AnyNewtonRule<float>> make_newton_rule(int, bool);
+template std::unique_ptr<AnyNewtonRule<double>> make_newton_rule(int, bool);
+template std::unique_ptr<AnyNewtonRule<long double>> make_newton_rule(int, bool);
+template std::unique_ptr<AnyNewtonRule<Quad>> make_newton_rule(int, bool);
 template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule();
 template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule();
 template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule();
 template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule();
+template std::unique_ptr<AnyContractionRule<float>> make_contraction_rule();
+template std::unique_ptr<AnyContractionRule<double>> make_contraction_rule();
+template std::unique_ptr<AnyContractionRule<long double>> make_contraction_rule();
+template std::unique_ptr<AnyContractionRule<Quad>> make_contraction_rule();
 template std::unique_ptr<AnyRefinement<float>> make_refinement(int, int);
 template std::unique_ptr<AnyRefinement<double>> make_refinement(int, int);
 template std::unique_ptr<AnyRefinement<long double>> make_refinement(int, int);

@@ -76,6 +76,14 @@ struct AnyFixedPointRule {
   [[nodiscard]] virtual Real size() const = 0;
 };
 template <class Real>
+struct AnyContractionRule {
+  virtual ~AnyContractionRule() = default;
+  virtual void begin(int work) = 0;
+  virtual Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) = 0;
+  [[nodiscard]] virtual Real size() const = 0;
+  [[nodiscard]] virtual typename NumericsOf<Real>::Contraction& block() = 0;
+};
+template <class Real>
 struct AnySimplifiedNewtonRule {
   virtual ~AnySimplifiedNewtonRule() = default;
   virtual void begin(bool factorised) = 0;
@@ -89,6 +97,9 @@ struct AnyRefinement {
   // True if it wants the values once more, at the point it has moved.
   virtual bool operator()(std::span<Real> point, std::span<const Real> lack,
                           std::span<const Real> slope) = 0;
+  // The same with a rule that may have settled it.
+  virtual bool refine(AnyContractionRule<Real>& rule, std::span<Real> point,
+                      std::span<const Real> lack, std::span<const Real> slope) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   virtual void get_change(std::span<Real> change) const = 0;
   virtual void get_slope(std::span<Real> slope) const = 0;
@@ -106,11 +117,13 @@ struct AnyMatrix {
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyHistory<Real>> make_history(int size);
 template <class Real>
-[[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power);
+[[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power, bool waits = false);
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule();
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule();
+template <class Real>
+[[nodiscard]] std::unique_ptr<AnyContractionRule<Real>> make_contraction_rule();
 template <class Real>
 [[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule();
 // For up to twice as many components of the gradient as unknowns, 1024 of them.

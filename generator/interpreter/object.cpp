@@ -36,6 +36,10 @@ void add_block(Object<Real>& object, const Field& field, const StepCode& code) {
     object.matrices[field.name] = make_matrix<Real>(code.matrix->size);
   } else if (field.type.starts_with("NewtonRule")) {
     object.rules[field.name] = make_newton_rule<Real>(sizes.at(0));
+  } else if (field.type.starts_with("WaitingNewtonRule")) {
+    object.rules[field.name] = make_newton_rule<Real>(sizes.at(0), true);
+  } else if (field.type == "ContractionRule") {
+    object.settling[field.name] = make_contraction_rule<Real>();
   } else if (field.type.starts_with("FixedPointRule")) {
     object.contractions[field.name] = make_fixed_point_rule<Real>();
   } else if (field.type.starts_with("ImpatientRule")) {

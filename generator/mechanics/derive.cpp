@@ -113,7 +113,7 @@ void differentiate(const GiNaC::ex& energy, const std::map<std::string, int>& pl
   }
 }
 
-Mechanics derived(const Model& model, bool keep_sums) {
+Mechanics derived(const Model& model, bool keep_sums, int most) {
   SymbolTable table;
   TreeConverter converter(model, table);
   Mechanics mechanics;
@@ -137,7 +137,7 @@ Mechanics derived(const Model& model, bool keep_sums) {
 
   const std::vector<WrittenTerm> terms = written_terms(model);
   for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
-  if (keep_sums && mechanics.degrees_of_freedom > kMostWrittenOut) {
+  if (keep_sums && mechanics.degrees_of_freedom > most) {
     if (auto kernels = derive_kernels(model)) {
       mechanics.kernels = std::move(*kernels);
       return mechanics;
@@ -168,10 +168,10 @@ Mechanics derived(const Model& model, bool keep_sums) {
 
 }  // namespace
 
-Mechanics derive(const Model& model, bool keep_sums) {
+Mechanics derive(const Model& model, bool keep_sums, int most) {
   const Budget budget;
   Mechanics mechanics =
-      with_place(model, model.hamiltonian->span, [&] { return derived(model, keep_sums); });
+      with_place(model, model.hamiltonian->span, [&] { return derived(model, keep_sums, most); });
   // The ranks of the symbols are those of their declarations, see TreeConverter.
   SymbolTable table;
   TreeConverter converter(model, table);

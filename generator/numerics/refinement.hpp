@@ -19,17 +19,52 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
-  Real least = 0;                // of what a round moved all together
+  Real last = 0;                 // what the last round moved all together
+  Real least = 0;                // of these
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
 
+  // The sum of the magnitudes, in eight parts that do not wait for each other.
+  static Real length_of(const Real (&vector)[Size]) {
+    Real parts[8] = {};
+    int j = 0;
+    for (; j + 8 <= Size; j += 8) {
+      for (int k = 0; k < 8; ++k) parts[k] += magnitude(vector[j + k]);
+    }
+    for (int k = 0; j + k < Size; ++k) parts[k] += magnitude(vector[j + k]);
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+  }
+  // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
+  // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  template <class Rule>
+  bool operator()(Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
+                  const Real (&gradient)[Components]) {
+    if (rule.settled && length_of(lack) <= rule.round_off) {
+      ++rule.unchecked;
+      for (int k = 0; k < Components; ++k) {
+        slope[k] = gradient[k];
+        change[k] = 0;
+      }
+      return false;
+    }
+    rule.settled = false;
+    const Real before = least;
+    const bool first = rounds == 1;
+    const bool more = (*this)(point, lack, gradient);
+    if (first && before > 0) rule.learn(last / before);
+    if (!more || !rule.is_slow()) return more;
+    rounds = 0;
+    for (int j = 0; j < Size; ++j) point[j] = at[j];
+    return false;
+  }
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
   // if it wants these and the gradient once more, at the point it has moved; else that is the
   // rounded one again.
   bool operator()(Real (&point)[Size], const Real (&lack)[Size],
                   const Real (&gradient)[Components]) {
     bool open = false;
-    Real last = 0;
+    last = 0;
     for (int j = 0; j < Size; ++j) {
       if (rounds == 0) {
         at[j] = point[j];

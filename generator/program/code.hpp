@@ -176,6 +176,8 @@ struct IterateArray {
   std::vector<KernelRange> ranges;
   std::vector<UnknownArray> unknowns;
   Body body;
+  // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
+  std::optional<int> work = {};
   // Of a simplified Newton: whether its matrix serves, and what the equations lacked.
   std::optional<Place> factorised = {};
   std::string residual = {};
@@ -197,8 +199,9 @@ struct Refine {
 // and what the unknowns lack in another.  `refinement` is a field of start.
 struct RefineArray {
   Place refinement, point, lack, gradient;
-  int count = 0;       // of unknowns
-  int components = 0;  // of the gradient
+  std::string rule = {};  // a ContractionRule of start that may have settled it, or none
+  int count = 0;          // of unknowns
+  int components = 0;     // of the gradient
   Body body;
 };
 // The body a fixed number of times; then the unknowns are `results`.

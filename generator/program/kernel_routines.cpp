@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
+#include "generator/program/gathered_kernel.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/program.hpp"
@@ -57,6 +60,9 @@ class KernelRoutine {
     add_state();
     add_target("dq", part_ != Part::kinetic);
     add_target("dp", part_ != Part::potential);
+    for (const Kernel& kernel : mechanics_.kernels) {
+      for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
+    }
     add_kernels([&](const Kernel& kernel, Body& body) {
       std::vector<Expression> values;
       std::vector<const Slot*> slots;
@@ -67,7 +73,11 @@ class KernelRoutine {
       }
       const std::vector<Expression> results = load(kernel, values, body);
       for (std::size_t i = 0; i < results.size(); ++i) {
-        body.push_back({Accumulate{slope_of(*slots[i]), results[i]}});
+        if (is_outside(kernel, *slots[i])) {
+          sum_up(slope_of(*slots[i]), results[i], body);
+        } else {
+          body.push_back({Accumulate{slope_of(*slots[i]), results[i]}});
+        }
       }
     });
     return std::move(routine_);
@@ -186,6 +196,23 @@ class KernelRoutine {
     return part_ == Part::all || uses_momenta(kernel) == (part_ == Part::kinetic);
   }
 
+  // Does the innermost of several loops leave the slot where it is?
+  [[nodiscard]] static bool is_outside(const Kernel& kernel, const Slot& slot) {
+    return kernel.ranges.size() > 1 && !slot.position.factors.contains(kernel.ranges.back().index);
+  }
+  // An element that stands still in the innermost loop is summed up in a local around that.
+  void sum_up(const std::string& element, const Expression& value, Body& body) {
+    const std::string sum = fmt::format("sum of {}", element);
+    const bool is_new = std::ranges::none_of(before_, [&](const Instruction& instruction) {
+      return std::get<Let>(instruction.value).symbol == sum;
+    });
+    if (is_new) {
+      before_.push_back({Let{sum, Expression(0), true}});
+      after_.push_back({Accumulate{element, Expression::symbol(sum, kRankOfTemporary)}});
+    }
+    body.push_back({Accumulate{sum, value}});
+  }
+
   // Loads what the values read and computes them together.
   std::vector<Expression> load(const Kernel& kernel, const std::vector<Expression>& values,
                                Body& body) {
@@ -204,8 +231,9 @@ class KernelRoutine {
                          .indices = {renamed(slot.position)}});
     }
     const Evaluation evaluation = evaluate_together(substitute(values, indices));
+    std::set<std::string> loaded;
     for (const Slot& slot : kernel.slots) {
-      if (!used.contains(slot.symbol)) continue;
+      if (!used.contains(slot.symbol) || !loaded.insert(slot.symbol).second) continue;
       const Place place = element(slot);
       const std::string source = bind("at " + to_text(place), place);
       body.push_back({Let{slot.symbol, Expression::symbol(source, kRankOfTemporary)}});
@@ -218,7 +246,7 @@ class KernelRoutine {
   template <class Add>
   void add_kernels(const Add& add) {
     std::vector<Body> single;
-    for (const Kernel& kernel : mechanics_.kernels) {
+    for (const Kernel& kernel : kernels_.empty() ? mechanics_.kernels : kernels_) {
       if (!belongs(kernel)) continue;
       Body body;
       add(kernel, body);
@@ -229,8 +257,15 @@ class KernelRoutine {
         continue;
       }
       for (auto range = kernel.ranges.rbegin(); range != kernel.ranges.rend(); ++range) {
-        Body outer{{For{{loop_index(range->index), renamed(range->lower), renamed(range->upper)},
-                        std::move(body)}}};
+        Body outer = std::exchange(before_, {});
+        outer.push_back(
+            {For{{loop_index(range->index), renamed(range->lower), renamed(range->upper)},
+                 std::move(body)}});
+        std::ranges::move(std::exchange(after_, {}), std::back_inserter(outer));
+        for (Instruction& instruction : outer) {
+          if (!std::holds_alternative<For>(instruction.value))
+            instruction.origin.terms = kernel.terms;
+        }
         body = std::move(outer);
       }
       routine_.body.push_back(std::move(body.front()));
@@ -245,9 +280,11 @@ class KernelRoutine {
   }
 
   const Mechanics& mechanics_;
+  std::vector<Kernel> kernels_;  // other ones that are summed instead
   int n_;
   Part part_;
   Place q_{"q"}, p_{"p"};  // the arrays of the state
+  Body before_, after_;    // of the innermost loop
   Routine routine_;
 };
 

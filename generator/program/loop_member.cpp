@@ -29,6 +29,8 @@ Expression lacking(const Expression& z, const Expression& bar, const Expression&
   return row.large.empty() ? sum : sum + (carry + row.small);
 }
 
+constexpr int kStepsOfNewton = 32;
+
 class LoopMember {
  public:
   LoopMember(StepCode& code, const Environment& environment, const Program& program)
@@ -42,8 +44,7 @@ class LoopMember {
         weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
 
   void add() {
-    const bool solved =
-        arrays_.method == ArrayMethod::newton || arrays_.method == ArrayMethod::fixed_point;
+    const bool solved = iterates(arrays_);
     if (solved || plan_.sweeps) {
       if (std::optional<Coefficients> found =
               loop_coefficients(environment_, weights_, arrays_, tangent_)) {
@@ -52,26 +53,35 @@ class LoopMember {
         has_coefficients_ = true;
       }
     }
-    add_start();
+    add_start_record();
     if (arrays_.reduced) code_.routines.push_back(evaluate());
     if (arrays_.matrix) code_.routines.push_back(differentiate());
+    if (both()) {
+      code_.routines.push_back(contract_routine());
+      code_.routines.push_back(newton_routine());
+    }
     code_.routines.push_back(solve());
     if (solved) code_.unknowns = unknowns();
     code_.retries = solved;
     if (newton()) code_.rules = {{"rule", 0, unknowns()}};
+    if (both()) code_.rules = {{"newton_rule", 0, unknowns()}};
     code_.matrix = arrays_.matrix;
   }
 
  private:
   [[nodiscard]] bool newton() const { return arrays_.method == ArrayMethod::newton; }
   [[nodiscard]] bool fixed_point() const { return arrays_.method == ArrayMethod::fixed_point; }
+  [[nodiscard]] bool both() const { return arrays_.method == ArrayMethod::both; }
+  // The size of all increments together then falls from one iteration to the next: q does not wait
+  // for p.
+  [[nodiscard]] bool settles() const { return both() || (fixed_point() && arrays_.reduced); }
   [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
   [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
   [[nodiscard]] KernelRange elements() const { return counting("i", n_); }
 
   // --- what is remembered ---------------------------------------------------------------------
 
-  void add_start() {
+  void add_start_record() {
     Record start{
         .name = "Start",
         .fields = {},
@@ -96,15 +106,21 @@ class LoopMember {
     array("slope", 2 * n_, "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
       array("lack", unknowns(), "of the equations at zbar, then the increment");
-    if (newton()) {
-      start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
+    if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
+    if (newton() || both()) {
       start.fields.push_back({.name = "matrix", .type = "Matrix"});
       if (arrays_.constant_matrix) {
         start.fields.push_back({.name = "factorised", .values = {0}, .type = "bool"});
       }
     }
-    if (fixed_point()) {
-      start.fields.push_back({.name = "rule", .type = "FixedPointRule<2>"});
+    if (both()) {
+      start.fields.push_back({.name = "newton_rule", .type = "WaitingNewtonRule<2>"});
+      start.fields.push_back(
+          {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
+    }
+    if (fixed_point() || both()) {
+      start.fields.push_back(
+          {.name = "rule", .type = settles() ? "ContractionRule" : "FixedPointRule<2>"});
       start.fields.push_back(
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }
@@ -263,14 +279,15 @@ class LoopMember {
   Routine solve() {
     RoutineBuilder b(
         {.name = "solve",
-         .remark = {fixed_point() ? "dz + rest = Z - z for one step from z + carry; rest is small."
-                                  : "dz = Z - z for one step from z + carry."},
+         .remark = {fixed_point() || both()
+                        ? "dz + rest = Z - z for one step from z + carry; rest is small."
+                        : "dz = Z - z for one step from z + carry."},
          .result = {.type = "StepReport", .object = "report"}});
     std::vector<Argument>& list = b.routine().arguments;
     list = arguments(true);
     if (!weights_.uses_h()) list.insert(list.end() - 3, {.name = "h"});
     list.push_back(state_argument("dz", true));
-    if (fixed_point()) list.push_back(state_argument("rest", true));
+    if (fixed_point() || both()) list.push_back(state_argument("rest", true));
     switch (arrays_.method) {
       case ArrayMethod::explicit_a:
       case ArrayMethod::explicit_b:
@@ -280,13 +297,21 @@ class LoopMember {
         add_sweeps(b);
         break;
       case ArrayMethod::newton:
-      case ArrayMethod::fixed_point:
-        add_iteration(b);
+        add_start(b);
+        add_newton(b);
         break;
+      case ArrayMethod::fixed_point:
+        add_start(b);
+        add_fixed_point(b);
+        break;
+      case ArrayMethod::both:
+        add_start(b);
+        add_alternate(b);
+        return b.take();
       case ArrayMethod::gradient_only:
         break;
     }
-    add_result(b);
+    add_result(b, fixed_point());
     return b.take();
   }
 
@@ -336,8 +361,8 @@ class LoopMember {
     }
   }
 
-  void add_iteration(RoutineBuilder& b) const {
-    Body from_state;
+  // zbar = z, as far as it is unknown.
+  [[nodiscard]] Body from_state(RoutineBuilder& b) const {
     Body copy;
     const Expression q = state(b, "z", "q");
     copy.push_back({Assign{coordinate(b).name(), q}});
@@ -345,36 +370,98 @@ class LoopMember {
       const Expression p = state(b, "z", "p");
       copy.push_back({Assign{momentum(b).name(), p}});
     }
-    from_state.push_back(for_each(elements(), std::move(copy)));
-    b.body().push_back({If{{"start", "known"}, false, std::move(from_state)}});
+    Body all;
+    all.push_back(for_each(elements(), std::move(copy)));
+    return all;
+  }
+  void add_start(RoutineBuilder& b) const {
+    b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
+  }
+  [[nodiscard]] Body iteration_body(RoutineBuilder& b) const {
     Body body;
     add_gradient_at_stage(body);
     body.push_back(for_each(elements(), lacks(b)));
+    return body;
+  }
+
+  void add_newton(RoutineBuilder& b) const {
+    Body body = iteration_body(b);
+    add_linear_solve(body);
+    b.body().push_back({IterateArray{.rule = Rule::newton,
+                                     .name = both() ? "newton_rule" : "rule",
+                                     .ranges = {elements()},
+                                     .unknowns = unknown_arrays(b),
+                                     .body = std::move(body)},
+                        {"Newton's iteration on what the equations lack."}});
+    const Expression value = b.at("start", "value", {affine("i")});
+    Body last{{Accumulate{value.name(), b.at("start", "lack", {affine("i")})}}};
+    b.body().push_back(for_each(counting("i", unknowns()), std::move(last)));
+    add_gradient_at_stage(b.body());
+  }
+
+  void add_fixed_point(RoutineBuilder& b) const {
+    Body body = iteration_body(b);
     const Body refined = body;
-    if (newton()) add_linear_solve(body);
-    IterateArray iterate{.rule = newton() ? Rule::newton : Rule::fixed_point,
+    IterateArray iterate{.rule = Rule::fixed_point,
                          .name = "rule",
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
                          .body = std::move(body)};
-    b.body().push_back({std::move(iterate)});
-    b.body().back().remark = {newton() ? "Newton's iteration on what the equations lack."
-                                       : "Fixed-point iteration."};
-    if (newton()) {
-      const Expression value = b.at("start", "value", {affine("i")});
-      Body last{{Accumulate{value.name(), b.at("start", "lack", {affine("i")})}}};
-      b.body().push_back(for_each(counting("i", unknowns()), std::move(last)));
-      add_gradient_at_stage(b.body());
-    } else {
-      b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
-                                      .point = {"start", "value"},
-                                      .lack = {"start", "lack"},
-                                      .gradient = {"start", "slope"},
-                                      .count = unknowns(),
-                                      .components = 2 * n_,
-                                      .body = refined}});
-      b.body().back().remark = {kRefinementRemark};
-    }
+    if (settles()) iterate.work = both() ? arrays_.matrix_work : 0;
+    b.body().push_back({std::move(iterate), {"Fixed-point iteration."}});
+    b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
+                                    .point = {"start", "value"},
+                                    .lack = {"start", "lack"},
+                                    .gradient = {"start", "slope"},
+                                    .rule = settles() ? "rule" : "",
+                                    .count = unknowns(),
+                                    .components = 2 * n_,
+                                    .body = refined},
+                        {kRefinementRemark}});
+  }
+
+  // --- the fixed point, and Newton behind it ---------------------------------------------------
+
+  [[nodiscard]] std::vector<Argument> arguments_of_either() const {
+    std::vector<Argument> list = arguments(true);
+    if (!weights_.uses_h()) list.insert(list.end() - 3, {.name = "h"});
+    list.push_back(state_argument("dz", true));
+    list.push_back(state_argument("rest", true));
+    list.push_back({.name = "report", .record = "StepReport", .changes = true});
+    return list;
+  }
+  [[nodiscard]] Routine contract_routine() const {
+    RoutineBuilder b({.name = "contract",
+                      .remark = {"False if the fixed point contracts so slowly that Newton's "
+                                 "matrix is worth its work."},
+                      .result = {.type = "bool"},
+                      .arguments = arguments_of_either()});
+    add_fixed_point(b);
+    add_result(b, true);
+    return b.take();
+  }
+  [[nodiscard]] Routine newton_routine() const {
+    RoutineBuilder b(
+        {.name = "newton", .result = {.type = "bool"}, .arguments = arguments_of_either()});
+    add_newton(b);
+    add_result(b, false);
+    return b.take();
+  }
+  void add_alternate(RoutineBuilder& b) const {
+    const auto call = [&](const char* routine) {
+      return Call{.routine = routine, .arguments = given(arguments_of_either())};
+    };
+    Body between = from_state(b);
+    between.push_back({SetFlag{{"start", "known"}, false}});
+    b.body().push_back({Alternate{.first = call("contract"),
+                                  .second = call("newton"),
+                                  .patience = {"start", "patience"},
+                                  .steps = kStepsOfNewton,
+                                  .between = std::move(between)},
+                        {fmt::format("Newton where the fixed point contracts slowly, and then for "
+                                     "{} steps.",
+                                     kStepsOfNewton)}});
+    b.body().push_back({Return{}});
   }
 
   // What the equations lack at the stage.
@@ -425,8 +512,28 @@ class LoopMember {
     return list;
   }
 
-  // dz = h J grad H at the stage.
-  void add_result(RoutineBuilder& b) const {
+  // Note [what the torn momenta lose]
+  // They are rounded, at every step alike where the products that they are made of have a pattern,
+  // and h m times that is missing in dq: two thirds of a bias of 1e-4 units of rounding a step.
+  [[nodiscard]] bool knows_momentum_error() const {
+    return settles() && !needs_drift() && arrays_.mass && arrays_.mass->is_number();
+  }
+  Expression lost_of_momentum(RoutineBuilder& b, Body& each) const {
+    // In this order: z and bar cancel without an error.
+    const Expression z = state(b, "z", "p");
+    const Expression bar = b.local("bar");
+    const Expression carry = state(b, "carry", "p");
+    const Gradient at = {b.at("start", "refinement.slope", {affine("i")}), Expression(0)};
+    const StageRow row = weights_.row_of_p(b, each, at);
+    Expression sum = carry + row.small;
+    for (const Expression& term : row.large) sum += term;
+    const Expression moved = b.let(each, "moved", sum);
+    each.push_back({Let{bar.name(), z + moved}});
+    return z - bar + moved;
+  }
+
+  // dz = h J grad H at the stage, which Refinement has where the unknowns are a fixed point.
+  void add_result(RoutineBuilder& b, bool refined) const {
     Return end{.ranges = {elements()}};
     Body each;
     for (const bool is_p : {false, true}) {
@@ -439,13 +546,18 @@ class LoopMember {
       };
       const Expression dz = state(b, "dz", field);
       end.finite.push_back(dz.name());
-      if (fixed_point()) {
+      if (refined) {
         const Expression rest = state(b, "rest", field);
         each.push_back({Assign{dz.name(), flow("refinement.slope")}});
-        each.push_back({Assign{rest.name(), carry + flow("refinement.change")}});
+        Expression small = carry + flow("refinement.change");
+        if (!is_p && knows_momentum_error()) {
+          small += step_size() * *arrays_.mass * lost_of_momentum(b, each);
+        }
+        each.push_back({Assign{rest.name(), small}});
         end.finite.push_back(rest.name());
       } else {
         each.push_back({Assign{dz.name(), carry + flow("slope")}});
+        if (both()) each.push_back({Assign{state(b, "rest", field).name(), Expression(0)}});
       }
     }
     b.body().push_back(for_each(elements(), std::move(each)));

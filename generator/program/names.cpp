@@ -72,6 +72,8 @@ constexpr std::string_view kOurs[] = {"std",
                                       "History",
                                       "NewtonRule",
                                       "FixedPointRule",
+                                      "ContractionRule",
+                                      "WaitingNewtonRule",
                                       "Distance"};
 
 // rule_0, matrix_1: what the emitted functions number themselves.

@@ -23,7 +23,8 @@ constexpr std::string_view kBlockNames[] = {
     "EigenDenseMatrix", "EigenSparseMatrix", "invert",
     "Verdict",          "NewtonRule",        "FixedPointRule",
     "Distance",         "ImpatientRule",     "SimplifiedNewtonRule",
-    "Refinement",       "History",           "forget"};
+    "Refinement",       "History",           "forget",
+    "ContractionRule",  "WaitingNewtonRule"};
 
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });

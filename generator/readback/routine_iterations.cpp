@@ -111,6 +111,7 @@ void RoutineReader::contraction(const IterateArray& iterate) {
   const bool simplified = iterate.rule == Rule::simplified_newton;
   Values arguments;
   if (simplified) arguments = {at(*iterate.factorised)};
+  if (iterate.work) arguments = {integer_symbol(*iterate.work)};
   call(action(rule, "begin", arguments));
   within(endless("iteration "), [&] {
     compare(iterate.body);
@@ -236,9 +237,10 @@ void RoutineReader::operator()(const RefineArray& refine) {
   scope_.declare(begin.name, {Meaning::Kind::number, "more "}, begin.line);
   within(found, [&] {
     compare(refine.body);
+    Values given = {at(refine.point), at(refine.lack), at(refine.gradient)};
+    if (!refine.rule.empty()) given.insert(given.begin(), at({"start", refine.rule}));
     assignment(machine_symbol("more "), "=",
-               machine_call(symbol_of(refine.refinement),
-                            {at(refine.point), at(refine.lack), at(refine.gradient)}));
+               machine_call(symbol_of(refine.refinement), std::move(given)));
   });
   scope_.leave();
 }

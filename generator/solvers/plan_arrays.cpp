@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "generator/solvers/array_matrix.hpp"
+#include "generator/solvers/cost.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
@@ -94,6 +95,9 @@ std::string solver_text(const SolvePlan& plan, int n) {
       return "explicit, in loops";
     case ArrayMethod::fixed_point:
       return fmt::format("fixed point of size {}{}, in loops", size, torn);
+    case ArrayMethod::both:
+      return fmt::format("fixed point, {} Newton of size {} where it contracts slowly{}, in loops",
+                         matrix_text(*arrays.matrix), size, torn);
     case ArrayMethod::sweeps:
       return fmt::format(
           "{} fixed-point sweep{} (Algorithm 1 of the paper), in loops: not symplectic",
@@ -111,7 +115,8 @@ std::string solver_text(const SolvePlan& plan, int n) {
 }  // namespace
 
 bool iterates(const ArrayPlan& plan) {
-  return plan.method == ArrayMethod::newton || plan.method == ArrayMethod::fixed_point;
+  return plan.method == ArrayMethod::newton || plan.method == ArrayMethod::fixed_point ||
+         plan.method == ArrayMethod::both;
 }
 
 bool uses_eigen(const ArrayPlan& plan) {
@@ -142,6 +147,9 @@ SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
     } else {
       arrays.constant_matrix = std::ranges::all_of(mechanics.kernels, has_constant_hessian);
       arrays.matrix = choose_matrix(mechanics, member, arrays.reduced);
+      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
+      const bool either = solver.empty() && arrays.reduced && !arrays.constant_matrix;
+      if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }
   plan.arrays = arrays;

@@ -59,6 +59,7 @@ enum class ArrayMethod {
   gradient_only,  // a splitting or a Runge-Kutta method: no system to solve, or one without blocks
   newton,
   fixed_point,
+  both,   // fixed point, and Newton where it contracts slowly
   sweeps  // SolvePlan::sweeps says how many
 };
 struct ArrayPlan {
@@ -68,6 +69,9 @@ struct ArrayPlan {
   std::optional<Expression> mass = {};     // reduced: m_i, if they are all the same
   std::optional<ArrayMatrix> matrix = {};  // of Newton's iteration
   bool constant_matrix = false;            // factorised once per run
+  // What Newton's matrix and its elimination cost, in evaluations of the equations: where the fixed
+  // point would take more, Newton serves.
+  int matrix_work = 0;
 };
 
 // How the stages of an implicit Runge-Kutta method are found.

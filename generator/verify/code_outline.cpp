@@ -160,7 +160,7 @@ class Outline {
   }
   void operator()(const RefineArray& refine) {
     run(refine.body);
-    whole("refine", refine.refinement);
+    whole("refine " + refine.rule, refine.refinement);
     whole("at", refine.point);
     whole("lack", refine.lack);
     whole("gradient", refine.gradient);

@@ -197,7 +197,8 @@ Decision decide_all(const std::vector<Identities>& parts, const Surroundings& ar
   return total;
 }
 
-// Why the claims about the smaller systems are not those about this one.
+}  // namespace
+
 std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const StepCode& code,
                                              const SmallerSystems& smaller) {
   const auto& [constant, size, first, second] = smaller;
@@ -211,8 +212,10 @@ std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const S
                           {size, outline(code, "invariants")}}});
 }
 
+namespace {
+
 // Of a system in loops that is too large to look at every element.
-Finding prove_longer(const StepUnderProof& step, const Expression& hamiltonian,
+Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>& hamiltonian,
                      const Surroundings& around, const std::optional<SmallerSystems>& smaller) {
   const std::string property = kProgram;
   std::vector<Identities> parts = kernel_identities(step.mechanics, hamiltonian);
@@ -252,16 +255,16 @@ Finding prove_longer(const StepUnderProof& step, const Expression& hamiltonian,
 }  // namespace
 
 Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                      const StepCode& code, const Expression& hamiltonian,
+                      const StepCode& code, const std::optional<Expression>& hamiltonian,
                       const Surroundings& around, std::optional<Decision> of_k,
                       const std::optional<SmallerSystems>& smaller) {
   const std::string property = kProgram;
   const StepUnderProof step(mechanics, scheme, program.plan.equations, code);
   if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostLookedAt)
     return prove_longer(step, hamiltonian, around, smaller);
-  const Derivatives derivatives(mechanics, hamiltonian);
+  const Derivatives derivatives(mechanics, *hamiltonian);
   const Decision total =
-      decide_all(all_identities(step, program, derivatives, hamiltonian), around);
+      decide_all(all_identities(step, program, derivatives, *hamiltonian), around);
   if (!holds(total.verdict)) return {property, total.verdict, total.witness};
   const std::string detail = to_text(total) + scope(scheme, code, mechanics.keeps_sums());
   if (!is_raised(scheme)) return {property, total.verdict, detail};

@@ -49,9 +49,10 @@ class FunctionValues {
 [[nodiscard]] std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
                                                              const RungeKutta& tableau);
 
-// Of sums that are loops: that they sum up to H, and the derivatives of their summands.
-[[nodiscard]] std::vector<Identities> kernel_identities(const Mechanics& mechanics,
-                                                        const Expression& hamiltonian);
+// Of sums that are loops: the derivatives of their summands, and that they sum up to H if that is
+// given.
+[[nodiscard]] std::vector<Identities> kernel_identities(
+    const Mechanics& mechanics, const std::optional<Expression>& hamiltonian);
 
 // The linearised step of a member that is written out.
 [[nodiscard]] Identities tangent_identities(const StepUnderProof& step,

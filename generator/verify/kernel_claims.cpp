@@ -75,10 +75,11 @@ void add_kernel(const Kernel& kernel, std::vector<Identities>& parts) {
 }  // namespace
 
 std::vector<Identities> kernel_identities(const Mechanics& mechanics,
-                                          const Expression& hamiltonian) {
+                                          const std::optional<Expression>& hamiltonian) {
   std::vector<Identities> parts;
   for (const Kernel& kernel : mechanics.kernels) add_kernel(kernel, parts);
-  parts.push_back({{}, {}, {{"the sum of the loops", written_out(mechanics), hamiltonian}}});
+  if (hamiltonian)
+    parts.push_back({{}, {}, {{"the sum of the loops", written_out(mechanics), *hamiltonian}}});
   return parts;
 }
 

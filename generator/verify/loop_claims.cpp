@@ -32,7 +32,12 @@ class LoopMemberClaims {
   std::vector<Identities> run() {
     std::vector<Identities> parts;
     if (step_.code.routine("differentiate") != nullptr) parts.push_back(matrix_identities());
-    parts.push_back(solve_identities());
+    if (!has("contract")) {
+      parts.push_back(solve_identities({}));
+      return parts;
+    }
+    // Either may be what a step is solved by.
+    for (const char* other : {"newton", "contract"}) parts.push_back(solve_identities(other));
     return parts;
   }
 
@@ -153,7 +158,8 @@ class LoopMemberClaims {
                   : !member_.alpha.is_one() || !member_.beta.is_zero();
   }
 
-  Identities solve_identities() {
+  // Without the routine that is skipped, if any.
+  Identities solve_identities(const std::string& skipped) {
     identities_ = {};
     std::set<std::string> opaque = {"gradient", "potential_gradient", "differentiate"};
     if (!linear_) opaque.insert("kinetic_gradient");
@@ -164,7 +170,15 @@ class LoopMemberClaims {
                             : Place{"start", "value", {{n_ + i, {}}}},
                    bar(n_ + i));
     }
+    // What the other one has left in `rest` in a step before is no part of this one.
+    const std::vector<Argument>& given = step_.code.routine("solve")->arguments;
+    const bool has_rest = std::ranges::find(given, "rest", &Argument::name) != given.end();
+    for (int i = 0; i < 2 * n_ && !skipped.empty() && has_rest; ++i) {
+      machine.set(step_.environment.place("rest", i),
+                  Expression::symbol("left in rest(" + step_.name(i) + ")", kRankOfTemporary));
+    }
     if (has("prepare")) machine.run("prepare");
+    machine.skip(skipped);
     machine.run("solve");
     if (sweeps_) {
       claim_sweeps(machine);

@@ -22,6 +22,7 @@ struct SizedSystem {
   Scheme scheme;
   Program program;
   Expression hamiltonian;  // written out
+  Finding read = {};       // what is known of the model's text at this size
 };
 // Of a large system, what it is a longer one of.
 struct SmallerSystems {
@@ -33,11 +34,17 @@ struct SmallerSystems {
 inline constexpr int kMostLookedAt = 32;
 
 // Everything that can be decided by algebra about the scheme's step for this system, and about the
-// program that computes it.  `hamiltonian` is H with its sums written out.
+// program that computes it.  `hamiltonian` is H with its sums written out; it may be left out where
+// the claims about the smaller systems are inherited and there are no invariants.
 // Claims are tried `around` the places where the model is used.
 [[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                           const Expression& hamiltonian, const Surroundings& around = {},
+                           const std::optional<Expression>& hamiltonian,
+                           const Surroundings& around = {},
                            const std::optional<SmallerSystems>& smaller = {});
+// Why the claims about the smaller systems are not those about this one; empty if they are.
+[[nodiscard]] std::optional<std::string> why_not_inherited(const Mechanics& mechanics,
+                                                           const StepCode& code,
+                                                           const SmallerSystems& smaller);
 
 inline constexpr const char* kGauge = "gauge in sp(2n)";
 // The routines before they are text, the text read back, and that of what `hamgen run` compiles.
@@ -76,7 +83,8 @@ inline constexpr const char* kPlugin = "plugin";
 // kMostLookedAt degrees of freedom the claims are made about the `smaller` ones.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
                                     const Program& program, const StepCode& code,
-                                    const Expression& hamiltonian, const Surroundings& around = {},
+                                    const std::optional<Expression>& hamiltonian,
+                                    const Surroundings& around = {},
                                     std::optional<Decision> of_k = {},
                                     const std::optional<SmallerSystems>& smaller = {});
 

@@ -89,7 +89,7 @@ bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const Program& 
 }  // namespace
 
 Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-             const Expression& hamiltonian, const Surroundings& around,
+             const std::optional<Expression>& hamiltonian, const Surroundings& around,
              const std::optional<SmallerSystems>& smaller) {
   std::optional<Decision> of_k;
   if (const GeneratingFunction* function = raised_function(scheme, program))
@@ -103,10 +103,12 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
         finding = resting_on(Verdict::tested, off_the(corners_of_h), std::move(finding));
     }
   }
-  std::ranges::move(
-      prove_invariants(mechanics, hamiltonian, scheme, is_solved(mechanics, scheme, program),
-                       verdict_of(proof, "symplectic"), around),
-      std::back_inserter(proof));
+  if (hamiltonian) {
+    std::ranges::move(
+        prove_invariants(mechanics, *hamiltonian, scheme, is_solved(mechanics, scheme, program),
+                         verdict_of(proof, "symplectic"), around),
+        std::back_inserter(proof));
+  }
   proof.push_back(prove_emitted(mechanics, scheme, program, step_code(program), hamiltonian, around,
                                 of_k, smaller));
   return proof;

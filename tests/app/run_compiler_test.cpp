@@ -1,6 +1,7 @@
 // The compiler of a run, and the cache of what it compiled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "runtime/process.hpp"
@@ -24,6 +25,42 @@ TEST(Run, RefusesCompilersThatChangeTheArithmetic) {
       EXPECT_TRUE(contains(variable.err, "$CXX: ")) << variable.err;
     }
   }
+}
+
+TEST(Run, RefusesFlagsThatChangeTheArithmeticToo) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const Result result = hamgen({"run", model, "--flags=-O2 -ffast-math"});
+  EXPECT_EQ(result.status, 2) << result.err;
+  EXPECT_TRUE(contains(result.err, "--flags: ") && contains(result.err, "'-ffast-math'"))
+      << result.err;
+  EXPECT_EQ(hamgen({"run", model, "--interpret", "--portable"}).status, 2);
+}
+
+// The same steps, in an object of their own.
+TEST(Run, CompilesForThisProcessorUnlessItIsPortable) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::vector<std::string> run = {"run", model, "--steps", "100", "--quiet", "-o", "-"};
+  const std::vector<std::string> cache = {"HAMGEN_CACHE=" + scratch.path("cache")};
+  const auto with = [&](const std::string& option) {
+    std::vector<std::string> words = run;
+    if (!option.empty()) words.push_back(option);
+    const Result result = hamgen(words, cache);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out.substr(result.out.find("\nstep,"));
+  };
+  const std::string native = with("");
+  EXPECT_EQ(with("--portable"), native);
+  EXPECT_EQ(with(""), native);
+  const auto objects =
+      std::ranges::count_if(std::filesystem::directory_iterator(scratch.path("cache")),
+                            [](const auto& entry) { return entry.path().extension() == ".so"; });
+#if defined(__x86_64__)
+  EXPECT_EQ(objects, 2);
+#else
+  EXPECT_EQ(objects, 1);
+#endif
 }
 
 TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {

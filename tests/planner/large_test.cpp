@@ -41,6 +41,64 @@ TEST(LargePlan, TheMidpointRuleOnALongChainIsNewtonOfSizeN) {
   EXPECT_TRUE(contains(small.plan, "momenta torn out")) << small.plan;
 }
 
+// The fixed point is what a step begins with where the matrix is more work than another evaluation.
+TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
+  const Outcome both = outcome(chain(64));
+  EXPECT_TRUE(contains(both.plan,
+                       "solver: fixed point, banded Newton of size 64 where it "
+                       "contracts slowly; momenta torn out, in loops\n"))
+      << both.plan;
+  EXPECT_TRUE(contains(both.header, "ContractionRule rule;"));
+  EXPECT_TRUE(contains(both.header, "WaitingNewtonRule<2> newton_rule;"));
+  const Outcome newton = outcome(chain(64), {.solver = "newton"});
+  EXPECT_TRUE(contains(newton.plan, "solver: banded Newton of size 64;")) << newton.plan;
+  EXPECT_FALSE(contains(newton.header, "ContractionRule"));
+  const Outcome fixed_point = outcome(chain(64), {.solver = "fixed-point"});
+  EXPECT_TRUE(contains(fixed_point.plan, "solver: fixed point of size 64;")) << fixed_point.plan;
+  EXPECT_FALSE(contains(fixed_point.header, "factorise"));
+  // Where momenta wait for coordinates, increments say nothing of the contraction.
+  const Outcome coupled = outcome(
+      "size N = 30\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
+      "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1])\n");
+  EXPECT_TRUE(contains(coupled.plan, "solver: banded Newton of size 60")) << coupled.plan;
+}
+
+// More than 12 unknowns to eliminate are a loop, unless something needs them by name.
+TEST(LargePlan, AMiddlingSystemThatIsEliminatedIsALoop) {
+  const auto plan = [](int n, const Request& request = {}) {
+    return outcome(chain(n), request).plan;
+  };
+  EXPECT_FALSE(contains(plan(12), "in loops"));
+  EXPECT_TRUE(contains(plan(13), "in loops"));
+  EXPECT_TRUE(contains(plan(24), "in loops"));
+  EXPECT_FALSE(contains(plan(24, {.alpha = "0"}), "in loops"));
+  EXPECT_FALSE(contains(plan(14, {.order = 4}), "in loops"));
+}
+
+// What is cheap is computed again for each of its ends instead of waiting for memory, its terms
+// apart; what is not is not.
+TEST(LargePlan, ACheapChainIsGathered) {
+  const std::string cheap = function_text(outcome(chain(64)).header, "void potential_gradient(");
+  EXPECT_TRUE(contains(cheap, "for (int i = 2; i <= 63; ++i)")) << cheap;
+  EXPECT_TRUE(contains(cheap, "q_i_minus_1")) << cheap;
+  EXPECT_FALSE(contains(cheap, "2.0 * q_i")) << cheap;
+  const std::string dear = function_text(
+      outcome(chain(64, "exp(q[i+1] - q[i]) - q[i+1] + q[i]")).header, "void potential_gradient(");
+  EXPECT_FALSE(contains(dear, "q_i_minus_1")) << dear;
+}
+
+// The element that the inner loop leaves where it is is summed up beside it.
+TEST(LargePlan, PairsSumUpInALocal) {
+  const std::string gradient = function_text(
+      outcome("size N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+              "H = sum(i = 1..N, p[i]^2/2) - sum(i = 1..N, j = 1..i-1, cos(q[i] - q[j]))\n")
+          .header,
+      "void potential_gradient(");
+  EXPECT_EQ(count(gradient, "dq[i - 1] +="), 1) << gradient;
+  EXPECT_EQ(count(gradient, "dq[j - 1] -="), 1) << gradient;
+  EXPECT_GT(gradient.find("dq[i - 1] +="), gradient.find("dq[j - 1] -=")) << gradient;
+}
+
 TEST(LargePlan, AHarmonicChainIsFactorisedOnce) {
   const Outcome small = outcome(chain(64, "(q[i+1] - q[i])^2/2"));
   EXPECT_TRUE(contains(small.plan, "linear solve of size 64")) << small.plan;
@@ -64,7 +122,7 @@ TEST(LargePlan, TheMidpointRuleHasNoTraceOfBetaAndGamma) {
 
 TEST(LargePlan, ASumOfSeveralTermsIsOneLoop) {
   const std::string header = outcome(chain(64)).header;
-  EXPECT_EQ(count(function_text(header, "void potential_gradient("), "for (int i = 1;"), 1);
+  EXPECT_EQ(count(function_text(header, "void potential_gradient("), "for (int i = 2;"), 1);
   // A kinetic energy in one quotient with the potential is separable all the same.
   const Outcome together = outcome(
       "size N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\n"

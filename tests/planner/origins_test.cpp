@@ -89,16 +89,25 @@ iteration             |  for i = 1..40:
 iteration H 2         |    q[i] = at q[i - 1]
 iteration H 2         |    #0 = q[i]^2
 iteration H 2         |    dq(i - 1) += 4*q[i]*#0
-iteration             |  for i = 1..39:
-iteration H 3         |    q[i+1] = at q[i]
+iteration             |  for i = 2..39:
 iteration H 3         |    q[i] = at q[i - 1]
-iteration H 3         |    #0 = q[i+1] - q[i]
-iteration H 3         |    dq(i) += #0
-iteration H 3         |    dq(i - 1) += -#0
-iteration H 3         |  q[1] = at q[0]
-iteration H 3         |  q[40] = at q[39]
-iteration H 3         |  dq(0) += q[1]
-iteration H 3         |  dq(39) += q[40]
+iteration H 3         |    q[i-1] = at q[i - 2]
+iteration H 3         |    q[i+1] = at q[i]
+iteration H 3         |    dq(i - 1) += -(q[i-1] - q[i])
+iteration H 3         |    dq(i - 1) += q[i] - q[i+1]
+iteration             |  scope:
+iteration H 3         |    q[2] = at q[1]
+iteration H 3         |    q[1] = at q[0]
+iteration H 3         |    dq(0) += q[1] - q[2]
+iteration             |  scope:
+iteration H 3         |    q[40] = at q[39]
+iteration H 3         |    q[39] = at q[38]
+iteration H 3         |    dq(39) += -(q[39] - q[40])
+iteration             |  scope:
+iteration H 3         |    q[1] = at q[0]
+iteration H 3         |    q[40] = at q[39]
+iteration H 3         |    dq(0) += q[1]
+iteration H 3         |    dq(39) += q[40]
 kinetic_gradient(par, p, &dp):
 iteration             |  for i = 0..39:
 iteration             |    dp(i) <- 0

@@ -1,0 +1,77 @@
+// When to stop a fixed point that starts near its end: where what is still missing is lost in
+// rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
+//
+// Note [what an increment leaves]
+// An increment of this size leaves the unknowns contraction * size from the solution, and the
+// slopes taken there, which are all that a step keeps, another factor of the contraction.  That is
+// a bias where rounding is a random walk, and in the momenta it counts 1/h times: the factor 2^-20
+// keeps it below the sum of the rounding errors.  The slopes are then taken without Refinement.
+//
+// The contraction is that of two increments well above rounding, or what Refinement finds, at least
+// in every 32nd step.  Whatever it was, what the equations lack where the slopes are taken is
+// looked at in every step: if it is not lost in the rounding of the unknowns, Refinement goes on.
+struct ContractionRule {
+  FixedPointRule<2> rule;
+  Real contraction = largest;  // where nothing is known
+  Real size = 0;               // of the last increment
+  Real round_off = 0;
+  int work = 0;
+  int unchecked = 0;
+  bool settled = false;
+
+  // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
+  void begin(int matrix_work) {
+    rule.begin();
+    size = 0;
+    work = matrix_work;
+    settled = false;
+  }
+  Verdict operator()(const Distance& moved, int iterations) {
+    const Real before = size;
+    Verdict verdict = rule(moved, iterations);
+    size = rule.size;
+    round_off = epsilon * moved.scale;
+    if (verdict == Verdict::failed) return give_up();
+    if (before > 0 && size > 64 * round_off) learn(size / before);
+    if (is_slow()) return give_up();
+    // Of an increment that is mostly rounding, what is missing from before.
+    Real missing = size;
+    if (before > 0 && size <= round_off && contraction * before < size) {
+      missing = contraction * before;
+    }
+    settled = unchecked < 32 && is_lost(missing);
+    if (settled) return Verdict::done;
+    // One increment alone says nothing of the contraction, and another may settle it.
+    const bool grows = before > 0 && 2 * size > before && size > 8 * round_off;
+    const bool goes_on =
+        before > 0 ? grows && work > 0 : contraction >= largest || is_lost(contraction * size);
+    return verdict == Verdict::done && goes_on ? Verdict::go_on : verdict;
+  }
+  // It may rise at once but falls slowly: one small increment may be luck.
+  void learn(Real seen) {
+    const bool first = contraction >= largest;
+    if (first || seen > contraction || 4 * seen > contraction) {
+      contraction = seen;
+    } else {
+      contraction /= 4;
+    }
+    unchecked = 0;
+  }
+  // Would so many rounds of Refinement cost more than the matrix?
+  bool is_slow() const {
+    if (work == 0 || contraction >= largest) return false;
+    Real left = 1;
+    for (int round = 0; round < work; ++round) left *= contraction;
+    return 2 * contraction > 1 || left * 8192 > 1;
+  }
+
+ private:
+  bool is_lost(Real missing) const {
+    return contraction < 1 && contraction * contraction * missing * 1048576 <= round_off;
+  }
+  // When it is tried again, things may have changed.
+  Verdict give_up() {
+    if (work > 0) contraction = largest;
+    return Verdict::failed;
+  }
+};

@@ -1,0 +1,66 @@
+#include "generator/solvers/cost.hpp"
+
+#include <algorithm>
+
+#include "generator/mechanics/operation_count.hpp"
+
+namespace hamgen {
+
+namespace {
+
+constexpr int kMostWork = 13;
+// An unknown's part in the equations besides the gradient: its momentum, what it lacks, its sums.
+constexpr double kOfUnknown = 10;
+// A row of a band waits for the row before it: its division, and the choice of a pivot.
+constexpr double kOfBandRow = 100;
+// A row of Eigen's sparse matrix, whose entries are sorted and whose fill-in is looked up.
+constexpr double kOfSparseRow = 1000;
+
+struct Counts {
+  double gradient = 0;
+  double hessian = 0;
+};
+
+Counts count(const Mechanics& mechanics) {
+  Counts counts;
+  for (const Kernel& kernel : mechanics.kernels) {
+    double instances = 0;
+    for_each_instance(kernel.ranges, [&](const std::vector<long>&) { ++instances; });
+    std::set<std::string> varying;
+    for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
+    std::vector<Expression> second;
+    for (const auto& [slots, value] : kernel.hessian) second.push_back(value);
+    const auto slots = static_cast<double>(kernel.slots.size());
+    const auto entries = static_cast<double>(second.size());
+    counts.gradient +=
+        instances * (static_cast<double>(operation_count(kernel.gradient, varying)) + slots);
+    counts.hessian += instances * (static_cast<double>(operation_count(second, varying)) + entries);
+  }
+  return counts;
+}
+
+double elimination(const ArrayMatrix& matrix) {
+  const double size = matrix.size;
+  const double width = matrix.bandwidth;
+  switch (matrix.kind) {
+    case MatrixKind::band:
+      return size * (kOfBandRow + 6 * width * width);
+    case MatrixKind::dense:
+    case MatrixKind::eigen_dense:
+      return 2 * size * size * size / 3;
+    case MatrixKind::eigen_sparse:
+      return size * kOfSparseRow;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int matrix_work(const Mechanics& mechanics, const ArrayMatrix& matrix) {
+  const Counts counts = count(mechanics);
+  const double evaluation = counts.gradient + kOfUnknown * matrix.size;
+  const double work = (counts.hessian + elimination(matrix)) / evaluation;
+  return static_cast<int>(std::clamp(work + 0.5, 1.0, static_cast<double>(kMostWork)));
+}
+
+}  // namespace hamgen

@@ -1,0 +1,136 @@
+// When the fixed point of a step is left as it is, when Refinement goes on, and when Newton takes
+// over.
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+template <class Blocks>
+class ContractionRule : public ::testing::Test {
+ protected:
+  using Number = typename Blocks::Scalar;
+  using Answer = typename Blocks::Answer;
+  using Rule = typename Blocks::Contraction;
+
+  static Rule with_contraction(double contraction, int work = 0) {
+    Rule rule;
+    rule.learn(Number(contraction));
+    rule.begin(work);
+    return rule;
+  }
+  // An increment of so many units of rounding of a solution 1.
+  static Answer show(Rule& rule, double units, int iteration) {
+    typename Blocks::Moved distance;
+    distance.add(Number(units) * Blocks::unit, Number(1));
+    return rule(distance, iteration);
+  }
+};
+TYPED_TEST_SUITE(ContractionRule, EveryScalar);
+
+// 2^-14 squared, 16 units and the safety 2^20 are 2^-4 units.
+TYPED_TEST(ContractionRule, SettlesWhatIsLostWithTheSafety) {
+  auto rule = this->with_contraction(1.0 / (1 << 14));
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+}
+
+TYPED_TEST(ContractionRule, LeavesMoreThanThatToRefinement) {
+  auto rule = this->with_contraction(1.0 / (1 << 4));
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+  EXPECT_FALSE(rule.settled);
+}
+
+// One increment more settles it: 2^-9 cubed, 16 units, 2^20.
+TYPED_TEST(ContractionRule, GoesOnWhereTheNextIncrementSettlesIt) {
+  auto rule = this->with_contraction(1.0 / (1 << 9));
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::go_on);
+  EXPECT_EQ(this->show(rule, 0.25, 2), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+}
+
+TYPED_TEST(ContractionRule, KnowsNothingBeforeTheSecondIncrement) {
+  typename TestFixture::Rule rule;
+  rule.begin(0);
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::go_on);
+  EXPECT_EQ(this->show(rule, 0.25, 2), TypeParam::Answer::done);
+  EXPECT_FALSE(rule.settled);
+}
+
+TYPED_TEST(ContractionRule, LooksAgainAfter32Steps) {
+  auto rule = this->with_contraction(1.0 / (1 << 14));
+  rule.unchecked = 31;
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+  rule.unchecked = 32;
+  rule.begin(0);
+  EXPECT_NE(this->show(rule, 16, 1), TypeParam::Answer::failed);
+  EXPECT_FALSE(rule.settled);
+}
+
+// A matrix of the work 4 is worth it where 4 rounds leave more than 2^-13: from 2^-13/4 on.
+TYPED_TEST(ContractionRule, GivesUpWhereTheMatrixIsCheaper) {
+  EXPECT_FALSE(this->with_contraction(0.105, 4).is_slow());
+  EXPECT_TRUE(this->with_contraction(0.106, 4).is_slow());
+  EXPECT_TRUE(this->with_contraction(0.51, 13).is_slow());
+  EXPECT_FALSE(this->with_contraction(0.9, 0).is_slow());
+  auto rule = this->with_contraction(0.3, 4);
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::failed);
+  rule.begin(4);
+  EXPECT_FALSE(rule.is_slow());  // it is tried again
+}
+
+// Increments that grow from next to rounding on end in no solution.
+TYPED_TEST(ContractionRule, TakesNoDivergenceForTheEnd) {
+  typename TestFixture::Rule rule;
+  rule.begin(13);
+  double units = 3;
+  int iteration = 1;
+  for (; iteration < 20; ++iteration, units *= 3) {
+    const auto verdict = this->show(rule, units, iteration);
+    ASSERT_NE(verdict, TypeParam::Answer::done) << iteration;
+    if (verdict == TypeParam::Answer::failed) break;
+  }
+  EXPECT_LT(iteration, 8);
+}
+
+// x = 1/8 x + b, from a point one unit away: what the rule has settled is taken as it is, else the
+// change of the slope is found, and the contraction too.
+TYPED_TEST(ContractionRule, LearnsFromRefinement) {
+  using Number = typename TypeParam::Scalar;
+  const Number solution = 1;
+  for (const bool settled : {true, false}) {
+    auto rule = this->with_contraction(1.0 / (1 << 14));
+    EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+    rule.settled = settled;
+    typename TypeParam::template Refined<1, 2> refinement;
+    Number point[1] = {solution + TypeParam::unit};
+    const Number rounded = point[0];
+    int evaluations = 0;
+    for (bool more = true; more; ++evaluations) {
+      const Number slope[2] = {point[0] / 8, 0};
+      const Number lack[1] = {(solution - point[0]) * Number(7) / 8};
+      more = refinement(rule, point, lack, slope);
+    }
+    EXPECT_EQ(point[0], rounded);
+    EXPECT_EQ(evaluations == 1, settled);
+    const double change = double(refinement.change[0] / TypeParam::unit);
+    EXPECT_NEAR(change, settled ? 0 : -1.0 / 8, 1e-3);
+    EXPECT_NEAR(double(rule.contraction), settled ? 1.0 / (1 << 14) : 1.0 / 8, 1e-3);
+  }
+}
+
+// A contraction that was learnt long ago may be wrong: what the equations lack says so.
+TYPED_TEST(ContractionRule, IsNotBelievedAgainstWhatIsSeen) {
+  using Number = typename TypeParam::Scalar;
+  auto rule = this->with_contraction(1.0 / (1 << 14));
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+  typename TypeParam::template Refined<1, 2> refinement;
+  Number point[1] = {1};
+  const Number slope[2] = {0, 0};
+  const Number lack[1] = {8 * TypeParam::unit};
+  EXPECT_TRUE(refinement(rule, point, lack, slope));
+  EXPECT_FALSE(rule.settled);
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
