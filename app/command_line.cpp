@@ -84,7 +84,7 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
       ->type_name("NAME");
   command.add_option("--scalar", options.scalar, "")->type_name("TYPE");
   command.add_flag("--plain-sums", options.plain_sums,
-                   "float, double, long-double, quad; rounding is not made up for");
+                   "float, double, long-double, quad; rounding not made up for");
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {

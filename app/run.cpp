@@ -419,21 +419,19 @@ Command add_run(CLI::App& app) {
       ->type_name("FILE");
   add_checkpoint_options(*parser, options->checkpoint);
   add_checkpoint_interval(*parser, options->checkpoint);
-  parser->add_option("--header", options->header, "S, default 60; where the emitted header goes")
-      ->type_name("DIR");
+  parser->add_flag("--certify", options->certify, "default 60; how near it is to the exact map");
   parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
-  parser->add_flag("--json", options->json,
-                   "terms of the modified Hamiltonian; the result as JSON");
-  parser->add_flag("--certify", options->certify, "");
-  parser->add_flag("--quiet", options->quiet,
-                   "how near it is to the exact map; no summary, no progress");
-  add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
   parser->add_flag("--interpret", options->interpret,
-                   "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
-  parser->add_option("--flags", options->flags, "")->type_name("FLAGS");
+                   "terms of the modified Hamiltonian; without a compiler");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "");
+  parser->add_option("--header", options->header, "as JSON; no summary; the emitted header")
+      ->type_name("DIR");
+  add_method_options(*parser, options->method);
+  parser->add_option("--compiler", options->compiler, "")->type_name("C");
+  parser->add_option("--flags", options->flags, "")->type_name("F");
   parser->add_flag("--portable", options->portable,
-                   "more for the compiler; not for this machine's processor alone");
+                   "default: $CXX, g++, clang++; not for this processor alone");
   return {parser, [options] { return run(*options); }};
 }
 
