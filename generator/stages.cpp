@@ -36,8 +36,8 @@ void drop_unused_parameters(StepEquations& equations) {
 
 Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
                         const Request& request, bool keep_sums,
-                        Variables variables = Variables::changed, int most = kMostWrittenOut) {
-  Mechanics mechanics = derive(model, keep_sums, most);
+                        Variables variables = Variables::changed) {
+  Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);
   return specialise(model, std::move(mechanics), std::move(scheme), scene, variables);
@@ -66,33 +66,6 @@ Specialised choose_variables(const Model& model, const std::optional<SceneFacts>
                                          change.left_out.back(), after, before));
   }
   return plain;
-}
-
-// An elimination of more unknowns than this is better left to a loop, and so are the sums then:
-// what is written out takes longer to compile, and no less to run.
-constexpr int kMostEliminated = 12;
-
-bool eliminates_much(const SolvePlan& plan) {
-  return std::ranges::any_of(plan.blocks, [](const Block& block) {
-    return block.kind == BlockKind::newton && std::ssize(block.unknowns) > kMostEliminated;
-  });
-}
-
-// The same system in loops, where that is what its step is better made of and nothing is lost by
-// it.
-std::optional<Specialised> in_loops(const Model& model, const std::optional<SceneFacts>& scene,
-                                    const Request& request, const Specialised& written_out,
-                                    const SolvePlan& plan) {
-  const bool changed = !written_out.left_out.empty() || !written_out.changes.empty();
-  if (changed || !may_keep_sums(request) || plan.equations.function || plan.sweeps ||
-      request.watch_modified > 0 || !eliminates_much(plan))
-    return {};
-  Specialised system =
-      make_system(model, scene, request, true, Variables::as_they_are, kMostEliminated);
-  const std::vector<Kernel>& kernels = system.mechanics.kernels;
-  const auto is_loop = [](const Kernel& kernel) { return !kernel.ranges.empty(); };
-  if (2 * std::ranges::count_if(kernels, is_loop) < std::ssize(kernels)) return {};
-  return system.mechanics.keeps_sums() ? std::optional(std::move(system)) : std::nullopt;
 }
 
 bool is_polynomial(const Mechanics& mechanics) {
@@ -133,11 +106,6 @@ Stages stages_of(Model model, const Request& request) {
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
-  if (auto loops = in_loops(folded.model, scene, request, system, plan)) {
-    system = std::move(*loops);
-    equations = discretise(system.mechanics, system.scheme, hessian);
-    plan = plan_solve(equations, request.solver);
-  }
   if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
     // Eigen does not know quad numbers: everything is written out instead.
     system = make_system(folded.model, scene, request, false);

@@ -127,6 +127,8 @@ const std::vector<Rule>& rules() {
        {"benchmarks/", "app/studies/", "generator/", "runtime/", "tests/contract/",
         "tests/numerics_blocks/"},
        {fmt, other}},
+      // Time and memory of the command as a process.
+      {"benchmarks/cost/command_cost.", {"benchmarks/"}, {system}},
       {"generated/", {}, {eigen, quadmath}},
   };
   return table;

@@ -44,6 +44,15 @@ class InterfaceText {
     add("advance", advance());
     add("get_state", get_state());
     add("get_carry", get_carry());
+    add("save_run",
+        {"long long save_run(const hamgen_run* run, void* bytes) {"
+         "if (!__is_trivially_copyable(hamgen_run)) return 0;"
+         "if (bytes) __builtin_memcpy(bytes, run, sizeof *run);"
+         "return static_cast<long long>(sizeof *run); }"});
+    add("restore_run",
+        {"int restore_run(hamgen_run* run, const void* bytes, long long size) {"
+         "if (size == 0 || size != save_run(run, nullptr)) return 0;"
+         "__builtin_memcpy(static_cast<void*>(run), bytes, sizeof *run); return 1; }"});
     add("energy_of",
         {"double energy_of(const double* parameters, const double* parameters_lo,"
          "const double* state, const double* state_lo, double* energy_lo) { return high_part("
@@ -242,7 +251,8 @@ class InterfaceText {
   [[nodiscard]] Pattern table() const {
     return {fmt::format(
         "const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, {}, create,"
-        "destroy, advance, get_state, get_carry, energy_of, invariants_of, gradient_of, {}}};"
+        "destroy, advance, get_state, get_carry, energy_of, invariants_of, gradient_of, {},"
+        "save_run, restore_run}};"
         "}} }}",
         facts_.degrees_of_freedom, facts_.parameters.size(),
         facts_.invariants + facts_.shell.modified, facts_.precision.bits,

@@ -98,8 +98,8 @@ TEST(Scene, a_time_is_as_many_steps_as_it_has_room_for) {
   EXPECT_EQ(scene_values(model(), {.scene = "first", .time = "1"}).steps, 10);
   EXPECT_EQ(refusal({.steps = "3", .time = "1"}),
             "--time 1 and --steps 3 both say how long\nhelp: drop one");
-  EXPECT_EQ(refusal({.time = "-1"}), "--time -1 and h = 1/10 go in opposite directions");
-  EXPECT_EQ(refusal({.time = "1e20"}), "--time 1e20: more than 1e15 steps of h = 1/10");
+  EXPECT_EQ(refusal({.time = "-1"}), "--time -1 and h = 0.1 go in opposite directions");
+  EXPECT_EQ(refusal({.time = "1e20"}), "--time 1e20: more than 1e15 steps of h = 0.1");
 }
 
 TEST(Scene, wrong_options_are_refused_by_name) {

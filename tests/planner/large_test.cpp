@@ -63,18 +63,6 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
   EXPECT_TRUE(contains(coupled.plan, "solver: banded Newton of size 60")) << coupled.plan;
 }
 
-// More than 12 unknowns to eliminate are a loop, unless something needs them by name.
-TEST(LargePlan, AMiddlingSystemThatIsEliminatedIsALoop) {
-  const auto plan = [](int n, const Request& request = {}) {
-    return outcome(chain(n), request).plan;
-  };
-  EXPECT_FALSE(contains(plan(12), "in loops"));
-  EXPECT_TRUE(contains(plan(13), "in loops"));
-  EXPECT_TRUE(contains(plan(24), "in loops"));
-  EXPECT_FALSE(contains(plan(24, {.alpha = "0"}), "in loops"));
-  EXPECT_FALSE(contains(plan(14, {.order = 4}), "in loops"));
-}
-
 // What is cheap is computed again for each of its ends instead of waiting for memory, its terms
 // apart; what is not is not.
 TEST(LargePlan, ACheapChainIsGathered) {

@@ -152,7 +152,9 @@ TEST(Integrator, NeverReportsAnEnergyThatIsNotFinite) {
   const Report report = run.advance(200, true);
   EXPECT_EQ(report.status, Status::overflow);
   EXPECT_TRUE(std::isfinite(run.energy().hi));
-  if (report.energy) EXPECT_TRUE(std::isfinite(report.energy->max.hi));
+  if (report.energy) {
+    EXPECT_TRUE(std::isfinite(report.energy->max.hi));
+  }
 }
 
 }  // namespace

@@ -154,7 +154,9 @@ void expect_six_steps(const Ended& run, long long every) {
   EXPECT_EQ(run.summary.energy->last, six.energy()) << every;
   EXPECT_LT(run.summary.energy->max_error(), 0.1) << every;
   EXPECT_EQ(run.summary.iterations, 6) << every;
-  if (every == 1) EXPECT_EQ(run.last_row, six.state());
+  if (every == 1) {
+    EXPECT_EQ(run.last_row, six.state());
+  }
   EXPECT_EQ(run.summary.records, every == 0 ? 0 : 1 + 6 / every);
 }
 
