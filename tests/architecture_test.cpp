@@ -128,7 +128,9 @@ const std::vector<Rule>& rules() {
         "tests/numerics_blocks/"},
        {fmt, other}},
       // Time and memory of the command as a process.
-      {"benchmarks/cost/command_cost.", {"benchmarks/"}, {system}},
+      {"benchmarks/cost/",
+       {"benchmarks/", "app/studies/", "generator/", "runtime/"},
+       {fmt, system, other}},
       {"generated/", {}, {eigen, quadmath}},
   };
   return table;
