@@ -65,7 +65,7 @@ class Functions {
     const std::vector<Expression> by_p(middle, gradient.end());
     const bool loops = step_.mechanics.keeps_sums();
     if (!loops) add("gradient", "values", "component of the gradient", gradient);
-    if (loops && !has("potential_gradient")) add_whole_gradient(by_q, by_p);
+    if (loops) add_whole_gradient(by_q, by_p);
     if (has("potential_gradient")) {
       add("potential_gradient", loops ? "dq" : "values", "component of dV/dq", by_q);
       add("kinetic_gradient", loops ? "dp" : "values", "component of dT/dp", by_p);

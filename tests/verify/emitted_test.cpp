@@ -273,6 +273,24 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
   EXPECT_GE(mutants, 20);
 }
 
+// Of a separable system the step calls the two halves: the whole is for who uses the header.
+TEST(EmittedLoops, AGradientThatNoStepCallsIsProvedToo) {
+  const auto [mechanics, hamiltonian] = loops_of(kChain);
+  for (const Loops& c : loops(mechanics)) {
+    const Program program = program_of(mechanics, *c.scheme, c.solver);
+    for (const std::size_t dropped : {0, 1}) {
+      StepCode code = step_code(program);
+      const auto gradient = std::ranges::find(code.routines, "gradient", &Routine::name);
+      ASSERT_NE(gradient, code.routines.end()) << c.name;
+      ASSERT_EQ(gradient->body.size(), 2u) << c.name;
+      gradient->body.erase(gradient->body.begin() + static_cast<std::ptrdiff_t>(dropped));
+      EXPECT_EQ(prove_emitted(mechanics, *c.scheme, program, code, hamiltonian).verdict,
+                Verdict::refuted)
+          << c.name << ", without call " << dropped;
+    }
+  }
+}
+
 // The derivatives are derived anew from H, for loops too.
 TEST(EmittedLoops, WrongKernelsAreRefuted) {
   const auto [mechanics, hamiltonian] = loops_of(kChain);
