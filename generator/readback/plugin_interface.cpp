@@ -44,11 +44,10 @@ class InterfaceText {
     add("advance", advance());
     add("get_state", get_state());
     add("get_carry", get_carry());
-    add("save_run",
-        {"long long save_run(const hamgen_run* run, void* bytes) {"
-         "if (!__is_trivially_copyable(hamgen_run)) return 0;"
-         "if (bytes) __builtin_memcpy(bytes, run, sizeof *run);"
-         "return static_cast<long long>(sizeof *run); }"});
+    add("save_run", {"long long save_run(const hamgen_run* run, void* bytes) {"
+                     "if (!__is_trivially_copyable(hamgen_run)) return 0;"
+                     "if (bytes) __builtin_memcpy(bytes, run, sizeof *run);"
+                     "return static_cast<long long>(sizeof *run); }"});
     add("restore_run",
         {"int restore_run(hamgen_run* run, const void* bytes, long long size) {"
          "if (size == 0 || size != save_run(run, nullptr)) return 0;"
