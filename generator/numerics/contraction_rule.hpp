@@ -41,11 +41,13 @@ struct ContractionRule {
     }
     settled = unchecked < 32 && is_lost(missing);
     if (settled) return Verdict::done;
-    // One increment alone says nothing of the contraction, and another may settle it.
+    // One increment alone says nothing of the contraction, and another may settle it; none at all,
+    // as in a state of equilibrium, never will.
     const bool grows = before > 0 && 2 * size > before && size > 8 * round_off;
     const bool goes_on =
         before > 0 ? grows && work > 0 : contraction >= largest || is_lost(contraction * size);
-    return verdict == Verdict::done && goes_on ? Verdict::go_on : verdict;
+    const bool may_go_on = size > 0 && iterations < 500;
+    return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
   }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(Real seen) {

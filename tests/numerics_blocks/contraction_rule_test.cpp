@@ -93,6 +93,32 @@ TYPED_TEST(ContractionRule, TakesNoDivergenceForTheEnd) {
   EXPECT_LT(iteration, 8);
 }
 
+// A state of equilibrium has no increments, and no two that tell a contraction.
+TYPED_TEST(ContractionRule, EndsWhereNothingMoves) {
+  for (const int work : {0, 4}) {
+    for (const double length : {0.0, 1.0}) {
+      typename TestFixture::Rule rule;
+      rule.begin(work);
+      typename TypeParam::Moved distance;
+      distance.add(typename TestFixture::Number(0), typename TestFixture::Number(length));
+      EXPECT_EQ(rule(distance, 1), TypeParam::Answer::done);
+    }
+  }
+}
+
+// However often it is asked for one more.
+TYPED_TEST(ContractionRule, AlwaysComesToAnEnd) {
+  for (const double units : {0.5, 9.0, 63.0, 65.0, 5000.0}) {
+    typename TestFixture::Rule rule;
+    rule.begin(4);
+    int iteration = 1;
+    while (iteration <= 500 && this->show(rule, units, iteration) == TypeParam::Answer::go_on) {
+      ++iteration;
+    }
+    EXPECT_LE(iteration, 500) << units;
+  }
+}
+
 // x = 1/8 x + b, from a point one unit away: what the rule has settled is taken as it is, else the
 // change of the slope is found, and the contraction too.
 TYPED_TEST(ContractionRule, LearnsFromRefinement) {
