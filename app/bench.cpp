@@ -89,8 +89,7 @@ Command add_bench(CLI::App& app) {
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "the table as JSON on standard output");
   parser->add_flag("--quiet", options->bench.quiet, "no progress, no names of files");
-  parser->add_option("--compiler", options->bench.compiler, "default: $CXX, else g++, else clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(*parser, options->bench.compiler);
   return {parser, [options] { return bench(*options); }};
 }
 

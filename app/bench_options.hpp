@@ -12,7 +12,8 @@ namespace hamgen::app {
 struct BenchOptions {
   std::string model;
   SceneOptions scene;  // h and steps are in place of the scene's own
-  std::string schemes, h, time, target, compiler;
+  std::string schemes, h, time, target;
+  CompilerChoice compiler;
   std::string observe = "state";
   std::string rounds = "9";
   bool plain_sums = false;

@@ -23,7 +23,8 @@ namespace {
 struct CertifyOptions {
   MethodOptions method;
   SceneOptions scene;
-  std::string every, within, compiler;
+  std::string every, within;
+  CompilerChoice compiler;
   bool interpret = false;
   bool json = false;
   bool quiet = false;
@@ -97,9 +98,8 @@ Command add_certify(CLI::App& app) {
   parser->add_flag("--json", options->json, "the figures as JSON");
   parser->add_flag("--quiet", options->quiet, "no progress");
   add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "")->type_name("PROGRAM");
-  parser->add_flag("--interpret", options->interpret,
-                   "default: $CXX, g++, clang++; or none, 20 to 100 times slower");
+  add_compiler_options(*parser, options->compiler);
+  parser->add_flag("--interpret", options->interpret, "without one, 20 to 100 times slower");
   return {parser, [options] { return run_certify(*options); }};
 }
 

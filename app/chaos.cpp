@@ -28,7 +28,8 @@ struct ChaosOptions {
   std::vector<std::string> over;
   std::string indicator = "megno";
   std::string frequencies = "0";
-  std::string output, plot, compiler;
+  std::string output, plot;
+  CompilerChoice compiler;
   bool spectrum = false;
   bool json = false;
   bool quiet = false;
@@ -209,8 +210,7 @@ Command add_chaos(CLI::App& app) {
   parser->add_flag("--quiet", options->quiet,
                    "the numbers as JSON; no progress, no names of files");
   add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "default: $CXX, g++, clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(*parser, options->compiler);
   return {parser, [options] { return run_chaos(*options); }};
 }
 

@@ -120,6 +120,13 @@ void add_scene_choice(CLI::App& command, SceneOptions& options) {
       ->type_name("NAME,...");
 }
 
+void add_compiler_options(CLI::App& command, CompilerChoice& choice) {
+  command.add_option("--compiler", choice.program, "")->type_name("C");
+  command.add_option("--flags", choice.flags, "")->type_name("F");
+  command.add_flag("--portable", choice.portable,
+                   "default: $CXX, g++, clang++; not for this processor alone");
+}
+
 void add_step_option(CLI::App& command, SceneOptions& options) {
   command.add_option("--h", options.h, "step size; default: the scene's")->type_name("H");
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/setting.hpp"
 #include "generator/pipeline.hpp"
 
@@ -86,6 +87,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 void add_observe_option(CLI::App& command, SceneOptions& options);
 // The same for a command that runs nothing, where --set without --scene is for sizes.
 void add_scene_choice(CLI::App& command, SceneOptions& options);
+// Adds --compiler, --flags and --portable.
+void add_compiler_options(CLI::App& command, CompilerChoice& choice);
 // Adds --h of one step size.
 void add_step_option(CLI::App& command, SceneOptions& options);
 

@@ -192,8 +192,7 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
   parser.add_flag("--quiet", options.quiet,
                   "default: all; the summary as JSON; no summary, no progress");
   add_method_options(parser, options.method);
-  parser.add_option("--compiler", options.compiler, "default: $CXX, g++, clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(parser, options.compiler);
 }
 
 }  // namespace hamgen::app

@@ -15,7 +15,8 @@ struct EnsembleOptions {
   std::vector<std::string> over, random;
   std::string from, draws, seed;
   std::string statistics, every;
-  std::string threads, output, compiler;
+  std::string threads, output;
+  CompilerChoice compiler;
   bool resume = false;
   bool json = false;
   bool quiet = false;

@@ -24,7 +24,8 @@ namespace {
 struct ReportOptions {
   MethodOptions method;
   SceneOptions scene;
-  std::string output, schemes, compiler;
+  std::string output, schemes;
+  CompilerChoice compiler;
   std::string rounds = "5";
   bool quiet = false;
 };
@@ -164,8 +165,7 @@ Command add_report(CLI::App& app) {
       ->type_name("N");
   parser->add_flag("--quiet", options->quiet, "no progress");
   add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(*parser, options->compiler);
   return {parser, [options] { return report(*options); }};
 }
 

@@ -18,6 +18,7 @@
 #include "app/output/trajectory_plot.hpp"
 #include "app/output/trajectory_table.hpp"
 #include "app/run_checkpoint.hpp"
+#include "app/run_options.hpp"
 #include "app/run_watch.hpp"
 #include "app/studies/certify.hpp"
 #include "app/studies/initial_data.hpp"
@@ -35,43 +36,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct RunOptions {
-  MethodOptions method;
-  std::string compiler, flags;
-  bool portable = false;
-  bool interpret = false;
-  SceneOptions scene;
-  std::string every;
-  std::string watch_modified;
-  WatchOptions watch;
-  std::string output, plot, columns;
-  std::string header;
-  bool certify = false;
-  CheckpointOptions checkpoint;
-  bool json = false;
-  bool quiet = false;
-};
-
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-// The distance of records: the option, else the scene's, else 1; the last two unless that makes a
-// flood of rows, as a scene's distance may with many more steps than the scene has.
-long record_distance(const RunOptions& options, const SceneValues& scene) {
-  constexpr long flood = 10'000'000;
-  if (!options.every.empty()) return integer_value("--every " + options.every, options.every, 1);
-  // What is only drawn is seen from near, and takes no more time than this many.
-  constexpr long drawn = 100'000;
-  if (options.output.empty()) return 1 + *scene.steps / drawn;
-  const long every = scene.every.value_or(1);
-  const long rows = *scene.steps / every;
-  if (rows > flood)
-    throw UsageError(
-        fmt::format("-o {} would get {} rows\nhelp: record fewer, for example --every {}; or say "
-                    "--every {} if you mean it",
-                    options.output, rows, std::max(1L, *scene.steps / 10'000), every));
-  return every;
 }
 
 // q then p.
@@ -197,29 +163,6 @@ void say(const RunReport& report, const RunOptions& options) {
   if (options.json) print(json_text(report));
 }
 
-void check_files(const RunOptions& options) {
-  if (options.json && options.output == "-")
-    throw UsageError(
-        "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
-        "FILE.csv");
-  std::error_code missing;
-  if (std::filesystem::equivalent(options.output, options.method.model, missing))
-    throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",
-                                 options.output));
-  std::filesystem::path path = options.output;
-  const bool is_picture = path.extension() == ".svg" || path.extension() == ".png";
-  if (path.has_extension() && path.extension() != ".csv")
-    throw UsageError(
-        fmt::format("-o {}: the trajectory is written as CSV, and its name ends in .csv\nhelp: {}",
-                    options.output,
-                    is_picture ? "for a picture of it: --plot " + options.output
-                               : "-o " + path.replace_extension(".csv").string()));
-  if (!options.plot.empty()) require_picture_name("--plot", options.plot);
-  check_watch(options.watch, options.output, !options.plot.empty(), !options.every.empty());
-  if (!options.columns.empty() && options.plot.empty())
-    throw UsageError("--columns says what is drawn\nhelp: add --plot FILE.svg");
-}
-
 void draw(const RunOptions& options, const NumberTable& rows, const RunReport& report) {
   const std::string scene = report.scene->name.empty() ? "" : " " + report.scene->name;
   const Plot plot = trajectory_plot(rows, options.columns, report.plugin->model.name + scene);
@@ -230,7 +173,7 @@ void draw(const RunOptions& options, const NumberTable& rows, const RunReport& r
 }
 
 int run(const RunOptions& options) {
-  check_files(options);
+  require_run_files(options);
   Setting setting = read_setting(options.method, options.scene);
   const SourceText& source = setting.source;
   const Model& model = setting.model;
@@ -249,8 +192,7 @@ int run(const RunOptions& options) {
   if (options.interpret && !options.watch_modified.empty())
     throw UsageError(
         "--interpret does not know the modified Hamiltonian: leave out one of the two");
-  const std::string compiler = compiler_choice(options.compiler, options.flags, options.portable);
-  if (options.interpret && !compiler.empty())
+  if (options.interpret && options.compiler != CompilerChoice())
     throw UsageError(
         "--interpret needs no --compiler, --flags and --portable: leave out one of the two");
   if (!options.watch_modified.empty()) {
@@ -274,9 +216,9 @@ int run(const RunOptions& options) {
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 
-  const runtime::LoadedPlugin loaded = options.interpret
-                                           ? interpreted_integrator(source, request, plugin)
-                                           : load_integrator(plugin, compiler, &interrupt_flag());
+  const runtime::LoadedPlugin loaded =
+      options.interpret ? interpreted_integrator(source, request, plugin)
+                        : load_integrator(plugin, options.compiler, &interrupt_flag());
   report.interpreted = options.interpret;
   report.from_cache = loaded.from_cache;
   report.compile_seconds = loaded.compile_seconds;
@@ -388,50 +330,7 @@ Command add_run(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* parser =
       app.add_subcommand("run", "integrates a scene of a model: emits, compiles, loads and runs");
-  add_scene_options(*parser, options->scene);
-  add_observe_option(*parser, options->scene);
-  parser->add_option("--h", options->scene.h, "")->type_name("H");
-  parser->add_option("--steps", options->scene.steps, "")->type_name("N");
-  parser
-      ->add_option("--time", options->scene.time,
-                   "size and number, or time, of steps; default: the scene's")
-      ->type_name("T");
-  parser->add_option("--every", options->every, "")->type_name("K");
-  parser->add_option("--at", options->watch.at, "")->type_name("T");
-  parser
-      ->add_option("--every-time", options->watch.every_time,
-                   "rows every K steps, or at times: --at 1,2.5")
-      ->type_name("T");
-  add_repeated(*parser, "--until", options->watch.until, "")->type_name("EXPR");
-  parser
-      ->add_option("--seconds", options->watch.seconds,
-                   "ends where it crosses zero, or as r < 1, energy_error > 1e-6")
-      ->type_name("S");
-  parser->add_option("-o,--output", options->output, "")->type_name("FILE");
-  parser
-      ->add_option("--plot", options->plot,
-                   "the trajectory: .csv, - is stdout; a picture: .svg, .png")
-      ->type_name("FILE");
-  parser->add_option("--columns", options->columns, "")->type_name("LIST");
-  parser
-      ->add_option("--events", options->watch.events,
-                   "drawn: q, q:p, x:y:z; what the events saw: .csv, .json")
-      ->type_name("FILE");
-  add_checkpoint_options(*parser, options->checkpoint);
-  add_checkpoint_interval(*parser, options->checkpoint);
-  parser->add_flag("--certify", options->certify, "default 60; how near it is to the exact map");
-  parser->add_option("--watch-modified", options->watch_modified, "")->type_name("K");
-  parser->add_flag("--interpret", options->interpret,
-                   "terms of the modified Hamiltonian; without a compiler");
-  parser->add_flag("--json", options->json, "");
-  parser->add_flag("--quiet", options->quiet, "");
-  parser->add_option("--header", options->header, "as JSON; no summary; the emitted header")
-      ->type_name("DIR");
-  add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "")->type_name("C");
-  parser->add_option("--flags", options->flags, "")->type_name("F");
-  parser->add_flag("--portable", options->portable,
-                   "default: $CXX, g++, clang++; not for this processor alone");
+  add_run_options(*parser, *options);
   return {parser, [options] { return run(*options); }};
 }
 

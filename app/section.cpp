@@ -28,7 +28,8 @@ struct SectionOptions {
   std::string direction = "rising";
   std::string orbits = "24";
   std::string points = "400";
-  std::string output, plot, compiler;
+  std::string output, plot;
+  CompilerChoice compiler;
   bool json = false;
   bool quiet = false;
 };
@@ -255,8 +256,7 @@ Command add_section(CLI::App& app) {
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet, "the points as JSON; no summary, no progress");
   add_method_options(*parser, options->method);
-  parser->add_option("--compiler", options->compiler, "default: $CXX, g++, clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(*parser, options->compiler);
   return {parser, [options] { return run_section(*options); }};
 }
 

@@ -27,7 +27,8 @@ namespace {
 struct TuneOptions {
   MethodOptions method;  // of which there are the model and the scalar
   SceneOptions scene;
-  std::string time, compiler, map, map_beta, map_gamma;
+  std::string time, map, map_beta, map_gamma;
+  CompilerChoice compiler;
   std::string form = "scalar";
   std::string samples = "1000";
   std::string grid;
@@ -204,8 +205,7 @@ Command add_tune(CLI::App& app) {
       ->type_name("LOW:HIGH");
   parser->add_flag("--json", options->json, "the result as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no progress, no names of files");
-  parser->add_option("--compiler", options->compiler, "default: $CXX, else g++, else clang++")
-      ->type_name("PROGRAM");
+  add_compiler_options(*parser, options->compiler);
   return {parser, [options] { return run_tune(*options); }};
 }
 

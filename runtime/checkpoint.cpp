@@ -15,21 +15,30 @@ namespace {
 constexpr std::string_view kMark = "hamgen checkpoint 1\n";
 constexpr std::string_view kAnyMark = "hamgen checkpoint ";
 
+// Both take what a checkpoint is made of: numbers as they lie in memory, and texts, vectors and
+// what may be missing after how much there is of it.
 class CheckpointWriter {
  public:
   template <class Number>
-  void add(Number value) {
+  void operator()(const Number& value) {
     static_assert(std::is_trivially_copyable_v<Number>);
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  void add_bytes(std::string_view bytes) {
-    add(static_cast<std::uint64_t>(bytes.size()));
+  template <class Number>
+  void operator()(const std::optional<Number>& value) {
+    (*this)(value.has_value());
+    if (value) (*this)(*value);
+  }
+  void operator()(std::string_view bytes) {
+    (*this)(static_cast<std::uint64_t>(bytes.size()));
     text_ += bytes;
   }
-  template <class Number>
-  void add_optional(const std::optional<Number>& value) {
-    add(value.has_value());
-    if (value) add(*value);
+  void operator()(const std::vector<std::byte>& bytes) {
+    (*this)(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+  void operator()(const std::vector<std::string>& lines) {
+    (*this)(static_cast<std::uint64_t>(lines.size()));
+    for (const std::string& line : lines) (*this)(std::string_view(line));
   }
   std::string take() { return std::move(text_); }
 
@@ -42,20 +51,36 @@ class CheckpointReader {
   explicit CheckpointReader(std::string_view text) : text_(text) {}
 
   template <class Number>
-  void take(Number& value) {
+  void operator()(Number& value) {
+    static_assert(std::is_trivially_copyable_v<Number>);
     const std::string_view bytes = take_bytes(sizeof value);
     if (bytes.size() == sizeof value) std::memcpy(&value, bytes.data(), sizeof value);
   }
-  std::string_view take_bytes() {
-    std::uint64_t size = 0;
-    take(size);
-    return take_bytes(size);
-  }
   template <class Number>
-  void take_optional(std::optional<Number>& value) {
+  void operator()(std::optional<Number>& value) {
     bool has = false;
-    take(has);
-    if (has) take(value.emplace());
+    (*this)(has);
+    if (has) (*this)(value.emplace());
+  }
+  void operator()(std::string_view& bytes) {
+    std::uint64_t size = 0;
+    (*this)(size);
+    bytes = take_bytes(size);
+  }
+  void operator()(std::vector<std::byte>& bytes) {
+    std::string_view text;
+    (*this)(text);
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    bytes.assign(first, first + text.size());
+  }
+  void operator()(std::vector<std::string>& lines) {
+    std::uint64_t count = 0;
+    (*this)(count);
+    for (std::uint64_t i = 0; i < count && whole_; ++i) {
+      std::string_view line;
+      (*this)(line);
+      lines.emplace_back(line);
+    }
   }
   [[nodiscard]] bool is_whole() const { return whole_ && text_.empty(); }
 
@@ -72,6 +97,27 @@ class CheckpointReader {
   bool whole_ = true;
 };
 
+// The fields of the format, in their order: of a Checkpoint to be written, or to be read into.
+template <class Archive, class Fields>
+void pass_fields(Archive& archive, Fields& checkpoint) {
+  archive(checkpoint.manifest);
+  auto& summary = checkpoint.state.summary;
+  archive(summary.steps_done);
+  archive(summary.iterations);
+  archive(summary.last_iterations);
+  archive(summary.last_increment);
+  archive(summary.energy);
+  archive(summary.energy_scale);
+  archive(summary.records);
+  archive(summary.advance_seconds);
+  archive(summary.total_seconds);
+  archive(checkpoint.state.jump_limit);
+  archive(checkpoint.state.largest_error);
+  archive(checkpoint.state.integrator);
+  archive(checkpoint.rows_size);
+  archive(checkpoint.rows_checksum);
+}
+
 std::uint64_t checksum(std::string_view text) {
   return crc64(std::as_bytes(std::span(text.data(), text.size())));
 }
@@ -84,28 +130,11 @@ std::uint64_t checksum(std::string_view text) {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   CheckpointWriter body;
-  body.add(static_cast<std::uint64_t>(checkpoint.manifest.size()));
-  for (const std::string& line : checkpoint.manifest) body.add_bytes(line);
-  const RunSummary& summary = checkpoint.state.summary;
-  body.add(summary.steps_done);
-  body.add(summary.iterations);
-  body.add(summary.last_iterations);
-  body.add_optional(summary.last_increment);
-  body.add_optional(summary.energy);
-  body.add(summary.energy_scale);
-  body.add(summary.records);
-  body.add(summary.advance_seconds);
-  body.add(summary.total_seconds);
-  body.add(checkpoint.state.jump_limit);
-  body.add(checkpoint.state.largest_error);
-  const std::vector<std::byte>& bytes = checkpoint.state.integrator;
-  body.add_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  body.add(checkpoint.rows_size);
-  body.add(checkpoint.rows_checksum);
+  pass_fields(body, checkpoint);
   const std::string text = body.take();
   CheckpointWriter whole;
-  whole.add_bytes(text);
-  whole.add(checksum(text));
+  whole(std::string_view(text));
+  whole(checksum(text));
   AtomicFile file(path);
   file.write(kMark);
   file.write(whole.take());
@@ -121,35 +150,16 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
                    fmt::format("its format is '{}', and this hamgen has '{}'",
                                text.substr(0, text.find('\n')), kMark.substr(0, kMark.size() - 1)));
   CheckpointReader whole(std::string_view(text).substr(kMark.size()));
-  const std::string_view inside = whole.take_bytes();
+  std::string_view inside;
+  whole(inside);
   std::uint64_t sum = 0;
-  whole.take(sum);
+  whole(sum);
   if (!whole.is_whole() || sum != checksum(inside))
     throw_not_read(path, "it is cut or changed: its checksum is another");
 
   Checkpoint checkpoint;
   CheckpointReader body(inside);
-  std::uint64_t lines = 0;
-  body.take(lines);
-  for (std::uint64_t i = 0; i < lines && lines <= inside.size(); ++i)
-    checkpoint.manifest.emplace_back(body.take_bytes());
-  RunSummary& summary = checkpoint.state.summary;
-  body.take(summary.steps_done);
-  body.take(summary.iterations);
-  body.take(summary.last_iterations);
-  body.take_optional(summary.last_increment);
-  body.take_optional(summary.energy);
-  body.take(summary.energy_scale);
-  body.take(summary.records);
-  body.take(summary.advance_seconds);
-  body.take(summary.total_seconds);
-  body.take(checkpoint.state.jump_limit);
-  body.take(checkpoint.state.largest_error);
-  const std::string_view bytes = body.take_bytes();
-  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-  checkpoint.state.integrator.assign(first, first + bytes.size());
-  body.take(checkpoint.rows_size);
-  body.take(checkpoint.rows_checksum);
+  pass_fields(body, checkpoint);
   if (!body.is_whole()) throw_not_read(path, "its fields are not those of this version");
   return checkpoint;
 }

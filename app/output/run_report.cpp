@@ -77,9 +77,20 @@ std::string numbers(const RunReport& report, const std::vector<Variable>& variab
   return count > largest ? text + ", ..." : text;
 }
 
+bool has_ended(const RunReport& report) {
+  return report.watch != nullptr && report.watch->ending().has_value();
+}
+
+// The time of the last state: of the place where the run ended, if one did end it, or after the
+// steps done.
+double last_time(const RunReport& report) {
+  if (has_ended(report)) return report.watch->ending()->second.time;
+  return static_cast<double>(report.summary.steps_done) * report.start->h.hi;
+}
+
 std::string last_state_text(const RunReport& report) {
   const Model& model = report.plugin->model;
-  const double t = static_cast<double>(report.summary.steps_done) * report.start->h.hi;
+  const double t = last_time(report);
   const std::string q = numbers(report, model.coordinates, 0);
   const std::string p = numbers(report, model.momenta, report.state.size() / 2);
   return fmt::format("t = {:.10g}: {}{}{}", t, q, q.empty() || p.empty() ? "" : ", ", p);
@@ -138,8 +149,9 @@ Json half(const std::vector<runtime::Wide>& state, bool momenta, double runtime:
   return values;
 }
 
-Json state_json(const std::vector<runtime::Wide>& state, bool wide) {
-  Json result = {{"q", half(state, false, &runtime::Wide::hi)},
+Json state_json(const std::vector<runtime::Wide>& state, double time, bool wide) {
+  Json result = {{"t", number(time)},
+                 {"q", half(state, false, &runtime::Wide::hi)},
                  {"p", half(state, true, &runtime::Wide::hi)}};
   if (wide) {  // q + q_lo has the digits a double cannot hold
     result["q_lo"] = half(state, false, &runtime::Wide::lo);
@@ -194,10 +206,6 @@ Json invariants_json(const RunReport& report) {
     if (!result.contains(each.name)) result[each.name] = nullptr;  // not observed
   }
   return result;
-}
-
-bool has_ended(const RunReport& report) {
-  return report.watch != nullptr && report.watch->ending().has_value();
 }
 
 std::string ending_text(const RunReport& report) {
@@ -369,7 +377,7 @@ std::string json_text(const RunReport& report) {
   if (const Json ending = ending_json(report); !ending.is_null()) result["ended"] = ending;
   result["energy"] = energy_json(report);
   result["invariants"] = invariants_json(report);
-  result["state"] = state_json(report.state, is_wide(report));
+  result["state"] = state_json(report.state, last_time(report), is_wide(report));
   result["parameters"] = parameters_json(report);
   if (report.certificate) result["certified"] = certificate_json(*report.certificate);
   result["solver"] = {{"kind", report.plugin->solver},

@@ -44,7 +44,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 }  // namespace
 
 BenchMethod bench_method(const std::string& spec, const SourceText& source, const Request& request,
-                         const std::string& compiler, StopFlag stop) {
+                         const CompilerChoice& compiler, StopFlag stop) {
   BenchMethod method{.spec = spec, .request = request, .stop = stop};
   try {
     method.plugin = generate_plugin(source, request);

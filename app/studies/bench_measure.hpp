@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/reference.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
@@ -27,7 +28,7 @@ struct BenchMethod {
 
 // Throws ToolError if the compiler fails; a method that does not suit the model is refused.
 [[nodiscard]] BenchMethod bench_method(const std::string& spec, const SourceText& source,
-                                       const Request& request, const std::string& compiler,
+                                       const Request& request, const CompilerChoice& compiler,
                                        StopFlag stop = nullptr);
 
 // What tells the time: how long [s] the steps alone take from a start, without records or energies.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/studies/bench.hpp"
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/progress.hpp"
 #include "app/studies/setting.hpp"
 #include "app/studies/stop.hpp"
@@ -25,7 +26,7 @@ struct BenchRequest {
   Observed observed = Observed::state;
   double target = 0.0;  // the error to reach; 0: none
   long rounds = 9;      // samples of each time
-  std::string compiler;
+  CompilerChoice compiler;
   RunClock clock = processor_clock;  // what is chosen by time is chosen by this one
   StopFlag stop = nullptr;
   ProgressSink on_progress;

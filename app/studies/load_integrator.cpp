@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <sstream>
-#include <string_view>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/model.hpp"
@@ -16,8 +15,6 @@
 namespace hamgen::app {
 
 namespace {
-
-constexpr std::string_view kPortable = " --portable";
 
 // Has somebody said which machine it is for?
 bool names_processor(const runtime::Compiler& compiler) {
@@ -33,25 +30,16 @@ std::vector<std::string> words_of_flags(const std::string& text) {
 
 }  // namespace
 
-std::string compiler_choice(const std::string& program, const std::string& flags, bool portable) {
-  return program + (flags.empty() ? "" : " " + flags) + std::string(portable ? kPortable : "");
-}
-
-runtime::Compiler chosen_compiler(const std::string& choice) {
-  std::string words = choice;
-  const std::size_t portable = words.find(kPortable);
-  if (portable != std::string::npos) words.erase(portable, kPortable.size());
-  const bool no_program = words.empty() || words.front() == ' ';
+runtime::Compiler chosen_compiler(const CompilerChoice& choice) {
+  const bool names_program = !choice.program.empty();
   runtime::Compiler compiler =
-      runtime::find_compiler(no_program ? std::nullopt : std::optional(words));
-  if (no_program) {
-    const std::vector<std::string> flags = words_of_flags(words);
-    if (!flags.empty()) compiler.chosen_by = "--flags";
-    compiler.command.insert(compiler.command.end(), flags.begin(), flags.end());
-  }
+      runtime::find_compiler(names_program ? std::optional(choice.program) : std::nullopt);
+  const std::vector<std::string> flags = words_of_flags(choice.flags);
+  if (!names_program && !flags.empty()) compiler.chosen_by = "--flags";
+  compiler.command.insert(compiler.command.end(), flags.begin(), flags.end());
 #if defined(__x86_64__) || defined(__i386__)
   // A plugin does not leave the machine; the cache knows which one it is for.
-  if (portable == std::string::npos && !names_processor(compiler))
+  if (!choice.portable && !names_processor(compiler))
     compiler.command.emplace_back("-march=native");
 #endif
   const auto arguments = std::span(compiler.command).subspan(1);
@@ -74,7 +62,7 @@ constexpr std::size_t kFewDegrees = 12;  // of freedom: steps of so many are sho
 
 // What is written out has few equal operations side by side: long registers cost it more than they
 // give (Henon-Heiles 36 ns a step with them, 31 without).
-runtime::Compiler compiler_for(const PluginSource& plugin, const std::string& choice) {
+runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice& choice) {
   runtime::Compiler compiler = chosen_compiler(choice);
   const bool is_ours = compiler.command.back() == "-march=native";
   if (is_ours && element_names(plugin.model.coordinates).size() <= kFewDegrees)
@@ -84,7 +72,7 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const std::string& ch
 
 }  // namespace
 
-runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const std::string& compiler,
+runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const CompilerChoice& compiler,
                                       StopFlag stop) {
   runtime::CompileOptions options;
   options.stop = stop;
@@ -92,7 +80,7 @@ runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const std::str
                               runtime::open_cache());
 }
 
-std::string digest_of_code(const PluginSource& plugin, const std::string& compiler) {
+std::string digest_of_code(const PluginSource& plugin, const CompilerChoice& compiler) {
   runtime::PluginSource source = to_compile(plugin);
   // The first lines say where the model is and how it was asked for.
   while (source.text.starts_with("//")) source.text.erase(0, source.text.find('\n') + 1);

@@ -11,7 +11,8 @@
 namespace hamgen::app {
 
 std::vector<std::string> manifest_lines(const Setting& setting, const SceneValues& scene,
-                                        const PluginSource& plugin, const std::string& compiler) {
+                                        const PluginSource& plugin,
+                                        const CompilerChoice& compiler) {
   std::vector<std::string> lines = {
       "made by   hamgen " HAMGEN_VERSION,
       fmt::format("model     {}   sha256 {}", setting.model.name,

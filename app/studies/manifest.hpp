@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/setting.hpp"
 
 namespace hamgen::app {
@@ -13,7 +14,7 @@ namespace hamgen::app {
 [[nodiscard]] std::vector<std::string> manifest_lines(const Setting& setting,
                                                       const SceneValues& scene,
                                                       const PluginSource& plugin,
-                                                      const std::string& compiler);
+                                                      const CompilerChoice& compiler);
 
 // The lines that differ, "there" and "here"; empty if none do.
 [[nodiscard]] std::string difference_of(const std::vector<std::string>& there,

@@ -47,7 +47,7 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
   const SceneValues scene = complete_scene(plugin.model, wanted, "");
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, "", stop);
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, {}, stop);
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   Proof proof;
   if (loaded.library->plugin().tangent != nullptr) {

@@ -32,7 +32,7 @@ WatchedOrbit watch_orbit(const SourceText& source, Request request, const SceneV
   request.scene.reset();  // the terms are in all variables
   const Model model = read_request(source, request);
   const PluginSource plugin = generate_plugin(source, request);
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, "", stop);
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, {}, stop);
   runtime::Integrator integrator(loaded.library, initial_values(plugin, scene, *loaded.library));
 
   std::map<std::string, Rational> fixed = {{"h", *scene.h}};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/stop.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
@@ -17,7 +18,7 @@ namespace hamgen::app {
 struct ReferenceRequest {
   std::map<std::string, long> sizes;
   std::vector<std::string> fold;
-  std::string compiler;  // empty: the default
+  CompilerChoice compiler;
   StopFlag stop = nullptr;
   std::function<void(double)> on_progress = {};  // the fraction that is done
 };

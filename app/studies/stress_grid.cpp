@@ -43,7 +43,7 @@ StressGrid::StressGrid(const StressRequest& asked) : setting_(asked.setting), ax
         "initial state), alpha, beta and gamma",
         axis.label, setting_.source.path, near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  loaded_ = load_integrator(plugin_, "", asked.limits.stop);
+  loaded_ = load_integrator(plugin_, {}, asked.limits.stop);
   const std::vector<Scene>& scenes = plugin_.model.scenes;
   scene_name_ = !setting_.scene.scene.empty() ? setting_.scene.scene
                 : scenes.empty()              ? ""

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/progress.hpp"
 #include "app/studies/reference.hpp"
 #include "app/studies/setting.hpp"
@@ -24,7 +25,7 @@ struct TuneRequest {
   long steps = 0;
   long samples = 1000;  // of the orbit, to fit
   bool polish = false;  // then minimise the measured spread
-  std::string compiler;
+  CompilerChoice compiler;
   StopFlag stop = nullptr;
   ProgressSink on_progress;
 };

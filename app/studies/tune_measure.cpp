@@ -12,7 +12,7 @@ namespace hamgen::app {
 
 GaugedIntegrator::GaugedIntegrator(const SourceText& source, const Request& base,
                                    const GaugeShape& shape, const SceneRequest& scene,
-                                   const std::string& compiler, StopFlag stop)
+                                   const CompilerChoice& compiler, StopFlag stop)
     : stop_(stop) {
   Request request = base;
   for (std::size_t k = 0; k < shape.size(); ++k)

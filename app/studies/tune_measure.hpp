@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/stop.hpp"
 #include "app/studies/tune_gauge.hpp"
 #include "generator/language/scene.hpp"
@@ -25,7 +26,7 @@ class GaugedIntegrator {
  public:
   // `base` has sizes, folded parameters and the scalar.
   GaugedIntegrator(const SourceText& source, const Request& base, const GaugeShape& shape,
-                   const SceneRequest& scene, const std::string& compiler, StopFlag stop);
+                   const SceneRequest& scene, const CompilerChoice& compiler, StopFlag stop);
 
   // From the scene's initial state; safe to call from several threads at once.
   [[nodiscard]] Measurement measure(const std::vector<double>& coefficients, double h,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/load_integrator.hpp"
 #include "app/studies/stop.hpp"
 #include "app/studies/tune_gauge.hpp"
 #include "generator/language/scene.hpp"
@@ -29,7 +30,7 @@ struct OrbitRequest {
   Request method;  // its sizes and folded parameters count
   Rational time;
   long samples = 0;
-  std::string compiler;
+  CompilerChoice compiler;
   StopFlag stop = nullptr;
   std::function<void(double)> on_progress = {};  // the fraction that is done
 };

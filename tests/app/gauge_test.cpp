@@ -10,32 +10,25 @@
 #include <sstream>
 
 #include "tests/app/hamgen_command.hpp"
+#include "tests/app/run_results.hpp"
 
 namespace hamgen::app_test {
 namespace {
 
 using nlohmann::json;
 
-const std::string kHarmonic = HAMGEN_SOURCE_DIR "/hamiltonians/harmonic.ham";
-const std::string kKepler = HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham";
+const std::string kGaugedHarmonic = HAMGEN_SOURCE_DIR "/hamiltonians/harmonic.ham";
+const std::string kGaugedKepler = HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham";
 const std::string kStiff = HAMGEN_SOURCE_DIR "/hamiltonians/stiff_fpu.ham";
-
-json run_json(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "run");
-  arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const Result result = hamgen(arguments);
-  EXPECT_EQ(result.status, 0) << result.err;
-  return json::parse(result.out);
-}
 
 TEST(LocallyExactGauge, ARunTakesItAtItsOwnParameters) {
   // w = 1000 is the scene's, not the model's default: 100 steps of h w = 100.
   const json result = run_json(
-      {kHarmonic, "--gauge", "locally-exact", "--scene", "stiff", "--h", "1/8", "--steps", "100"});
+      {kGaugedHarmonic, "--gauge", "locally-exact", "--scene", "stiff", "--h", "1/8", "--steps", "100"});
   // The phase of a step, 125, is rounded to 2^-53 of it, 100 times.
   EXPECT_NEAR(result["state"]["q"][0].get<double>(), std::cos(12500.0), 100 * 125 * 0x1p-52);
   // Unless it is told another place: then the oscillator is not solved exactly.
-  const json elsewhere = run_json({kHarmonic, "--gauge", "locally-exact", "--reference", "w=990",
+  const json elsewhere = run_json({kGaugedHarmonic, "--gauge", "locally-exact", "--reference", "w=990",
                                    "--scene", "stiff", "--h", "1/8", "--steps", "100"});
   EXPECT_GT(std::abs(elsewhere["state"]["q"][0].get<double>() - std::cos(12500.0)), 0.01);
 }
@@ -43,13 +36,13 @@ TEST(LocallyExactGauge, ARunTakesItAtItsOwnParameters) {
 TEST(LocallyExactGauge, AStepAtAPoleIsRefusedWithTheFrequency) {
   for (const char* h : {"2*pi", "-2*pi", "6.29", "20*pi"}) {
     const Result result =
-        hamgen({"run", kHarmonic, "--gauge", "locally-exact", std::string("--h=") + h});
+        hamgen({"run", kGaugedHarmonic, "--gauge", "locally-exact", std::string("--h=") + h});
     EXPECT_EQ(result.status, 2) << result.err;
     EXPECT_TRUE(contains(result.err, "the gauge has a pole at h = 6")) << result.err;
     EXPECT_TRUE(contains(result.err, "w = 1 of the linear part")) << result.err;
   }
   EXPECT_EQ(
-      hamgen({"run", kHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"}).status,
+      hamgen({"run", kGaugedHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"}).status,
       0);
 }
 
@@ -116,8 +109,8 @@ TEST(LocallyExactGauge, ARunTakesItAtItsInitialStateUnlessAPointIsNamed) {
   // A parameter is no point.
   EXPECT_TRUE(contains(command({"--reference", "w=49"}), "'x[1]=1'"));
   // H'' of Kepler's problem is not defined at the origin.
-  EXPECT_EQ(hamgen({"run", kKepler, "--gauge", "locally-exact", "--steps", "1"}).status, 0);
-  EXPECT_EQ(hamgen({"generate", kKepler, "--gauge", "locally-exact", "--reference", "q1=0"}).status,
+  EXPECT_EQ(hamgen({"run", kGaugedKepler, "--gauge", "locally-exact", "--steps", "1"}).status, 0);
+  EXPECT_EQ(hamgen({"generate", kGaugedKepler, "--gauge", "locally-exact", "--reference", "q1=0"}).status,
             2);
 }
 
@@ -130,7 +123,7 @@ std::string command_in(const std::string& text) {
 
 TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
   const Scratch scratch;
-  for (const auto& [model, scene] : {std::pair{kStiff, "w50"}, std::pair{kKepler, "e06"}}) {
+  for (const auto& [model, scene] : {std::pair{kStiff, "w50"}, std::pair{kGaugedKepler, "e06"}}) {
     const Result result = hamgen({"run", model, "--gauge", "locally-exact", "--steps", "1",
                                   "--quiet", "--header", scratch.path("k")});
     EXPECT_EQ(result.status, 0) << result.err;
@@ -142,7 +135,7 @@ TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
     EXPECT_EQ(hamgen({"check", model, "--gauge", "locally-exact"}).status, 0);
   }
   // What is proved is the step of that scene: exact on the linear part where the scene starts.
-  const Result proof = hamgen({"verify", kHarmonic, "--gauge", "locally-exact", "--scene", "stiff",
+  const Result proof = hamgen({"verify", kGaugedHarmonic, "--gauge", "locally-exact", "--scene", "stiff",
                                "--h", "1/800", "--json"});
   EXPECT_EQ(proof.status, 0) << proof.err;
   for (const json& row : json::parse(proof.out)) {
@@ -153,7 +146,7 @@ TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
 
 TEST(LocallyExactGauge, AMistakeInTheReferenceIsCalledSo) {
   const Result result =
-      hamgen({"generate", kHarmonic, "--gauge", "locally-exact", "--reference", "qq=1"});
+      hamgen({"generate", kGaugedHarmonic, "--gauge", "locally-exact", "--reference", "qq=1"});
   EXPECT_EQ(result.status, 2);
   EXPECT_TRUE(contains(result.err, "--reference:1:1: error: unknown name 'qq'")) << result.err;
   EXPECT_FALSE(contains(result.err, "--initial")) << result.err;
@@ -161,7 +154,7 @@ TEST(LocallyExactGauge, AMistakeInTheReferenceIsCalledSo) {
 
 TEST(LocallyExactGauge, TheCommandInTheHeaderNamesTheReference) {
   const Result result =
-      hamgen({"generate", kHarmonic, "--gauge", "locally-exact", "--reference", "w=3,q=1"});
+      hamgen({"generate", kGaugedHarmonic, "--gauge", "locally-exact", "--reference", "w=3,q=1"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "--gauge locally-exact --reference w=3 --reference q=1\n"))
       << result.out.substr(0, 400);

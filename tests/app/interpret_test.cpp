@@ -4,20 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
+#include "tests/app/run_results.hpp"
 #include "tests/app/models.hpp"
 
 namespace hamgen::app_test {
 namespace {
 
 using nlohmann::json;
-
-json run_json(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "run");
-  arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const Result result = hamgen(arguments);
-  EXPECT_EQ(result.status, 0) << result.err;
-  return json::parse(result.out);
-}
 
 // Members written out and in loops, stages, and a scalar that crosses the interface in two parts.
 TEST(Interpret, TakesTheSameStepsWithoutACompiler) {

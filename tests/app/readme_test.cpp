@@ -40,7 +40,7 @@ std::vector<std::string> words(const std::string& text) {
   return result;
 }
 
-std::vector<std::string> cells(std::string line) {
+std::vector<std::string> rendered_cells(std::string line) {
   std::ranges::replace(line, ',', ' ');
   return words(line);
 }
@@ -59,8 +59,8 @@ bool agrees(const std::string& shown, const std::string& printed) {
 
 bool line_agrees(const std::string& shown, const std::string& printed) {
   if (shown == printed) return true;
-  const std::vector<std::string> left = cells(shown);
-  const std::vector<std::string> right = cells(printed);
+  const std::vector<std::string> left = rendered_cells(shown);
+  const std::vector<std::string> right = rendered_cells(printed);
   // Times are nobody's promise.
   if (!left.empty() && !right.empty() && left[0] == "time") return right[0] == "time";
   return std::equal(left.begin(), left.end(), right.begin(), right.end(), agrees);

@@ -13,7 +13,7 @@
 namespace hamgen::app_test {
 namespace {
 
-constexpr const char* kHenonHeiles =
+constexpr const char* kSectionModel =
     "system henon_heiles\ncoordinate x, y\nmomentum u, v\n"
     "H = (u^2 + v^2 + x^2 + y^2)/2 + x^2*y - y^3/3\n"
     "invariant surface = x\ninvariant axis_1 = y\ninvariant axis_2 = v\n"
@@ -36,7 +36,7 @@ app::SectionRequest request_of(const InterpretedOrbit& orbit) {
 }
 
 TEST(Section, HasOrbitsOfOneEnergyThatCrossTheSurfaceUpwards) {
-  const auto orbit = interpreted_orbit(kHenonHeiles, "gauss-4", "0.1");
+  const auto orbit = interpreted_orbit(kSectionModel, "gauss-4", "0.1");
   const app::SectionRequest request = request_of(*orbit);
   const app::Section section = app::section(request);
   ASSERT_EQ(section.orbits.size(), 4U);
@@ -57,7 +57,7 @@ TEST(Section, HasOrbitsOfOneEnergyThatCrossTheSurfaceUpwards) {
 }
 
 TEST(Section, GivesTheLastMomentumTheEnergy) {
-  const auto orbit = interpreted_orbit(kHenonHeiles, "gauss-4", "0.1");
+  const auto orbit = interpreted_orbit(kSectionModel, "gauss-4", "0.1");
   app::SectionRequest request = request_of(*orbit);
   std::vector<runtime::Wide> state(4);
   state[1] = {0.2, 0.0};

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::filesystem::path models = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians";
+const std::filesystem::path verified_models = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians";
 
 Json findings(const std::string& model, std::vector<std::string> options, int status = 0) {
   options.insert(options.begin(), {"verify", model, "--json"});
@@ -36,7 +36,7 @@ bool is_adiabatic(const std::string& model, const std::string& property) {
 
 TEST(Verify, ProvesOfEveryShippedModelWhatHolds) {
   int seen = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(models)) {
+  for (const auto& entry : std::filesystem::directory_iterator(verified_models)) {
     const std::string model = entry.path().filename().string();
     const Json midpoint = findings(entry.path().string(), {});
     EXPECT_EQ(find(midpoint, "symplectic").at("verdict"), "proved") << model;
@@ -71,7 +71,7 @@ TEST(Verify, ProvesOfEveryShippedModelWhatHolds) {
 }
 
 TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
-  const std::string model = (models / "harmonic.ham").string();
+  const std::string model = (verified_models / "harmonic.ham").string();
   const Json euler =
       find(findings(model, {"--scheme", "symplectic-euler-a", "--h", "1/2"}), "linear stability");
   EXPECT_EQ(euler.at("verdict"), "proved");
@@ -99,7 +99,7 @@ TEST(Verify, HasTheNumbersOfTheLinearPartInItsJson) {
 // The midpoint rule conserves the quadratic angular momentum, up to rounding: 10000 steps of about
 // 2e-16 each, all of one sign at worst.  It turns the ellipse: the Laplace vector moves.
 TEST(Verify, MeasuresTheDefectOfEveryInvariantBesideItsProof) {
-  const Json rows = findings((models / "kepler.ham").string(), {"--measure"});
+  const Json rows = findings((verified_models / "kepler.ham").string(), {"--measure"});
   const Json kept = find(rows, "L measured");
   EXPECT_EQ(kept.at("verdict"), "measured");
   EXPECT_EQ(kept.at("steps"), 10000);
@@ -118,14 +118,14 @@ TEST(Verify, MeasuresTheDefectOfEveryInvariantBesideItsProof) {
 
 // With alpha = 1/2 -+ 1/6 for x and y the angular momentum is not conserved, and it shows.
 TEST(Verify, MeasuresTheDefectOfAnInvariantThatIsRefuted) {
-  const Json rows = findings((models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
+  const Json rows = findings((verified_models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
   EXPECT_EQ(find(rows, "L conserved by the step").at("verdict"), "refuted");
   EXPECT_GT(find(rows, "L measured").at("defect").get<double>(), 1e-6);
 }
 
 // It says what it measures only of steps that were taken.
 TEST(Verify, MeasuresNothingWhereNoStepIsTaken) {
-  const Json rows = findings((models / "pendulum.ham").string(),
+  const Json rows = findings((verified_models / "pendulum.ham").string(),
                              {"--measure", "--solver", "fixed-point", "--h", "1000"});
   EXPECT_EQ(find(rows, "tangent map symplectic").at("verdict"), "not decided");
   EXPECT_EQ(find(rows, "tangent map of the step").at("verdict"), "missing");
@@ -133,7 +133,7 @@ TEST(Verify, MeasuresNothingWhereNoStepIsTaken) {
 }
 
 TEST(Verify, EndsWithFiveWhereAMeasurementRefutes) {
-  const std::string pendulum = (models / "pendulum.ham").string();
+  const std::string pendulum = (verified_models / "pendulum.ham").string();
   // Not symplectic, which this list does not ask for; and yet it shows.
   const Json rows =
       findings(pendulum, {"--scheme", "rk4", "--require", "order:4", "--measure", "--h", "1/2"}, 5);
@@ -143,7 +143,7 @@ TEST(Verify, EndsWithFiveWhereAMeasurementRefutes) {
 }
 
 TEST(Verify, TakesTheOptionsOfARun) {
-  const std::string pendulum = (models / "pendulum.ham").string();
+  const std::string pendulum = (verified_models / "pendulum.ham").string();
   // w^2 = eps cos(q): 2 there, by the run's own parameter and state.
   const Json rows = findings(pendulum, {"--set", "eps=2", "--initial", "q=0,p=0", "--h", "1/2"});
   EXPECT_NEAR(find(rows, "linear stability").at("frequencies").at(0).get<double>(), std::sqrt(2.0),
@@ -167,7 +167,7 @@ TEST(Verify, NeedsNoSceneToMeasure) {
 
 TEST(Verify, ReadsAHeaderThatIsThere) {
   const Scratch scratch;
-  const std::string model = (models / "pendulum.ham").string();
+  const std::string model = (verified_models / "pendulum.ham").string();
   ASSERT_EQ(hamgen({"generate", model, "-o", scratch.path("made")}).status, 0);
   const std::string path = scratch.path("made") + "/pendulum.hpp";
   const auto read_back = [&](int status, std::vector<std::string> more = {}) {
@@ -195,7 +195,7 @@ TEST(Verify, ReadsAHeaderThatIsThere) {
 // In C, and what `run` compiles.
 TEST(Verify, ReadsEveryFormatThatIsThere) {
   const Scratch scratch;
-  const std::string model = (models / "pendulum.ham").string();
+  const std::string model = (verified_models / "pendulum.ham").string();
   struct Written {
     std::string format, file, from, to;
   };
@@ -242,7 +242,7 @@ TEST(Check, SaysWhereHHasACorner) {
 TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
   const Scratch scratch;
   const Result result =
-      hamgen({"run", (models / "pendulum.ham").string(), "--watch-modified", "3", "--steps", "2000",
+      hamgen({"run", (verified_models / "pendulum.ham").string(), "--watch-modified", "3", "--steps", "2000",
               "--json", "--quiet", "--header", scratch.path("k")});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json invariants = Json::parse(result.out).at("invariants");

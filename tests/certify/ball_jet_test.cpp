@@ -14,12 +14,12 @@ using app::Ball;
 using app::BallJet;
 using app::BallModel;
 
-constexpr long kBits = 128;
+constexpr long kJetBits = 128;
 
 struct Written {
   explicit Written(const std::string& text)
       : model(read_model(make_source("test.ham", "system test\n" + text), {})),
-        balls(model, {{"a", Ball(0.75, kBits)}, {"m[1]", Ball(2)}, {"m[2]", Ball(3)}}, kBits) {}
+        balls(model, {{"a", Ball(0.75, kJetBits)}, {"m[1]", Ball(2)}, {"m[2]", Ball(3)}}, kJetBits) {}
 
   [[nodiscard]] BallJet at(const std::vector<Ball>& z) const { return balls.hamiltonian(z, true); }
 
@@ -29,7 +29,7 @@ struct Written {
 
 std::vector<Ball> point(const std::vector<double>& z) {
   std::vector<Ball> result;
-  for (const double value : z) result.emplace_back(value, kBits);
+  for (const double value : z) result.emplace_back(value, kJetBits);
   return result;
 }
 
@@ -123,7 +123,7 @@ TEST(BallJet, IsNotFiniteOutsideTheDomain) {
 // Over a box everything encloses what it is at points of the box.
 TEST(BallJet, OverABoxEnclosesThatAtItsPoints) {
   const Written written("coordinate q\nmomentum p\nH = p^2/2*exp(q) - atan2(p, q)/q + q^p\n");
-  const Ball radius(0.125, kBits);
+  const Ball radius(0.125, kJetBits);
   std::vector<Ball> box = point({1.0, 2.0});
   for (Ball& side : box) side = side.widened(radius);
   const BallJet wide = written.at(box);

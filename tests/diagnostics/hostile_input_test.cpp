@@ -23,7 +23,7 @@ std::string repeated(const std::string& text, int times) {
 constexpr std::size_t most_looks = 7 * 2;
 
 // The first line of what is said of a model; reading it must not be more work than it is long.
-std::string said_of(const std::string& text) {
+std::string hostile_said_of(const std::string& text) {
   const SourceText source = make_source("x.ham", text);
   const std::size_t tokens = read_tokens(source).tokens.size();
   EXPECT_LE(tokens, text.size() + 2);  // one a character, a newline and the end
@@ -40,7 +40,7 @@ std::string said_of(const std::string& text) {
 
 // The same of a Hamiltonian.
 std::string first_line(const std::string& hamiltonian) {
-  return said_of(declarations + "H = " + hamiltonian + "\n");
+  return hostile_said_of(declarations + "H = " + hamiltonian + "\n");
 }
 
 constexpr int many = 100000;
@@ -99,7 +99,7 @@ TEST(HostileInput, long_sums_inside_deep_parentheses_have_the_same_limit) {
 }
 
 TEST(HostileInput, many_wrong_lines_are_looked_at_one_by_one) {
-  EXPECT_EQ(said_of(repeated("x\n", many)), "x.ham:1:1: error: unknown statement 'x'");
+  EXPECT_EQ(hostile_said_of(repeated("x\n", many)), "x.ham:1:1: error: unknown statement 'x'");
 }
 
 TEST(HostileInput, a_name_of_a_megabyte_is_too_long) {

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 const std::string kParts = "what rounding loses is kept here: compile without -ffast-math, -Ofast";
 const std::string kRegisters = "numbers must not be kept in wider registers";
 
-std::string pendulum(const std::string& scalar = "double") {
+std::string pendulum_header(const std::string& scalar = "double") {
   const fs::path model = fs::path(HAMGEN_SOURCE_DIR) / "hamiltonians/pendulum.ham";
   return without_pragma(
       generate(read_source(model.string()), {.scalar = scalar, .name_space = "emitted"})
@@ -27,7 +27,7 @@ std::string pendulum(const std::string& scalar = "double") {
 
 std::string said(const std::string& compiler, const std::string& flag,
                  const std::string& scalar = "double") {
-  return messages(compiler, pendulum(scalar), {"-std=c++17", flag});
+  return messages(compiler, pendulum_header(scalar), {"-std=c++17", flag});
 }
 
 TEST(Arithmetic, OfAnotherKindIsAnErrorInGcc) {
@@ -83,14 +83,14 @@ std::string printed(const std::string& text, const std::vector<std::string>& fla
 
 TEST(Arithmetic, ThatReordersSumsIsKeptOutOfTheHeaderByClang) {
   if (std::ranges::count(compilers(), "clang++") == 0) GTEST_SKIP() << "no clang++";
-  const std::string plain = printed(program(pendulum()), {});
+  const std::string plain = printed(program(pendulum_header()), {});
   const std::vector<std::string> reordering = {"-fassociative-math", "-fno-signed-zeros"};
   // The steps are the same to the last bit, and after the header the flags hold again.
   const std::string digits = plain.substr(0, plain.rfind(' '));
   EXPECT_EQ(plain, digits + " 0\n");
-  EXPECT_EQ(printed(program(pendulum()), reordering), digits + " 1\n");
+  EXPECT_EQ(printed(program(pendulum_header()), reordering), digits + " 1\n");
   // Without the header's lines for clang they are not.
-  std::string unprotected = pendulum();
+  std::string unprotected = pendulum_header();
   for (const std::string line :
        {"#pragma float_control(push)\n", "#pragma clang fp reassociate(off)\n",
         "#pragma float_control(pop)\n"}) {

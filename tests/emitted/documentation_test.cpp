@@ -9,11 +9,11 @@
 namespace hamgen::emitted_test {
 namespace {
 
-const std::string root = HAMGEN_SOURCE_DIR;
+const std::string documented_root = HAMGEN_SOURCE_DIR;
 
 // What stands between ```cpp and ``` in the file, the first time or the next.
 std::string program_of(const std::string& file, int number = 0) {
-  const std::string text = read(root + file);
+  const std::string text = read(documented_root + file);
   const std::string begin = "```cpp\n";
   auto from = text.find(begin) + begin.size();
   for (; number > 0; --number) from = text.find(begin, from) + begin.size();
@@ -25,7 +25,7 @@ TEST(Documentation, TheProgramOfEmittedCodeRunsAndKeepsTheEnergy) {
   const std::string include = "#include \"fput.hpp\"\n";
   const auto at = program.find(include);
   ASSERT_NE(at, std::string::npos);
-  const std::string header = generate(read_source(root + "/hamiltonians/fput.ham"), {}).at(0).text;
+  const std::string header = generate(read_source(documented_root + "/hamiltonians/fput.ham"), {}).at(0).text;
   program.replace(at, include.size(), without_pragma(header));
   const std::string output = run_program(program);
   ASSERT_TRUE(output.ends_with("\n")) << output;
@@ -35,7 +35,7 @@ TEST(Documentation, TheProgramOfEmittedCodeRunsAndKeepsTheEnergy) {
 
 TEST(Documentation, TheProgramOfTwoMethodsRuns) {
   std::string program = program_of("/docs/emitted-code.md", 1);
-  const SourceText model = read_source(root + "/hamiltonians/fput.ham");
+  const SourceText model = read_source(documented_root + "/hamiltonians/fput.ham");
   for (const auto& [folder, scheme] : {std::pair("midpoint", ""), {"verlet", "stormer-verlet"}}) {
     const std::string include = std::string("#include \"") + folder + "/fput.hpp\"";
     const auto at = program.find(include);
@@ -47,13 +47,13 @@ TEST(Documentation, TheProgramOfTwoMethodsRuns) {
 }
 
 TEST(Documentation, TheProgramInCCompiles) {
-  const std::string text = read(root + "/docs/emitted-code.md");
+  const std::string text = read(documented_root + "/docs/emitted-code.md");
   const auto from = text.find("```c\n") + 5;
   std::string program = text.substr(from, text.find("```\n", from) - from);
   const std::string include = "#include \"pendulum.h\"\n";
   const auto at = program.find(include);
   ASSERT_NE(at, std::string::npos);
-  const SourceText model = read_source(root + "/hamiltonians/pendulum.ham");
+  const SourceText model = read_source(documented_root + "/hamiltonians/pendulum.ham");
   program.replace(at, include.size(),
                   without_pragma(generate(model, {.format = "c-header"}).at(0).text));
   EXPECT_EQ(messages("gcc", program, {"-x", "c", "-std=c11", "-Wall", "-Wextra", "-Wpedantic"}),
@@ -63,7 +63,7 @@ TEST(Documentation, TheProgramInCCompiles) {
 // Every name in the table of parts is one of the header's.
 TEST(Documentation, ThePartsOfAHeaderAreThere) {
   const std::string header =
-      generate(read_source(root + "/hamiltonians/fput.ham"), {.scheme = "gauss-4", .tangent = true})
+      generate(read_source(documented_root + "/hamiltonians/fput.ham"), {.scheme = "gauss-4", .tangent = true})
           .at(0)
           .text;
   for (const char* part :

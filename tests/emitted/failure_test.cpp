@@ -66,7 +66,7 @@ std::string program(const std::string& header_text, const std::string& state, co
 }
 
 const std::string collapse = "coordinate q\nmomentum p\nparameter g = -1\nH = p^2/2 + g/q^2\n";
-const std::string pendulum = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+const std::string pendulum_text = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
 
 TEST(Failure, OfACollapseLeavesTheStateAsItWas) {
   // q(t)^2 = 1 - 2 t^2: singular at t = 0.7071.  A step may land beyond q = 0, in one scalar or
@@ -109,14 +109,14 @@ TEST(Failure, AnAbsurdStepNeverGivesAStateThatIsNotFinite) {
   const std::string steps = "1e3, -1e3, 1e30, 1e160, 1e300, -1e300, 1e-320, 0.0";
   for (const Request& request :
        {Request{}, Request{.alpha = "0"}, Request{.solver = "fixed-point"}}) {
-    EXPECT_EQ(run_program(program(header(pendulum, request), "{3, 0.5}", steps, Expected::either)),
+    EXPECT_EQ(run_program(program(header(pendulum_text, request), "{3, 0.5}", steps, Expected::either)),
               "");
   }
 }
 
 TEST(Failure, AnInitialStateThatIsNotFiniteFailsAtOnce) {
   EXPECT_EQ(
-      run_program(without_pragma(header(pendulum, {})) +
+      run_program(without_pragma(header(pendulum_text, {})) +
                   "#include <cstdio>\n#include <initializer_list>\nint main() {\n  const double "
                   "inf = 1.0e308 * 10;\n"
                   "  for (model::State z : {model::State{inf, 0}, model::State{0, inf}, "
@@ -129,7 +129,7 @@ TEST(Failure, ASoundStepDoesNotFail) {
   for (const char* solver : {"newton", "fixed-point"}) {
     for (const char* scalar : {"double", "float", "quad"}) {
       for (const char* state : {"{3, 0.5f}", "{0, 0}", "{1e-30f, 0}"}) {
-        EXPECT_EQ(run_program(program(header(pendulum, {.solver = solver, .scalar = scalar}), state,
+        EXPECT_EQ(run_program(program(header(pendulum_text, {.solver = solver, .scalar = scalar}), state,
                                       "0.1, 0.3", Expected::success)),
                   "")
             << solver << " in " << scalar << " from " << state;

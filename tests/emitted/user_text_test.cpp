@@ -43,8 +43,8 @@ std::string emitted(const std::string& text, Request request, const std::string&
 }
 
 const std::string declarations = "system m\ncoordinate q\nmomentum p\n";
-const std::string pendulum = declarations + "H = p^2/2 - cos(q)\n";
-const std::string chain =
+const std::string safe_pendulum = declarations + "H = p^2/2 - cos(q)\n";
+const std::string safe_chain =
     "system m\ncoordinate q[1..40] periodic\nmomentum p[1..40]\n"
     "H = sum(i = 1..40, p[i]^2/2 - cos(q[i+1] - q[i]))\n";
 
@@ -93,7 +93,7 @@ TEST(UserText, OfAnyCharactersStaysInCommentsAndStrings) {
 
 TEST(UserText, InPathsCommandsAndDigestsStaysThere) {
   for (const std::string format : {"cpp-header", "cpp-plugin"}) {
-    for (const std::string& model : {pendulum, chain}) {
+    for (const std::string& model : {safe_pendulum, safe_chain}) {
       const Request request{.format = format,
                             .tangent = true,
                             .command = "hamgen " + all_traps() + "\\",
@@ -161,7 +161,7 @@ TEST(UserText, InOptionsBecomesTheExpressionItIs) {
             "alpha = [[1/2]], beta = 0, gamma = -0.0025*h"},
            {{.beta = " - h/(2 ^ 3)"}, "alpha = 1/2, beta = -h/2^3, gamma = 0"},
            {{.gauge = "[[0, h/7],[h/9\n, 0]]"}, "C = [[0, h/7], [h/9, 0]]"}}) {
-    const std::string code = emitted(pendulum, each.request);
+    const std::string code = emitted(safe_pendulum, each.request);
     EXPECT_NE(code.find("//   scheme    " + each.description + ": order 2"), std::string::npos)
         << code.substr(0, 500);
     expect_clean(code);
@@ -169,8 +169,8 @@ TEST(UserText, InOptionsBecomesTheExpressionItIs) {
 }
 
 TEST(UserText, OnASecondLineOfAnOptionIsNotPassedOver) {
-  EXPECT_THROW(static_cast<void>(emitted(pendulum, {.beta = "0.01*h\n + 1"})), ModelError);
-  EXPECT_NO_THROW(static_cast<void>(emitted(pendulum, {.beta = "0.01*h\n\n"})));
+  EXPECT_THROW(static_cast<void>(emitted(safe_pendulum, {.beta = "0.01*h\n + 1"})), ModelError);
+  EXPECT_NO_THROW(static_cast<void>(emitted(safe_pendulum, {.beta = "0.01*h\n\n"})));
 }
 
 TEST(UserText, OfAnyCharactersInOptionsIsRefusedOrCompiles) {
@@ -182,7 +182,7 @@ TEST(UserText, OfAnyCharactersInOptionsIsRefusedOrCompiles) {
                             Request{.gauge = "[[0, " + text + "], [0, 0]]"}}) {
       request.name_space = "m::n" + std::to_string(++accepted);
       try {
-        code += emitted(pendulum, request);
+        code += emitted(safe_pendulum, request);
       } catch (const ModelError&) {
         --accepted;
       } catch (const UsageError&) {
@@ -199,7 +199,7 @@ TEST(UserText, IsNoNamespaceUnlessItIsAName) {
   int accepted = 0;
   for (const std::string& character : characters()) {
     try {
-      static_cast<void>(emitted(pendulum, {.name_space = "a" + character + "b"}));
+      static_cast<void>(emitted(safe_pendulum, {.name_space = "a" + character + "b"}));
       ++accepted;
     } catch (const UsageError&) {
     }

@@ -28,7 +28,7 @@ const Model& model() {
   return read;
 }
 
-std::string refusal(const SceneRequest& request) {
+std::string scene_refusal(const SceneRequest& request) {
   try {
     static_cast<void>(scene_values(model(), request));
     return "accepted";
@@ -96,29 +96,29 @@ TEST(Scene, a_time_is_as_many_steps_as_it_has_room_for) {
   EXPECT_EQ(steps("e*10", "e/2"), 20);
   EXPECT_EQ(steps("0", "1"), 0);
   EXPECT_EQ(scene_values(model(), {.scene = "first", .time = "1"}).steps, 10);
-  EXPECT_EQ(refusal({.steps = "3", .time = "1"}),
+  EXPECT_EQ(scene_refusal({.steps = "3", .time = "1"}),
             "--time 1 and --steps 3 both say how long\nhelp: drop one");
-  EXPECT_EQ(refusal({.time = "-1"}), "--time -1 and h = 0.1 go in opposite directions");
-  EXPECT_EQ(refusal({.time = "1e20"}), "--time 1e20: more than 1e15 steps of h = 0.1");
+  EXPECT_EQ(scene_refusal({.time = "-1"}), "--time -1 and h = 0.1 go in opposite directions");
+  EXPECT_EQ(scene_refusal({.time = "1e20"}), "--time 1e20: more than 1e15 steps of h = 0.1");
 }
 
 TEST(Scene, wrong_options_are_refused_by_name) {
-  EXPECT_EQ(refusal({.scene = "frist"}), "x has no scene 'frist': did you mean 'first'?");
-  EXPECT_EQ(refusal({.set = {{"e", "nan"}}}), "--set e=nan: not a finite number");
-  EXPECT_EQ(refusal({.initial = {{"q[1]", "-inf"}}}), "--initial q[1]=-inf: not a finite number");
-  EXPECT_EQ(refusal({.set = {{"q", "1"}}}),
+  EXPECT_EQ(scene_refusal({.scene = "frist"}), "x has no scene 'frist': did you mean 'first'?");
+  EXPECT_EQ(scene_refusal({.set = {{"e", "nan"}}}), "--set e=nan: not a finite number");
+  EXPECT_EQ(scene_refusal({.initial = {{"q[1]", "-inf"}}}), "--initial q[1]=-inf: not a finite number");
+  EXPECT_EQ(scene_refusal({.set = {{"q", "1"}}}),
             "--set q=1: 'q' is a coordinate; set it with --initial");
-  EXPECT_EQ(refusal({.set = {{"ee", "1"}}}),
+  EXPECT_EQ(scene_refusal({.set = {{"ee", "1"}}}),
             "--set:1:1: error: unknown name 'ee'\n"
             "  1 | ee=1\n"
             "    | ^~\n"
             "help: did you mean 'e', the parameter declared on line 4?\n");
-  EXPECT_EQ(refusal({.initial = {{"q", "[1, 2]"}}}),
+  EXPECT_EQ(scene_refusal({.initial = {{"q", "[1, 2]"}}}),
             "--initial:1:1: error: 'q' has 3 elements, but 2 values are given\n"
             "  1 | q=[1, 2]\n"
             "    | ^~~~~~~~\n"
             "help: give one value for each of q[1..3]\n");
-  EXPECT_EQ(refusal({.set = {{"e", "1/(2-2)"}}}),
+  EXPECT_EQ(scene_refusal({.set = {{"e", "1/(2-2)"}}}),
             "--set:1:3: error: division by zero\n"
             "  1 | e=1/(2-2)\n"
             "    |   ^~~~~~~\n"
@@ -126,11 +126,11 @@ TEST(Scene, wrong_options_are_refused_by_name) {
 }
 
 TEST(Scene, a_run_needs_a_step_and_a_number_of_steps_that_make_sense) {
-  EXPECT_EQ(refusal({.h = "0"}), "--h 0: the step size h must not be 0");
-  EXPECT_EQ(refusal({.h = "nan"}), "--h nan: not a finite number");
-  EXPECT_EQ(refusal({.steps = "-1"}),
+  EXPECT_EQ(scene_refusal({.h = "0"}), "--h 0: the step size h must not be 0");
+  EXPECT_EQ(scene_refusal({.h = "nan"}), "--h nan: not a finite number");
+  EXPECT_EQ(scene_refusal({.steps = "-1"}),
             "--steps -1: the number of steps must be an integer between 0 and 1e15, not -1");
-  EXPECT_EQ(refusal({.steps = "1e30"}),
+  EXPECT_EQ(scene_refusal({.steps = "1e30"}),
             "--steps 1e30: the number of steps must be an integer between 0 and 1e15, not 1e+30");
 }
 

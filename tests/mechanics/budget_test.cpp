@@ -45,7 +45,7 @@ std::string arrays(int n) {
 }
 
 // The first line of what is said of the model up to the text of its step, without the file's name.
-std::string said_of(const std::string& text) {
+std::string budget_said_of(const std::string& text) {
   try {
     check_step(make_source("m.ham", text), {});
   } catch (const ModelError& error) {
@@ -112,7 +112,7 @@ void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 class Budgets : public testing::TestWithParam<Case> {};
 
 TEST_P(Budgets, AreKeptOrSaidToBePassed) {
-  EXPECT_EQ(said_of(GetParam().text), GetParam().said);
+  EXPECT_EQ(budget_said_of(GetParam().text), GetParam().said);
   if (GetParam().said == "accepted") {
     EXPECT_LE(spent()[work], GetParam().most_work);
   }
@@ -133,7 +133,7 @@ TEST(BudgetGrowth, IsLinearInWhatIsLinear) {
       text += fmt::format("coordinate q{0}\nmomentum p{0}\n", i);
       energy += fmt::format("{0}p{1}^2/2 + q{1}^4", i == 0 ? "" : " + ", i);
     }
-    EXPECT_EQ(said_of(text + "H = " + energy), "accepted");
+    EXPECT_EQ(budget_said_of(text + "H = " + energy), "accepted");
     return spent()[work];
   };
   EXPECT_LT(work_of(200), 3 * work_of(100));

@@ -12,12 +12,12 @@
 namespace hamgen::mechanics_test {
 namespace {
 
-bool same(const Expression& a, const Expression& b) {
+bool same_terms(const Expression& a, const Expression& b) {
   PolynomialRing ring(10000);
   return ring.expand(a - b).empty();
 }
 
-const std::string pendulum = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+const std::string modified_pendulum = "coordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
 
 // The midpoint rule turns the oscillator by 2 atan(h/2) a step.
 TEST(ModifiedHamiltonian, OfTheOscillatorIsThatOfTheArcTangent) {
@@ -25,7 +25,7 @@ TEST(ModifiedHamiltonian, OfTheOscillatorIsThatOfTheArcTangent) {
   const auto terms = modified_hamiltonian(m, {}, 0, 7);
   const std::vector<Rational> series = {1, Rational(-1, 12), Rational(1, 80), Rational(-1, 448)};
   for (std::size_t k = 0; k < series.size(); ++k) {
-    EXPECT_TRUE(same(terms[2 * k], Expression(series[k]) * m.energy)) << to_text(terms[2 * k]);
+    EXPECT_TRUE(same_terms(terms[2 * k], Expression(series[k]) * m.energy)) << to_text(terms[2 * k]);
   }
 }
 
@@ -42,12 +42,12 @@ TEST(ModifiedHamiltonian, HasTheKnownSecondTermForAGaugeProportionalToTheStep) {
                           Expression(2) * m.second_derivative(0, 1) * by_p * by_q +
                           m.second_derivative(1, 1) * by_q * by_q;
   const auto terms = modified_hamiltonian(m, scheme_of(m, {"1/2", "h/5", "-h/7"}).member().c, 0, 3);
-  EXPECT_TRUE(same(terms[2], gauge - bend / Expression(24))) << to_text(terms[2]);
+  EXPECT_TRUE(same_terms(terms[2], gauge - bend / Expression(24))) << to_text(terms[2]);
 }
 
 // With K of order R, Ht departs from H at h^R only.
 TEST(ModifiedHamiltonian, BeginsWithThePowerOfTheOrder) {
-  const Mechanics m = mechanics_of(pendulum);
+  const Mechanics m = mechanics_of(modified_pendulum);
   for (const Gauge& gauge : {Gauge{}, Gauge{"3/10", "1/5", "-1/10"}, Gauge{"0", "h", "0"}}) {
     const SparseMatrix c = scheme_of(m, gauge).member().c;
     const auto terms = modified_hamiltonian(m, c, 4, 5);

@@ -12,7 +12,7 @@ using Jets = std::vector<LongJet>;
 constexpr std::size_t kRing = 26;
 constexpr std::size_t kBodies = 13;
 
-LongJet square(const LongJet& a) { return a * a; }
+LongJet square_of_long(const LongJet& a) { return a * a; }
 
 // A ring with forces of third degree, its masses 1, 3/2, 2, 1, ... if `masses`, and a kinetic
 // energy with a term of first degree.
@@ -30,9 +30,9 @@ LongJet ring(const Jets& z, bool masses) {
   LongJet sum = 0.0L * z[0];
   for (std::size_t i = 0; i < kRing; ++i) {
     const long double m = masses ? static_cast<long double>(2 + i % 3) / 2 : 1;
-    const LongJet s = square(z[(i + 1) % kRing] - z[i]);
-    sum = sum + 0.5L / m * square(z[kRing + i]) + 0.125L * z[kRing + i] + 0.5L * s +
-          0.25L * square(s) + 0.25L * square(square(z[i]));
+    const LongJet s = square_of_long(z[(i + 1) % kRing] - z[i]);
+    sum = sum + 0.5L / m * square_of_long(z[kRing + i]) + 0.125L * z[kRing + i] + 0.5L * s +
+          0.25L * square_of_long(s) + 0.25L * square_of_long(square_of_long(z[i]));
   }
   return sum;
 }
@@ -44,10 +44,10 @@ const char* const kPairs =
     "    1/(1 + (x[i] - x[j])^2 + (y[i] - y[j])^2))\n";
 LongJet pairs(const Jets& z) {
   LongJet sum = 0.0L * z[0];
-  for (std::size_t i = 0; i < 2 * kBodies; ++i) sum = sum + 0.5L * square(z[2 * kBodies + i]);
+  for (std::size_t i = 0; i < 2 * kBodies; ++i) sum = sum + 0.5L * square_of_long(z[2 * kBodies + i]);
   for (std::size_t i = 0; i < kBodies; ++i) {
     for (std::size_t j = i + 1; j < kBodies; ++j) {
-      const LongJet d = 1.0L + (square(z[i] - z[j]) + square(z[kBodies + i] - z[kBodies + j]));
+      const LongJet d = 1.0L + (square_of_long(z[i] - z[j]) + square_of_long(z[kBodies + i] - z[kBodies + j]));
       sum =
           sum + d.through(1 / d.value, -1 / (d.value * d.value), 2 / (d.value * d.value * d.value));
     }
@@ -56,14 +56,14 @@ LongJet pairs(const Jets& z) {
 }
 
 // A ring that is not separable, and couples the momenta.
-const char* const kCoupled =
+const char* const kCoupledLoops =
     "size N = 26\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
     "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1] + p[i]*p[i+1])\n";
 LongJet coupled(const Jets& z) {
   LongJet sum = 0.0L * z[0];
   for (std::size_t i = 0; i < kRing; ++i) {
     const std::size_t next = (i + 1) % kRing;
-    sum = sum + 0.25L * square(square(z[i]) + square(z[kRing + i])) + z[i] * z[next] +
+    sum = sum + 0.25L * square_of_long(square_of_long(z[i]) + square_of_long(z[kRing + i])) + z[i] * z[next] +
           z[kRing + i] * z[kRing + next];
   }
   return sum;
@@ -77,7 +77,7 @@ Vector some_state() {
   return z;
 }
 
-constexpr long double kStep = 0.0625L;
+constexpr long double kLoopStep = 0.0625L;
 
 // The largest distance after five steps by Newton's method.  An iteration ends within the rounding
 // of all its components together, 52 of size below 2, and the conditions of these systems are below
@@ -94,13 +94,13 @@ void compare(const std::string& text, Request request, const Hamiltonian& hamilt
   const Parameters3<long double> member{Vector(n, alpha), Vector(n, beta), Vector(n, gamma)};
   Vector expected = some_state();
   for (int i = 0; i < 5; ++i) {
-    expected = request.solver == "sweeps:3" ? algorithm_1(hamiltonian, member, kStep, expected, 3)
-                                            : dense_step(hamiltonian, member, kStep, expected);
+    expected = request.solver == "sweeps:3" ? algorithm_1(hamiltonian, member, kLoopStep, expected, 3)
+                                            : dense_step(hamiltonian, member, kLoopStep, expected);
   }
-  const Vector found = loops.after(5, some_state(), kStep);
+  const Vector found = loops.after(5, some_state(), kLoopStep);
   EXPECT_LT(distance(found, expected), kBound) << text;
   // One step more is another state.
-  EXPECT_GT(distance(loops.after(6, some_state(), kStep), expected), 1e-3L);
+  EXPECT_GT(distance(loops.after(6, some_state(), kLoopStep), expected), 1e-3L);
 }
 
 auto uniform_ring = [](const Jets& z) { return ring(z, false); };
@@ -110,13 +110,13 @@ const Request kGeneral{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"};
 
 TEST(Loops, ARingIsFoldedIntoABand) {
   compare(ring_text(false), {}, uniform_ring, 0.5L, 0, 0, "banded Newton of size 26");
-  compare(ring_text(false), kGeneral, uniform_ring, 0.3L, kStep / 7, -kStep / 9,
+  compare(ring_text(false), kGeneral, uniform_ring, 0.3L, kLoopStep / 7, -kLoopStep / 9,
           "banded Newton of size 26");
 }
 
 TEST(Loops, MassesThatDifferAreAnArray) {
   compare(ring_text(true), {}, ring_of_masses, 0.5L, 0, 0, "banded Newton of size 26");
-  compare(ring_text(true), kGeneral, ring_of_masses, 0.3L, kStep / 7, -kStep / 9,
+  compare(ring_text(true), kGeneral, ring_of_masses, 0.3L, kLoopStep / 7, -kLoopStep / 9,
           "banded Newton of size 26");
 }
 
@@ -125,8 +125,8 @@ TEST(Loops, EveryPairOfBodiesIsADenseMatrix) {
 }
 
 TEST(Loops, WhatIsNotSeparableIsABandOfCoordinatesAndMomentaInTurn) {
-  compare(kCoupled, {}, coupled, 0.5L, 0, 0, "banded Newton of size 52");
-  compare(kCoupled, kGeneral, coupled, 0.3L, kStep / 7, -kStep / 9, "banded Newton of size 52");
+  compare(kCoupledLoops, {}, coupled, 0.5L, 0, 0, "banded Newton of size 52");
+  compare(kCoupledLoops, kGeneral, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9, "banded Newton of size 52");
 }
 
 TEST(Loops, ADefinitionMayHoldASum) {
@@ -153,10 +153,10 @@ TEST(Loops, ADefinitionMayHoldASum) {
 TEST(Loops, TheFixedPointIsTheSolutionOfNewtonsMethod) {
   Request request{.solver = "fixed-point"};
   compare(ring_text(true), request, ring_of_masses, 0.5L, 0, 0, "fixed point of size 26");
-  compare(kCoupled, request, coupled, 0.5L, 0, 0, "fixed point of size 52");
+  compare(kCoupledLoops, request, coupled, 0.5L, 0, 0, "fixed point of size 52");
   request = kGeneral;
   request.solver = "fixed-point";
-  compare(ring_text(true), request, ring_of_masses, 0.3L, kStep / 7, -kStep / 9,
+  compare(ring_text(true), request, ring_of_masses, 0.3L, kLoopStep / 7, -kLoopStep / 9,
           "fixed point of size 26");
 }
 
@@ -165,7 +165,7 @@ TEST(Loops, SweepsAreThePapersAlgorithm) {
   compare(ring_text(true), request, ring_of_masses, 0.5L, 0, 0, "3 fixed-point sweeps");
   request = kGeneral;
   request.solver = "sweeps:3";
-  compare(kCoupled, request, coupled, 0.3L, kStep / 7, -kStep / 9, "3 fixed-point sweeps");
+  compare(kCoupledLoops, request, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9, "3 fixed-point sweeps");
 }
 
 }  // namespace

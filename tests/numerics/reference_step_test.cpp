@@ -12,33 +12,33 @@ using J = Jet<long double>;
 using Variables = std::vector<J>;
 using Hamiltonian = J (*)(const Variables&);
 
-J square(const J& x) { return x * x; }
+J square_of_jet(const J& x) { return x * x; }
 
 J double_pendulum(const Variables& z) {
   const J d = z[0] - z[1];
-  return (square(z[2]) + 2.0L * square(z[3]) - 2.0L * (z[2] * z[3] * cos(d))) /
-             (2.0L + 2.0L * square(sin(d))) -
+  return (square_of_jet(z[2]) + 2.0L * square_of_jet(z[3]) - 2.0L * (z[2] * z[3] * cos(d))) /
+             (2.0L + 2.0L * square_of_jet(sin(d))) -
          2.0L * cos(z[0]) - cos(z[1]);
 }
 J magnetic(const Variables& z) {
-  const J r = sqrt(square(z[0]) + square(z[1]));
-  return 0.5L * (square(z[2] + 0.5L * z[1]) + square(z[3] - 0.5L * z[0])) +
+  const J r = sqrt(square_of_jet(z[0]) + square_of_jet(z[1]));
+  return 0.5L * (square_of_jet(z[2] + 0.5L * z[1]) + square_of_jet(z[3] - 0.5L * z[0])) +
          0.01L * ((1.0L + 0.0L * r) / r);
 }
-J product(const Variables& z) { return 0.5L * ((1.0L + square(z[0])) * (1.0L + square(z[1]))); }
+J product(const Variables& z) { return 0.5L * ((1.0L + square_of_jet(z[0])) * (1.0L + square_of_jet(z[1]))); }
 J henon_heiles(const Variables& z) {
-  return 0.5L * (square(z[0]) + square(z[1]) + square(z[2]) + square(z[3])) + square(z[0]) * z[1] -
-         (1.0L / 3.0L) * (z[1] * square(z[1]));
+  return 0.5L * (square_of_jet(z[0]) + square_of_jet(z[1]) + square_of_jet(z[2]) + square_of_jet(z[3])) + square_of_jet(z[0]) * z[1] -
+         (1.0L / 3.0L) * (z[1] * square_of_jet(z[1]));
 }
 J toda(const Variables& z) {
-  return 0.5L * (square(z[3]) + square(z[4]) + square(z[5])) + exp(z[0] - z[1]) + exp(z[1] - z[2]) +
+  return 0.5L * (square_of_jet(z[3]) + square_of_jet(z[4]) + square_of_jet(z[5])) + exp(z[0] - z[1]) + exp(z[1] - z[2]) +
          exp(z[2] - z[0]);
 }
 J affine(const Variables& z) { return z[2] * sin(z[1]) + z[3] * cos(z[0]) + sin(z[0] * z[1]); }
 // Second derivatives alone would make it quadratic, with |q1 - 4| on the side of q1 = 0.
 J corner(const Variables& z) {
-  return 0.5L * (square(z[2]) + square(z[3]) + square(-8.0L + z[0])) + sqrt(square(-4.0L + z[0])) +
-         square(z[1]) + 0.125L * (z[0] * z[1]);
+  return 0.5L * (square_of_jet(z[2]) + square_of_jet(z[3]) + square_of_jet(-8.0L + z[0])) + sqrt(square_of_jet(-4.0L + z[0])) +
+         square_of_jet(z[1]) + 0.125L * (z[0] * z[1]);
 }
 // Six degrees of freedom, all coupled, not separable: a system that is not written out.
 J six(const Variables& z) {
@@ -46,7 +46,7 @@ J six(const Variables& z) {
   J angle = 0.0L * z[0];
   for (std::size_t i = 0; i < 6; ++i) {
     const long double k = static_cast<long double>(i + 1);
-    sum = sum + (1.0L / k) * (square(z[6 + i]) * (2.0L + sin(z[i]))) + 0.25L * square(square(z[i]));
+    sum = sum + (1.0L / k) * (square_of_jet(z[6 + i]) * (2.0L + sin(z[i]))) + 0.25L * square_of_jet(square_of_jet(z[i]));
     angle = angle + (1.0L / k) * z[i];
   }
   return sum + cos(angle);

@@ -176,34 +176,34 @@ TEST(Rest, AlsoWhereSumsStayLoops) {
   EXPECT_EQ(left_out(model + "; y[7] = 1e-9 }\n"), "");
 }
 
-const std::string kPolar =
+const std::string kPolarMotion =
     "coordinate r, phi, u\nmomentum pr, pphi, pu\nparameter k = 2\n"
     "H = pr^2/2 + pphi^2/(2*r^2) - k/r + pu^2/2 + u^4/4\ninvariant L = pphi\n"
     "scene s { r = 1; pphi = 1.1; u = 1; h = 0.01; steps = 10";
 
 TEST(Observe, WithoutItEverythingIsObserved) {
-  EXPECT_EQ(left_out(kPolar + " }\n"), "");
-  EXPECT_EQ(left_out(kPolar + "; observe energy, L }\n"), "");
+  EXPECT_EQ(left_out(kPolarMotion + " }\n"), "");
+  EXPECT_EQ(left_out(kPolarMotion + "; observe energy, L }\n"), "");
 }
 
 TEST(Observe, LeavesOutWhatDoesNotMatter) {
-  EXPECT_EQ(left_out(kPolar + "; observe r }\n"),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r }\n"),
             "u, pu: nothing observed depends on them\n"
             "phi: cyclic and not observed; pphi is a parameter\n");
-  EXPECT_EQ(left_out(kPolar + "; observe r, energy }\n"),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r, energy }\n"),
             "phi: cyclic and not observed; pphi is a parameter\n");
-  EXPECT_EQ(left_out(kPolar + "; observe phi }\n"), "u, pu: nothing observed depends on them\n");
-  EXPECT_EQ(left_out(kPolar + "; observe u }\n"),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe phi }\n"), "u, pu: nothing observed depends on them\n");
+  EXPECT_EQ(left_out(kPolarMotion + "; observe u }\n"),
             "r, phi, pr, pphi: nothing observed depends on them\n");
-  EXPECT_EQ(left_out(kPolar + "; observe both = r*u }\n"),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe both = r*u }\n"),
             "phi: cyclic and not observed; pphi is a parameter\n");
 }
 
 // pbar of phi is no constant under beta: H_pphi moves it.
 TEST(Observe, ACyclicMomentumUnderBetaStays) {
-  EXPECT_EQ(left_out(kPolar + "; observe r }\n", {.request = {.beta = "h/7"}}),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r }\n", {.request = {.beta = "h/7"}}),
             "u, pu: nothing observed depends on them\n");
-  EXPECT_EQ(left_out(kPolar + "; observe r }\n", {.request = {.beta = "h/7, 0, 0"}}),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r }\n", {.request = {.beta = "h/7, 0, 0"}}),
             "u, pu: nothing observed depends on them\n"
             "phi: cyclic and not observed; pphi is a parameter\n");
 }
@@ -267,13 +267,13 @@ TEST(Look, AtEveryStepIsLeftOutForPolynomials) {
 
 // Ht is made of all of H, whatever else is looked at.
 TEST(Observe, TheModifiedHamiltonianTakesEverything) {
-  EXPECT_EQ(left_out(kPolar + "; observe r }\n",
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r }\n",
                      {.request = {.watch_modified = 2, .step = Rational(1, 100)}}),
             "");
 }
 
 TEST(Observe, ALongerListIsTakenFromTheCommandLine) {
-  EXPECT_EQ(left_out(kPolar + "; observe r }\n", {.observe = "r, v = u^2"}),
+  EXPECT_EQ(left_out(kPolarMotion + "; observe r }\n", {.observe = "r, v = u^2"}),
             "phi: cyclic and not observed; pphi is a parameter\n");
 }
 

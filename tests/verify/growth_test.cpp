@@ -51,12 +51,12 @@ std::string why_not(const std::string& text) {
 
 const std::string kVariables = "coordinate q[1..N] periodic\nmomentum p[1..N]\n";
 const std::string kKinetic = "H = sum(i = 1..N, p[i]^2/2) + ";
-const std::string kChain =
+const std::string kGrowingChain =
     "coordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter m[1..N] = 2\n"
     "H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, (q[i+1] - q[i])^4/4)\n";
 
 TEST(Growth, ContinuesChainsAndRings) {
-  EXPECT_EQ(why_not(kChain), "");
+  EXPECT_EQ(why_not(kGrowingChain), "");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, (q[i+1] - q[i])^4/4)\n"), "");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, q[i]*q[i+2] + q[i]^4/4)\n"), "");
 }
@@ -79,9 +79,9 @@ TEST(Growth, DoesNotReachBeyondNeighbours) {
 // The large system has the claims of the small ones; a mutant of it is not what they continue.
 TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
   for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-2"}) {
-    const SizedSystem a = system_of(kChain, 25, scheme);
-    const SizedSystem b = system_of(kChain, 26, scheme);
-    const SizedSystem c = system_of(kChain, 60, scheme);
+    const SizedSystem a = system_of(kGrowingChain, 25, scheme);
+    const SizedSystem b = system_of(kGrowingChain, 26, scheme);
+    const SizedSystem c = system_of(kGrowingChain, 60, scheme);
     const StepCode code = step_code(c.program);
     const Finding finding = prove_emitted(c.mechanics, c.scheme, c.program, code, c.hamiltonian, {},
                                           {}, SmallerSystems{"N", 60, a, b});
@@ -113,9 +113,9 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
     system.program = program_of(system.mechanics, system.scheme, "fixed-point");
     return system;
   };
-  const SizedSystem large = system_of(kChain, 60, "implicit-midpoint");
-  const SmallerSystems smaller{"N", 60, wrong(system_of(kChain, 25, "implicit-midpoint")),
-                               wrong(system_of(kChain, 26, "implicit-midpoint"))};
+  const SizedSystem large = system_of(kGrowingChain, 60, "implicit-midpoint");
+  const SmallerSystems smaller{"N", 60, wrong(system_of(kGrowingChain, 25, "implicit-midpoint")),
+                               wrong(system_of(kGrowingChain, 26, "implicit-midpoint"))};
   const Finding finding =
       prove_emitted(large.mechanics, large.scheme, large.program, step_code(large.program),
                     large.hamiltonian, {}, {}, smaller);
@@ -125,7 +125,7 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
 
 // Without smaller ones it is no proof.
 TEST(Growth, ALargeSystemAloneIsTested) {
-  const SizedSystem large = system_of(kChain, 60, "implicit-midpoint");
+  const SizedSystem large = system_of(kGrowingChain, 60, "implicit-midpoint");
   const Finding finding = prove_emitted(large.mechanics, large.scheme, large.program,
                                         step_code(large.program), large.hamiltonian);
   EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;

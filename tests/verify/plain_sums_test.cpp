@@ -11,9 +11,9 @@
 namespace hamgen::verify_test {
 namespace {
 
-const std::string kPendulum =
+const std::string kPlainPendulum =
     "coordinate q\nmomentum p\nparameter eps = 0.03\nH = p^2/2 - eps*cos(q)\n";
-const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
+const std::string kPlainProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
 const std::string kOscillator = "coordinate q\nmomentum p\nH = p^2/2 + 169/200*q^2\n";
 const std::string kChain =
     "size N = 26\ncoordinate x[1..N] with x[0] = 0, x[N+1] = 0\nmomentum p[1..N]\n"
@@ -38,10 +38,10 @@ std::string name_of(const Request& request) {
 }
 
 TEST(PlainSums, AreProvedAndNameNoCarry) {
-  for (const std::string& text : {kPendulum, kProduct, kOscillator, kChain}) {
+  for (const std::string& text : {kPlainPendulum, kPlainProduct, kOscillator, kChain}) {
     const SourceText source = make_source("m.ham", text);
     for (Request request : kMethods) {
-      if (text == kProduct && request.scheme == "stormer-verlet") continue;
+      if (text == kPlainProduct && request.scheme == "stormer-verlet") continue;
       request.plain_sums = true;
       request.tangent = text != kChain;
       const Stages stages = run_stages(source, request);
@@ -62,7 +62,7 @@ TEST(PlainSums, AreProvedAndNameNoCarry) {
 }
 
 TEST(PlainSums, InCToo) {
-  const SourceText source = make_source("m.ham", kPendulum);
+  const SourceText source = make_source("m.ham", kPlainPendulum);
   for (const char* scheme : {"implicit-midpoint", "stormer-verlet", "yoshida-4"}) {
     const OutputFiles files =
         generate(source, {.scheme = scheme, .format = "c-header", .plain_sums = true});
@@ -73,7 +73,7 @@ TEST(PlainSums, InCToo) {
 
 // What is small of an increment belongs to it: left out, the step is another.
 TEST(PlainSums, WithoutTheSmallPartOfAnIncrementAreRefuted) {
-  const SourceText source = make_source("m.ham", kPendulum);
+  const SourceText source = make_source("m.ham", kPlainPendulum);
   for (const char* solver : {"", "fixed-point"}) {
     Stages stages = run_stages(source, {.solver = solver, .plain_sums = true});
     StepCode code = step_code(stages.program);
@@ -103,7 +103,7 @@ TEST(PlainSums, WithoutTheSmallPartOfAnIncrementAreRefuted) {
 // What they are for, and what they cost: after 20000 steps the state has lost digits that the
 // compensated one has.
 TEST(PlainSums, LoseWhatRoundingTakes) {
-  const SourceText source = make_source("m.ham", kPendulum);
+  const SourceText source = make_source("m.ham", kPlainPendulum);
   const auto error_of = [&](bool plain) {
     const StepCode code = make_step_code(source, {.plain_sums = plain});
     Interpreter<double> run(code, {0.03}, 0.1, {1.3, 0.0});

@@ -24,7 +24,7 @@ Finding finding(const SourceText& source, const Request& request, const std::str
   return {"missing", Verdict::measured};
 }
 
-Verdict verdict(const SourceText& source, const Request& request, const std::string& property) {
+Verdict verdict_of(const SourceText& source, const Request& request, const std::string& property) {
   return finding(source, request, property).verdict;
 }
 
@@ -67,7 +67,7 @@ const std::string kContact =
 
 TEST(FalseInvariants, OfAContactAreRefutedOnItsOtherSide) {
   for (const char* scheme : {"", "gauss-4", "rk4", "yoshida-4", "stormer-verlet"})
-    EXPECT_EQ(verdict(model(kContact), {.scheme = scheme}, "P invariant"), Verdict::refuted)
+    EXPECT_EQ(verdict_of(model(kContact), {.scheme = scheme}, "P invariant"), Verdict::refuted)
         << scheme;
   EXPECT_THROW((void)generate(model(kContact), {.require = "conserves:P"}), ProofError);
   EXPECT_THROW((void)generate(model(kContact), {.require = "symplectic"}), ProofError);
@@ -80,13 +80,13 @@ TEST(FalseInvariants, BeyondTheFirstPointsAreRefutedToo) {
     const SourceText source =
         model("coordinate x, y\nmomentum u, v\nH = (u^2 + v^2 + x^2 + y^2)/2 + (" +
               std::string(root) + " - x)^3\ninvariant L = x*v - y*u\n");
-    EXPECT_EQ(verdict(source, {}, "L invariant"), Verdict::refuted) << root;
+    EXPECT_EQ(verdict_of(source, {}, "L invariant"), Verdict::refuted) << root;
   }
   EXPECT_EQ(
-      verdict(of_one("p^2/2 + (q - 2 + abs(q - 2))^2", "invariant P = p\n"), {}, "P invariant"),
+      verdict_of(of_one("p^2/2 + (q - 2 + abs(q - 2))^2", "invariant P = p\n"), {}, "P invariant"),
       Verdict::refuted);
   for (const char* invariant : {"(abs(q) - q)*p", "sqrt(q^2)*p - q*p"}) {
-    EXPECT_EQ(verdict(of_one("p^2/2 + q^2/2", "invariant I = " + std::string(invariant) + "\n"), {},
+    EXPECT_EQ(verdict_of(of_one("p^2/2 + q^2/2", "invariant I = " + std::string(invariant) + "\n"), {},
                       "I invariant"),
               Verdict::refuted)
         << invariant;
@@ -95,16 +95,16 @@ TEST(FalseInvariants, BeyondTheFirstPointsAreRefutedToo) {
 
 // Two hydrogen atoms in SI units, and an invariant in units that are too large.
 TEST(FalseInvariants, AreNotZeroBecauseTheyAreSmall) {
-  EXPECT_EQ(verdict(of_one("p^2/2 + q^2/2", "invariant B = 1e-31*q\n"), {}, "B invariant"),
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + q^2/2", "invariant B = 1e-31*q\n"), {}, "B invariant"),
             Verdict::refuted);
   EXPECT_EQ(
-      verdict(of_one("p^2/(2*1.67e-27) - 1.87e-64/q", "invariant P = p\n"), {}, "P invariant"),
+      verdict_of(of_one("p^2/(2*1.67e-27) - 1.87e-64/q", "invariant P = p\n"), {}, "P invariant"),
       Verdict::refuted);
   // Beside terms of size 1 that cancel.
   const SourceText beside = model(
       "coordinate x, y\nmomentum u, v\nH = (u^2 + v^2)/2 - cos(x - y)\n"
       "invariant P = u + v + 1e-31*x\n");
-  EXPECT_EQ(verdict(beside, {}, "P invariant"), Verdict::refuted);
+  EXPECT_EQ(verdict_of(beside, {}, "P invariant"), Verdict::refuted);
 }
 
 // {I, H} = 0 off the corner, and jumps by 2 and by pi across it.
@@ -115,7 +115,7 @@ TEST(FalseInvariants, ThatJumpAreNeverProved) {
     const Finding found = finding(source, {}, "I invariant");
     EXPECT_EQ(found.verdict, Verdict::tested) << found.detail;
     EXPECT_NE(found.detail.find("off the corners of "), std::string::npos) << found.detail;
-    EXPECT_NE(verdict(source, {}, "I conserved by the step"), Verdict::proved);
+    EXPECT_NE(verdict_of(source, {}, "I conserved by the step"), Verdict::proved);
   }
 }
 
@@ -123,22 +123,22 @@ TEST(TrueClaims, AreDecidedWhereTheModelIsDefined) {
   const auto scene = [](const std::string& q) {
     return "scene s { q = " + q + "; h = 0.01; steps = 10 }\n";
   };
-  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "program"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "program"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"), Verdict::proved);
   // By points alone, of what is defined near the scene only.
   const SourceText narrow =
       of_one("p^2/2 + log(q - 500)",
              "invariant I = p^2/2 + log(q - 500) + sin(2*q) - 2*sin(q)*cos(q)\n" + scene("501"));
-  EXPECT_EQ(verdict(narrow, {}, "I invariant"), Verdict::tested);
-  EXPECT_EQ(verdict(narrow, {}, "I conserved by the step"), Verdict::not_decided);
+  EXPECT_EQ(verdict_of(narrow, {}, "I invariant"), Verdict::tested);
+  EXPECT_EQ(verdict_of(narrow, {}, "I conserved by the step"), Verdict::not_decided);
 }
 
 TEST(TrueClaims, AboutKeplersProblemNeedNoCorner) {
   const SourceText kepler = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham");
   EXPECT_TRUE(corners_of_hamiltonian(kepler, {}).empty());
-  EXPECT_EQ(verdict(kepler, {}, "L conserved by the step"), Verdict::proved);
+  EXPECT_EQ(verdict_of(kepler, {}, "L conserved by the step"), Verdict::proved);
 }
 
 const std::string kQuartic =
@@ -149,8 +149,8 @@ TEST(FalseGauges, OfAParameterWithTheOtherSignAreRefuted) {
   for (const char* size : {"abs(a)", "sqrt(a^2)"}) {
     const Request outside{.gauge = "[[(" + std::string(size) + " - a)/7, 0], [0, 0]]"};
     for (const char* property : {"gauge in sp(2n)", "symplectic", "symmetric"})
-      EXPECT_EQ(verdict(model(kQuartic), outside, property), Verdict::refuted) << property;
-    EXPECT_EQ(verdict(model(kQuartic), {.beta = std::string(size) + " - a"}, "symmetric"),
+      EXPECT_EQ(verdict_of(model(kQuartic), outside, property), Verdict::refuted) << property;
+    EXPECT_EQ(verdict_of(model(kQuartic), {.beta = std::string(size) + " - a"}, "symmetric"),
               Verdict::refuted);
   }
 }
@@ -158,13 +158,13 @@ TEST(FalseGauges, OfAParameterWithTheOtherSignAreRefuted) {
 TEST(FalseOrders, OfACoefficientThatVanishesAreNotClaimed) {
   // C(0) = 0, which takes points to see: no leading error of order 1.
   const Request hidden{.beta = "sin(a)^2 + cos(a)^2 - 1"};
-  EXPECT_EQ(verdict(model(kQuartic), hidden, "order 1"), Verdict::measured) << "must be missing";
-  EXPECT_EQ(verdict(model(kQuartic), hidden, "order 2"), Verdict::tested);
+  EXPECT_EQ(verdict_of(model(kQuartic), hidden, "order 1"), Verdict::measured) << "must be missing";
+  EXPECT_EQ(verdict_of(model(kQuartic), hidden, "order 2"), Verdict::tested);
 }
 
 TEST(FalseOrders, OfAWrongKAreRefutedWithIt) {
   const SourceText pendulum = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham");
-  EXPECT_EQ(verdict(pendulum, {.order = 4}, "order 4"), Verdict::tested);
+  EXPECT_EQ(verdict_of(pendulum, {.order = 4}, "order 4"), Verdict::tested);
   GeneratingFunction k;
   k.order = 4;
   EXPECT_EQ(prove_raised_order(k, {.verdict = Verdict::refuted, .witness = "here"}).verdict,
@@ -187,27 +187,27 @@ TEST(FalseSymmetry, IsNotFoundInAHiddenZero) {
   // Odd in h, which algebra does not see.
   const SourceText pendulum = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham");
   const std::string odd = "log((1 + h)/(1 - h))";
-  EXPECT_EQ(verdict(pendulum, {.beta = odd}, "symmetric"), Verdict::tested);
-  EXPECT_EQ(verdict(pendulum, {.scheme = "yoshida-4", .beta = odd}, "symmetric"), Verdict::tested);
-  EXPECT_EQ(verdict(pendulum, {.scheme = "yoshida-4", .beta = odd}, "order 4"), Verdict::tested);
+  EXPECT_EQ(verdict_of(pendulum, {.beta = odd}, "symmetric"), Verdict::tested);
+  EXPECT_EQ(verdict_of(pendulum, {.scheme = "yoshida-4", .beta = odd}, "symmetric"), Verdict::tested);
+  EXPECT_EQ(verdict_of(pendulum, {.scheme = "yoshida-4", .beta = odd}, "order 4"), Verdict::tested);
   EXPECT_THROW((void)verify_step(pendulum, {.scheme = "yoshida-4", .beta = "h^2"}), UsageError);
 }
 
 TEST(Sweeps, AreJudgedByWhatTheySolve) {
   // h = 500 makes of 1e-6 what is no rounding.
   const SourceText weak = of_one("p^2/2 - 1e-6*cos(q)", "scene s { q = 2; h = 500; steps = 10 }\n");
-  EXPECT_EQ(verdict(weak, {.solver = "sweeps:8"}, "symplectic"), Verdict::refuted);
-  EXPECT_EQ(verdict(weak, {.solver = "sweeps:8"}, "symmetric"), Verdict::refuted);
+  EXPECT_EQ(verdict_of(weak, {.solver = "sweeps:8"}, "symplectic"), Verdict::refuted);
+  EXPECT_EQ(verdict_of(weak, {.solver = "sweeps:8"}, "symmetric"), Verdict::refuted);
   // The exact flow.
-  EXPECT_EQ(verdict(of_one("p^2/2"), {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
-  EXPECT_EQ(verdict(of_one("p^2/2"), {.solver = "sweeps:2"}, "symmetric"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2"), {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2"), {.solver = "sweeps:2"}, "symmetric"), Verdict::proved);
   // zbar depends on itself by pattern, and not by algebra: p - q is constant.
   const SourceText nilpotent = of_one("(p - q)^2/2 + (p - q)^4");
-  EXPECT_EQ(verdict(nilpotent, {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
+  EXPECT_EQ(verdict_of(nilpotent, {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
   // u needs y, x needs u: one sweep is one too few.
   const SourceText chain = model("coordinate x, y\nmomentum u, v\nH = u^2/2 + x*y\n");
-  EXPECT_NE(verdict(chain, {.solver = "sweeps:1"}, "symplectic"), Verdict::proved);
-  EXPECT_EQ(verdict(chain, {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
+  EXPECT_NE(verdict_of(chain, {.solver = "sweeps:1"}, "symplectic"), Verdict::proved);
+  EXPECT_EQ(verdict_of(chain, {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
 }
 
 TEST(Corners, LowerEveryVerdictOfTheStepAndAreNamed) {
