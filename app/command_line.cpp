@@ -124,7 +124,7 @@ void add_compiler_options(CLI::App& command, CompilerChoice& choice) {
   command.add_option("--compiler", choice.program, "")->type_name("C");
   command.add_option("--flags", choice.flags, "")->type_name("F");
   command.add_flag("--portable", choice.portable,
-                   "default: $CXX, g++, clang++; not for this processor alone");
+                   "default: $CXX, g++, clang++; not only for this processor");
 }
 
 void add_step_option(CLI::App& command, SceneOptions& options) {
