@@ -23,13 +23,13 @@ const std::string kStiff = HAMGEN_SOURCE_DIR "/hamiltonians/stiff_fpu.ham";
 
 TEST(LocallyExactGauge, ARunTakesItAtItsOwnParameters) {
   // w = 1000 is the scene's, not the model's default: 100 steps of h w = 100.
-  const json result = run_json(
-      {kGaugedHarmonic, "--gauge", "locally-exact", "--scene", "stiff", "--h", "1/8", "--steps", "100"});
+  const json result = run_json({kGaugedHarmonic, "--gauge", "locally-exact", "--scene", "stiff",
+                                "--h", "1/8", "--steps", "100"});
   // The phase of a step, 125, is rounded to 2^-53 of it, 100 times.
   EXPECT_NEAR(result["state"]["q"][0].get<double>(), std::cos(12500.0), 100 * 125 * 0x1p-52);
   // Unless it is told another place: then the oscillator is not solved exactly.
-  const json elsewhere = run_json({kGaugedHarmonic, "--gauge", "locally-exact", "--reference", "w=990",
-                                   "--scene", "stiff", "--h", "1/8", "--steps", "100"});
+  const json elsewhere = run_json({kGaugedHarmonic, "--gauge", "locally-exact", "--reference",
+                                   "w=990", "--scene", "stiff", "--h", "1/8", "--steps", "100"});
   EXPECT_GT(std::abs(elsewhere["state"]["q"][0].get<double>() - std::cos(12500.0)), 0.01);
 }
 
@@ -42,7 +42,8 @@ TEST(LocallyExactGauge, AStepAtAPoleIsRefusedWithTheFrequency) {
     EXPECT_TRUE(contains(result.err, "w = 1 of the linear part")) << result.err;
   }
   EXPECT_EQ(
-      hamgen({"run", kGaugedHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"}).status,
+      hamgen({"run", kGaugedHarmonic, "--gauge", "locally-exact", "--h", "6.31", "--steps", "10"})
+          .status,
       0);
 }
 
@@ -110,8 +111,9 @@ TEST(LocallyExactGauge, ARunTakesItAtItsInitialStateUnlessAPointIsNamed) {
   EXPECT_TRUE(contains(command({"--reference", "w=49"}), "'x[1]=1'"));
   // H'' of Kepler's problem is not defined at the origin.
   EXPECT_EQ(hamgen({"run", kGaugedKepler, "--gauge", "locally-exact", "--steps", "1"}).status, 0);
-  EXPECT_EQ(hamgen({"generate", kGaugedKepler, "--gauge", "locally-exact", "--reference", "q1=0"}).status,
-            2);
+  EXPECT_EQ(
+      hamgen({"generate", kGaugedKepler, "--gauge", "locally-exact", "--reference", "q1=0"}).status,
+      2);
 }
 
 // The line of a log or a header that says which gauge it is.
@@ -135,8 +137,8 @@ TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
     EXPECT_EQ(hamgen({"check", model, "--gauge", "locally-exact"}).status, 0);
   }
   // What is proved is the step of that scene: exact on the linear part where the scene starts.
-  const Result proof = hamgen({"verify", kGaugedHarmonic, "--gauge", "locally-exact", "--scene", "stiff",
-                               "--h", "1/800", "--json"});
+  const Result proof = hamgen({"verify", kGaugedHarmonic, "--gauge", "locally-exact", "--scene",
+                               "stiff", "--h", "1/800", "--json"});
   EXPECT_EQ(proof.status, 0) << proof.err;
   for (const json& row : json::parse(proof.out)) {
     // h w = 1000/800: the exact flow turns by that.

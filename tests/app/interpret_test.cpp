@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/hamgen_command.hpp"
-#include "tests/app/run_results.hpp"
 #include "tests/app/models.hpp"
+#include "tests/app/run_results.hpp"
 
 namespace hamgen::app_test {
 namespace {

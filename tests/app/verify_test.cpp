@@ -118,7 +118,8 @@ TEST(Verify, MeasuresTheDefectOfEveryInvariantBesideItsProof) {
 
 // With alpha = 1/2 -+ 1/6 for x and y the angular momentum is not conserved, and it shows.
 TEST(Verify, MeasuresTheDefectOfAnInvariantThatIsRefuted) {
-  const Json rows = findings((verified_models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
+  const Json rows =
+      findings((verified_models / "kepler.ham").string(), {"--alpha", "1/3,2/3", "--measure"});
   EXPECT_EQ(find(rows, "L conserved by the step").at("verdict"), "refuted");
   EXPECT_GT(find(rows, "L measured").at("defect").get<double>(), 1e-6);
 }
@@ -242,8 +243,8 @@ TEST(Check, SaysWhereHHasACorner) {
 TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
   const Scratch scratch;
   const Result result =
-      hamgen({"run", (verified_models / "pendulum.ham").string(), "--watch-modified", "3", "--steps", "2000",
-              "--json", "--quiet", "--header", scratch.path("k")});
+      hamgen({"run", (verified_models / "pendulum.ham").string(), "--watch-modified", "3",
+              "--steps", "2000", "--json", "--quiet", "--header", scratch.path("k")});
   ASSERT_EQ(result.status, 0) << result.err;
   const Json invariants = Json::parse(result.out).at("invariants");
   // In double the h^2 truncation still shows its h^4 error, at most 1.74e-11; that to h^4 is at

@@ -19,7 +19,8 @@ constexpr long kJetBits = 128;
 struct Written {
   explicit Written(const std::string& text)
       : model(read_model(make_source("test.ham", "system test\n" + text), {})),
-        balls(model, {{"a", Ball(0.75, kJetBits)}, {"m[1]", Ball(2)}, {"m[2]", Ball(3)}}, kJetBits) {}
+        balls(model, {{"a", Ball(0.75, kJetBits)}, {"m[1]", Ball(2)}, {"m[2]", Ball(3)}},
+              kJetBits) {}
 
   [[nodiscard]] BallJet at(const std::vector<Ball>& z) const { return balls.hamiltonian(z, true); }
 

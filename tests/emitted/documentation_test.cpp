@@ -25,7 +25,8 @@ TEST(Documentation, TheProgramOfEmittedCodeRunsAndKeepsTheEnergy) {
   const std::string include = "#include \"fput.hpp\"\n";
   const auto at = program.find(include);
   ASSERT_NE(at, std::string::npos);
-  const std::string header = generate(read_source(documented_root + "/hamiltonians/fput.ham"), {}).at(0).text;
+  const std::string header =
+      generate(read_source(documented_root + "/hamiltonians/fput.ham"), {}).at(0).text;
   program.replace(at, include.size(), without_pragma(header));
   const std::string output = run_program(program);
   ASSERT_TRUE(output.ends_with("\n")) << output;
@@ -62,10 +63,10 @@ TEST(Documentation, TheProgramInCCompiles) {
 
 // Every name in the table of parts is one of the header's.
 TEST(Documentation, ThePartsOfAHeaderAreThere) {
-  const std::string header =
-      generate(read_source(documented_root + "/hamiltonians/fput.ham"), {.scheme = "gauss-4", .tangent = true})
-          .at(0)
-          .text;
+  const std::string header = generate(read_source(documented_root + "/hamiltonians/fput.ham"),
+                                      {.scheme = "gauss-4", .tangent = true})
+                                 .at(0)
+                                 .text;
   for (const char* part :
        {"Real",     "Parameters", "State",  "StepReport", "energy(",  "Coefficients", "prepare(",
         "Start",    "solve(",     "step(",  "Propagator", "advance(", "state()",      "carry()",

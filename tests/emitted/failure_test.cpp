@@ -109,8 +109,9 @@ TEST(Failure, AnAbsurdStepNeverGivesAStateThatIsNotFinite) {
   const std::string steps = "1e3, -1e3, 1e30, 1e160, 1e300, -1e300, 1e-320, 0.0";
   for (const Request& request :
        {Request{}, Request{.alpha = "0"}, Request{.solver = "fixed-point"}}) {
-    EXPECT_EQ(run_program(program(header(pendulum_text, request), "{3, 0.5}", steps, Expected::either)),
-              "");
+    EXPECT_EQ(
+        run_program(program(header(pendulum_text, request), "{3, 0.5}", steps, Expected::either)),
+        "");
   }
 }
 
@@ -129,8 +130,8 @@ TEST(Failure, ASoundStepDoesNotFail) {
   for (const char* solver : {"newton", "fixed-point"}) {
     for (const char* scalar : {"double", "float", "quad"}) {
       for (const char* state : {"{3, 0.5f}", "{0, 0}", "{1e-30f, 0}"}) {
-        EXPECT_EQ(run_program(program(header(pendulum_text, {.solver = solver, .scalar = scalar}), state,
-                                      "0.1, 0.3", Expected::success)),
+        EXPECT_EQ(run_program(program(header(pendulum_text, {.solver = solver, .scalar = scalar}),
+                                      state, "0.1, 0.3", Expected::success)),
                   "")
             << solver << " in " << scalar << " from " << state;
       }

@@ -211,24 +211,17 @@ TEST(EmittedHeaders, IncludeNothingThatTheyDoNotUse) {
   }
 }
 
-TEST(EmittedHeaders, HaveLinesOfAtMostAHundredColumnsAndNoTrailingBlanks) {
+// No line is longer than a hundred columns or ends in blanks, and an opening brace is indented by
+// an even number of them.
+TEST(EmittedHeaders, HaveTheFormatOfTheProject) {
   for (const auto& model : shipped_models()) {
     std::istringstream lines(header(model, variants()[3], "double"));
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("//")) continue;  // the user's own text
       EXPECT_LE(line.size(), 100u) << model.stem() << ": " << line;
       EXPECT_FALSE(line.ends_with(' ')) << model.stem() << ": '" << line << "'";
-    }
-  }
-}
-
-TEST(EmittedHeaders, HaveTheFormatOfTheProject) {
-  // Indentation by two: an opening brace is never preceded by an odd number of blanks.
-  for (const auto& model : shipped_models()) {
-    std::istringstream lines(header(model, variants()[0], "double"));
-    for (std::string line; std::getline(lines, line);) {
       const auto indent = line.find_first_not_of(' ');
-      if (indent == std::string::npos || line.find("{") != indent) continue;
+      if (indent == std::string::npos || line.find('{') != indent) continue;
       EXPECT_EQ(indent % 2, 0u) << model.stem() << ": '" << line << "'";
     }
   }

@@ -105,7 +105,8 @@ TEST(Scene, a_time_is_as_many_steps_as_it_has_room_for) {
 TEST(Scene, wrong_options_are_refused_by_name) {
   EXPECT_EQ(scene_refusal({.scene = "frist"}), "x has no scene 'frist': did you mean 'first'?");
   EXPECT_EQ(scene_refusal({.set = {{"e", "nan"}}}), "--set e=nan: not a finite number");
-  EXPECT_EQ(scene_refusal({.initial = {{"q[1]", "-inf"}}}), "--initial q[1]=-inf: not a finite number");
+  EXPECT_EQ(scene_refusal({.initial = {{"q[1]", "-inf"}}}),
+            "--initial q[1]=-inf: not a finite number");
   EXPECT_EQ(scene_refusal({.set = {{"q", "1"}}}),
             "--set q=1: 'q' is a coordinate; set it with --initial");
   EXPECT_EQ(scene_refusal({.set = {{"ee", "1"}}}),

@@ -25,7 +25,8 @@ TEST(ModifiedHamiltonian, OfTheOscillatorIsThatOfTheArcTangent) {
   const auto terms = modified_hamiltonian(m, {}, 0, 7);
   const std::vector<Rational> series = {1, Rational(-1, 12), Rational(1, 80), Rational(-1, 448)};
   for (std::size_t k = 0; k < series.size(); ++k) {
-    EXPECT_TRUE(same_terms(terms[2 * k], Expression(series[k]) * m.energy)) << to_text(terms[2 * k]);
+    EXPECT_TRUE(same_terms(terms[2 * k], Expression(series[k]) * m.energy))
+        << to_text(terms[2 * k]);
   }
 }
 

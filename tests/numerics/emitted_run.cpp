@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
+#include "app/studies/interpreted.hpp"
 #include "generator/algebra/exact.hpp"
 #include "generator/base/source_text.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -11,21 +13,31 @@
 
 namespace hamgen::numerics_test {
 
-Emitted::Emitted(const std::string& text, const Request& request)
-    : Emitted(make_source("small.ham", "system small\n" + text), request) {}
+namespace {
+
+runtime::LoadedPlugin loaded(const SourceText& text, const Request& request,
+                             const PluginSource& source, Steps steps) {
+  if (steps == Steps::interpreted && std::getenv("HAMGEN_COMPILE_STEPS") == nullptr)
+    return app::interpreted_integrator(text, request, source);
+  const runtime::PluginSource plugin{.text = source.text,
+                                     .uses_eigen = source.needs_eigen,
+                                     .uses_quadmath = source.needs_quadmath};
+  return runtime::load_plugin(plugin, runtime::find_compiler(), {}, runtime::open_cache());
+}
+
+}  // namespace
+
+Emitted::Emitted(const std::string& text, const Request& request, Steps steps)
+    : Emitted(make_source("small.ham", "system small\n" + text), request, steps) {}
 
 Emitted Emitted::shipped(const std::string& name, const Request& request) {
   return Emitted(read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham"),
-                 request);
+                 request, Steps::compiled);
 }
 
-Emitted::Emitted(const SourceText& text, const Request& request)
-    : source_(generate_plugin(text, request)) {
-  const runtime::PluginSource plugin{.text = source_.text,
-                                     .uses_eigen = source_.needs_eigen,
-                                     .uses_quadmath = source_.needs_quadmath};
-  library_ =
-      runtime::load_plugin(plugin, runtime::find_compiler(), {}, runtime::open_cache()).library;
+Emitted::Emitted(const SourceText& text, const Request& request, Steps steps)
+    : source_(generate_plugin(text, request)),
+      library_(loaded(text, request, source_, steps).library) {
   for (const Quantity& parameter : derive(source_.model).parameters) {
     if (std::ranges::find(source_.parameter_names, parameter.name) != source_.parameter_names.end())
       defaults_.push_back(static_cast<long double>(to_double(parameter.value)));

@@ -1,4 +1,4 @@
-// Emitted integrators, compiled, loaded and run in this process.
+// Emitted integrators, compiled and loaded, or interpreted, and run in this process.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,15 @@ namespace hamgen::numerics_test {
 using Quad = __float128;
 using Vector = std::vector<long double>;
 
+// What few steps show of many methods is interpreted, one of them at a time: that compiled code
+// takes the same steps is the matter of tests/interpreter.  With HAMGEN_COMPILE_STEPS set, it is
+// compiled too.
+enum class Steps { compiled, interpreted };
+
 class Emitted {
  public:
   // The model's text without its first line, or a shipped model by its name: shipped("kepler").
-  Emitted(const std::string& text, const Request& request);
+  Emitted(const std::string& text, const Request& request, Steps steps = Steps::compiled);
   [[nodiscard]] static Emitted shipped(const std::string& name, const Request& request);
 
   // Default parameters, unless given in the interface's order; state is q then p.
@@ -30,7 +35,7 @@ class Emitted {
   [[nodiscard]] const runtime::Library& library() const { return *library_; }
 
  private:
-  explicit Emitted(const SourceText& text, const Request& request);
+  Emitted(const SourceText& text, const Request& request, Steps steps);
   PluginSource source_;
   std::shared_ptr<const runtime::Library> library_;
   Vector defaults_;

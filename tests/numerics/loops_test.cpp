@@ -44,10 +44,12 @@ const char* const kPairs =
     "    1/(1 + (x[i] - x[j])^2 + (y[i] - y[j])^2))\n";
 LongJet pairs(const Jets& z) {
   LongJet sum = 0.0L * z[0];
-  for (std::size_t i = 0; i < 2 * kBodies; ++i) sum = sum + 0.5L * square_of_long(z[2 * kBodies + i]);
+  for (std::size_t i = 0; i < 2 * kBodies; ++i)
+    sum = sum + 0.5L * square_of_long(z[2 * kBodies + i]);
   for (std::size_t i = 0; i < kBodies; ++i) {
     for (std::size_t j = i + 1; j < kBodies; ++j) {
-      const LongJet d = 1.0L + (square_of_long(z[i] - z[j]) + square_of_long(z[kBodies + i] - z[kBodies + j]));
+      const LongJet d =
+          1.0L + (square_of_long(z[i] - z[j]) + square_of_long(z[kBodies + i] - z[kBodies + j]));
       sum =
           sum + d.through(1 / d.value, -1 / (d.value * d.value), 2 / (d.value * d.value * d.value));
     }
@@ -63,8 +65,8 @@ LongJet coupled(const Jets& z) {
   LongJet sum = 0.0L * z[0];
   for (std::size_t i = 0; i < kRing; ++i) {
     const std::size_t next = (i + 1) % kRing;
-    sum = sum + 0.25L * square_of_long(square_of_long(z[i]) + square_of_long(z[kRing + i])) + z[i] * z[next] +
-          z[kRing + i] * z[kRing + next];
+    sum = sum + 0.25L * square_of_long(square_of_long(z[i]) + square_of_long(z[kRing + i])) +
+          z[i] * z[next] + z[kRing + i] * z[kRing + next];
   }
   return sum;
 }
@@ -94,8 +96,9 @@ void compare(const std::string& text, Request request, const Hamiltonian& hamilt
   const Parameters3<long double> member{Vector(n, alpha), Vector(n, beta), Vector(n, gamma)};
   Vector expected = some_state();
   for (int i = 0; i < 5; ++i) {
-    expected = request.solver == "sweeps:3" ? algorithm_1(hamiltonian, member, kLoopStep, expected, 3)
-                                            : dense_step(hamiltonian, member, kLoopStep, expected);
+    expected = request.solver == "sweeps:3"
+                   ? algorithm_1(hamiltonian, member, kLoopStep, expected, 3)
+                   : dense_step(hamiltonian, member, kLoopStep, expected);
   }
   const Vector found = loops.after(5, some_state(), kLoopStep);
   EXPECT_LT(distance(found, expected), kBound) << text;
@@ -126,7 +129,8 @@ TEST(Loops, EveryPairOfBodiesIsADenseMatrix) {
 
 TEST(Loops, WhatIsNotSeparableIsABandOfCoordinatesAndMomentaInTurn) {
   compare(kCoupledLoops, {}, coupled, 0.5L, 0, 0, "banded Newton of size 52");
-  compare(kCoupledLoops, kGeneral, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9, "banded Newton of size 52");
+  compare(kCoupledLoops, kGeneral, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9,
+          "banded Newton of size 52");
 }
 
 TEST(Loops, ADefinitionMayHoldASum) {
@@ -165,7 +169,8 @@ TEST(Loops, SweepsAreThePapersAlgorithm) {
   compare(ring_text(true), request, ring_of_masses, 0.5L, 0, 0, "3 fixed-point sweeps");
   request = kGeneral;
   request.solver = "sweeps:3";
-  compare(kCoupledLoops, request, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9, "3 fixed-point sweeps");
+  compare(kCoupledLoops, request, coupled, 0.3L, kLoopStep / 7, -kLoopStep / 9,
+          "3 fixed-point sweeps");
 }
 
 }  // namespace

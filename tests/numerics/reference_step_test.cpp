@@ -25,20 +25,23 @@ J magnetic(const Variables& z) {
   return 0.5L * (square_of_jet(z[2] + 0.5L * z[1]) + square_of_jet(z[3] - 0.5L * z[0])) +
          0.01L * ((1.0L + 0.0L * r) / r);
 }
-J product(const Variables& z) { return 0.5L * ((1.0L + square_of_jet(z[0])) * (1.0L + square_of_jet(z[1]))); }
+J product(const Variables& z) {
+  return 0.5L * ((1.0L + square_of_jet(z[0])) * (1.0L + square_of_jet(z[1])));
+}
 J henon_heiles(const Variables& z) {
-  return 0.5L * (square_of_jet(z[0]) + square_of_jet(z[1]) + square_of_jet(z[2]) + square_of_jet(z[3])) + square_of_jet(z[0]) * z[1] -
-         (1.0L / 3.0L) * (z[1] * square_of_jet(z[1]));
+  return 0.5L * (square_of_jet(z[0]) + square_of_jet(z[1]) + square_of_jet(z[2]) +
+                 square_of_jet(z[3])) +
+         square_of_jet(z[0]) * z[1] - (1.0L / 3.0L) * (z[1] * square_of_jet(z[1]));
 }
 J toda(const Variables& z) {
-  return 0.5L * (square_of_jet(z[3]) + square_of_jet(z[4]) + square_of_jet(z[5])) + exp(z[0] - z[1]) + exp(z[1] - z[2]) +
-         exp(z[2] - z[0]);
+  return 0.5L * (square_of_jet(z[3]) + square_of_jet(z[4]) + square_of_jet(z[5])) +
+         exp(z[0] - z[1]) + exp(z[1] - z[2]) + exp(z[2] - z[0]);
 }
 J affine(const Variables& z) { return z[2] * sin(z[1]) + z[3] * cos(z[0]) + sin(z[0] * z[1]); }
 // Second derivatives alone would make it quadratic, with |q1 - 4| on the side of q1 = 0.
 J corner(const Variables& z) {
-  return 0.5L * (square_of_jet(z[2]) + square_of_jet(z[3]) + square_of_jet(-8.0L + z[0])) + sqrt(square_of_jet(-4.0L + z[0])) +
-         square_of_jet(z[1]) + 0.125L * (z[0] * z[1]);
+  return 0.5L * (square_of_jet(z[2]) + square_of_jet(z[3]) + square_of_jet(-8.0L + z[0])) +
+         sqrt(square_of_jet(-4.0L + z[0])) + square_of_jet(z[1]) + 0.125L * (z[0] * z[1]);
 }
 // Six degrees of freedom, all coupled, not separable: a system that is not written out.
 J six(const Variables& z) {
@@ -46,7 +49,8 @@ J six(const Variables& z) {
   J angle = 0.0L * z[0];
   for (std::size_t i = 0; i < 6; ++i) {
     const long double k = static_cast<long double>(i + 1);
-    sum = sum + (1.0L / k) * (square_of_jet(z[6 + i]) * (2.0L + sin(z[i]))) + 0.25L * square_of_jet(square_of_jet(z[i]));
+    sum = sum + (1.0L / k) * (square_of_jet(z[6 + i]) * (2.0L + sin(z[i]))) +
+          0.25L * square_of_jet(square_of_jet(z[i]));
     angle = angle + (1.0L / k) * z[i];
   }
   return sum + cos(angle);
@@ -176,7 +180,8 @@ TEST_P(ReferenceStep, IsWhatEveryMemberGives) {
   for (const MemberCase& member : members()) {
     SCOPED_TRACE(member.name);
     const Problem here = problem();
-    const Emitted emitted(here.text, request_for(member, here.start.size() / 2));
+    const Emitted emitted(here.text, request_for(member, here.start.size() / 2),
+                          Steps::interpreted);
     // 32 steps over t = 2: each adds about one unit in the last place, 1.1e-16 for values about 1
     // and at most 5 here, and the flow stretches differences by less than a hundred.
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-14L);
@@ -189,7 +194,7 @@ TEST_P(ReferenceStep, IsWhatTheGeneralMemberGivesInLongDouble) {
     const Problem here = problem();
     Request request = request_for(member, here.start.size() / 2);
     request.scalar = "long-double";
-    const Emitted emitted(here.text, request);
+    const Emitted emitted(here.text, request, Steps::interpreted);
     // As above with 2^-64; the reference rounds as much.
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-17L);
   }
@@ -201,7 +206,7 @@ TEST_P(ReferenceStep, IsWhatTheFixedPointGives) {
     const Problem here = problem();
     Request request = request_for(member, here.start.size() / 2);
     request.solver = "fixed-point";
-    const Emitted emitted(here.text, request);
+    const Emitted emitted(here.text, request, Steps::interpreted);
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-14L);
   }
 }
@@ -215,7 +220,7 @@ TEST_P(ReferenceStep, OfAlgorithm1IsWhatSweepsGive) {
       Request request = request_for(member, n);
       request.solver = "sweeps:" + std::to_string(kappa);
       request.scalar = "long-double";
-      const Emitted emitted(here.text, request);
+      const Emitted emitted(here.text, request, Steps::interpreted);
       Vector z = here.start;
       for (int i = 0; i < kSteps; ++i) {
         z = algorithm_1<long double>(here.hamiltonian, values_for(member, n, kStep), kStep, z,
@@ -228,7 +233,7 @@ TEST_P(ReferenceStep, OfAlgorithm1IsWhatSweepsGive) {
 
 TEST_P(ReferenceStep, StartsFromTheGradientOfH) {
   const Problem here = problem();
-  const Emitted emitted(here.text, {});
+  const Emitted emitted(here.text, {}, Steps::interpreted);
   std::vector<double> z;
   for (const long double value : here.start) z.push_back(static_cast<double>(value));
   const J jet = jet_of<long double>(here.hamiltonian, Vector(z.begin(), z.end()));

@@ -192,7 +192,8 @@ TEST(Observe, LeavesOutWhatDoesNotMatter) {
             "phi: cyclic and not observed; pphi is a parameter\n");
   EXPECT_EQ(left_out(kPolarMotion + "; observe r, energy }\n"),
             "phi: cyclic and not observed; pphi is a parameter\n");
-  EXPECT_EQ(left_out(kPolarMotion + "; observe phi }\n"), "u, pu: nothing observed depends on them\n");
+  EXPECT_EQ(left_out(kPolarMotion + "; observe phi }\n"),
+            "u, pu: nothing observed depends on them\n");
   EXPECT_EQ(left_out(kPolarMotion + "; observe u }\n"),
             "r, phi, pr, pphi: nothing observed depends on them\n");
   EXPECT_EQ(left_out(kPolarMotion + "; observe both = r*u }\n"),

@@ -86,8 +86,8 @@ TEST(FalseInvariants, BeyondTheFirstPointsAreRefutedToo) {
       verdict_of(of_one("p^2/2 + (q - 2 + abs(q - 2))^2", "invariant P = p\n"), {}, "P invariant"),
       Verdict::refuted);
   for (const char* invariant : {"(abs(q) - q)*p", "sqrt(q^2)*p - q*p"}) {
-    EXPECT_EQ(verdict_of(of_one("p^2/2 + q^2/2", "invariant I = " + std::string(invariant) + "\n"), {},
-                      "I invariant"),
+    EXPECT_EQ(verdict_of(of_one("p^2/2 + q^2/2", "invariant I = " + std::string(invariant) + "\n"),
+                         {}, "I invariant"),
               Verdict::refuted)
         << invariant;
   }
@@ -123,7 +123,8 @@ TEST(TrueClaims, AreDecidedWhereTheModelIsDefined) {
   const auto scene = [](const std::string& q) {
     return "scene s { q = " + q + "; h = 0.01; steps = 10 }\n";
   };
-  EXPECT_EQ(verdict_of(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"), Verdict::proved);
+  EXPECT_EQ(verdict_of(of_one("p^2/2 + sqrt(q - 2)^3", scene("3")), {}, "program"),
+            Verdict::proved);
   EXPECT_EQ(verdict_of(of_one("p^2/2 + log(q - 5)", scene("6")), {}, "program"), Verdict::proved);
   EXPECT_EQ(verdict_of(of_one("p^2/2 + sqrt(-q)", scene("-3")), {}, "program"), Verdict::proved);
   EXPECT_EQ(verdict_of(of_one("p^2/2 + acos(q - 3)", scene("3")), {}, "program"), Verdict::proved);
@@ -188,7 +189,8 @@ TEST(FalseSymmetry, IsNotFoundInAHiddenZero) {
   const SourceText pendulum = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham");
   const std::string odd = "log((1 + h)/(1 - h))";
   EXPECT_EQ(verdict_of(pendulum, {.beta = odd}, "symmetric"), Verdict::tested);
-  EXPECT_EQ(verdict_of(pendulum, {.scheme = "yoshida-4", .beta = odd}, "symmetric"), Verdict::tested);
+  EXPECT_EQ(verdict_of(pendulum, {.scheme = "yoshida-4", .beta = odd}, "symmetric"),
+            Verdict::tested);
   EXPECT_EQ(verdict_of(pendulum, {.scheme = "yoshida-4", .beta = odd}, "order 4"), Verdict::tested);
   EXPECT_THROW((void)verify_step(pendulum, {.scheme = "yoshida-4", .beta = "h^2"}), UsageError);
 }
