@@ -1,25 +1,15 @@
-// A formula of a model's file evaluated from its text: no tree, no algebra, no table of functions'
-// derivatives.  What the front end made of the text is held against it.
+// What the front end made of the text of a model's file is held against the text.
 #pragma once
 
-#include <map>
 #include <string>
+#include <vector>
 
 #include "generator/language/model.hpp"
 #include "generator/mechanics/mechanics.hpp"
-#include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
 #include "generator/verify/sample_points.hpp"
 
 namespace hamgen {
-
-// The values of "q[2]", "eps", ... at one point.
-using PointValues = std::map<std::string, Precise>;
-
-// Throws std::domain_error where the formula has no value, and an internal error for a text that is
-// none of the language: it has been accepted before.
-[[nodiscard]] ScaledValue evaluate_text(const Model& model, const std::string& text,
-                                        const PointValues& point);
 
 inline constexpr const char* kModelRead = "model";
 
