@@ -45,8 +45,8 @@ std::vector<BatchCase> explicit_cases() {
   Request euler;
   euler.scheme = "symplectic-euler-b";
   euler.plain_sums = true;
-  return {{"Verlet", kCubic, verlet, 0.1, 200, kCubicStarts, 2},
-          {"Composition", kLogarithm, yoshida, 0.05, 200, kLogarithmStarts, 2},
+  return {{"Verlet", kCubic, verlet, 0.1, 200, kCubicStarts, 4},
+          {"Composition", kLogarithm, yoshida, 0.05, 200, kLogarithmStarts, 4},
           {"PlainSums", kFunctions, euler, 0.05, 200, kCubicStarts, 0}};
 }
 
