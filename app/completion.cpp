@@ -52,6 +52,7 @@ std::map<std::string, std::vector<std::string>> values_of_options() {
           {"--format", names_of(all_formats())},
           {"--scalar", {"float", "double", "long-double", "quad"}},
           {"--support", {"own", "shared"}},
+          {"--math", {"own", "libm"}},
           {"--stage", {"model", "mechanics", "equations", "plan", "program", "origins"}}};
 }
 

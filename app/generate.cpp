@@ -21,6 +21,8 @@ struct GenerateOptions {
   std::string format;
   std::string name_space;
   std::string support;
+  std::string batch;
+  std::string math;
   std::string require;
   std::string watch_modified;
   bool tangent = false;
@@ -107,6 +109,10 @@ int generate_files(const GenerateOptions& options) {
   request.format = options.format;
   request.name_space = options.name_space;
   request.support = options.support;
+  if (!options.batch.empty())
+    request.batch = static_cast<int>(
+        std::min(integer_value("--batch " + options.batch, options.batch, 1), 1L << 20));
+  request.math = options.math;
   request.require = options.require;
   request.tangent = options.tangent;
   if (!options.watch_modified.empty()) {
@@ -143,6 +149,11 @@ Command add_generate(CLI::App& app) {
   parser
       ->add_option("--support", options->support,
                    "own (default), or shared: fixed parts in a header beside")
+      ->type_name("NAME");
+  parser->add_option("--batch", options->batch, "")->type_name("W");
+  parser
+      ->add_option("--math", options->math,
+                   "W trajectories in lanes; own functions (default), or libm's")
       ->type_name("NAME");
   parser
       ->add_option("--require", options->require,

@@ -54,6 +54,8 @@ std::string system_space(const std::string& system, const Request& request,
   }
   for (const std::string& name : request.fold) changes.push_back("folded_" + name);
   if (!scene.empty()) changes.push_back(scene);
+  if (request.batch > 0) changes.push_back(fmt::format("batch_{}", request.batch));
+  if (request.math == "libm") changes.emplace_back("libm");
   const std::string space = namespace_identifier(system);
   return changes.empty() ? space : space + "::" + identifier(joined(changes));
 }

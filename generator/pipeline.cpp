@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 
 #include "generator/base/diagnostic.hpp"
@@ -35,6 +36,21 @@ bool shares_support(const Request& request) {
   throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
 }
 
+int lanes_of(const Request& request) {
+  if (request.math.empty() && request.batch == 0) return 0;
+  if (!request.math.empty() && request.math != "own" && request.math != "libm")
+    throw UsageError(fmt::format("--math {}: there are own and libm", request.math));
+  if (request.batch == 0)
+    throw UsageError("--math: is of the elementary functions of a batch\nhelp: add --batch 8");
+  constexpr int most = 256;  // beyond, compilers take minutes
+  if (!std::has_single_bit(static_cast<unsigned>(request.batch)) || request.batch > most)
+    throw UsageError(fmt::format(
+        "--batch {}: not 1, 2, 4, ..., {}\nhelp: as many numbers as a register has are fastest: 8 "
+        "with AVX-512, 4 with AVX2, 2 elsewhere; twice that may be, too",
+        request.batch, most));
+  return request.batch;
+}
+
 EmitOptions emit_options(const SourceText& source, const Stages& stages, const Request& request) {
   const Program& program = stages.program;
   const bool is_special = request.scene && is_something_left_out(stages);
@@ -47,11 +63,22 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
                                    is_special ? request.scene->values.name : ""),
           .tangent = request.tangent && !without_tangent(program),
           .shared_support = shares_support(request),
-          .watched_step = request.step};
+          .watched_step = request.step,
+          .lanes = lanes_of(request),
+          .library_functions = request.math == "libm"};
+}
+
+ReadBack unread_batch() {
+  ReadBack read;
+  read.outcome = ReadBack::Outcome::not_understood;
+  read.line = 1;
+  read.what = "a batch, in whose text numbers are packs";
+  return read;
 }
 
 // The first of the files, and what it includes of the others.
 ReadBack read_files(const OutputFiles& files, const Stages& stages, const Request& request) {
+  if (request.batch > 0) return unread_batch();
   EmittedFile file{.text = files.front().text,
                    .scalar = request.scalar,
                    .beside = {},
@@ -104,6 +131,7 @@ OutputFiles files_of(const Stages& stages, const EmitOptions& options, const Req
 // A file that is there, or else the one that is emitted.
 ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& source,
                    const Stages& stages, const Request& request) {
+  if (request.batch > 0) return unread_batch();
   if (!there)
     return read_files(files_of(stages, emit_options(source, stages, request), request), stages,
                       request);

@@ -41,6 +41,8 @@ struct Request {
   std::string scalar;                 // float, double, long-double, quad
   std::string format;                 // cpp-header, cpp-plugin, cmake-package
   std::string name_space;             // SYSTEM::METHOD of the emitted code, or one for both
+  int batch = 0;                      // trajectories that are stepped together; 0: one alone
+  std::string math;                   // elementary functions of a batch: own (default) or libm
   std::string support;                // of fixed blocks: own (of every header) or shared
   std::vector<std::string> fold;      // parameters to burn in
   bool tangent = false;               // the linearised step too, where it can be written

@@ -44,6 +44,8 @@ std::string generate_command(const std::string& model, const Request& request) {
   if (request.format != "cpp-header") add("--format", request.format);  // the default
   add("--namespace", request.name_space);
   if (request.support != "own") add("--support", request.support);  // the default
+  if (request.batch > 0) add("--batch", std::to_string(request.batch));
+  add("--math", request.math);
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));

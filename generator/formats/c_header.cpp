@@ -46,6 +46,7 @@ void require_c(const EmitContext& context) {
         "stormer-verlet, --format cpp-header",
         what));
   };
+  if (context.options.lanes > 0) refuse("there are no lanes in C");
   if (context.quad()) refuse("C has no quad numbers");
   if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
   if (context.options.tangent) refuse("there is no tangent map in C");

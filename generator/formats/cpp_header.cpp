@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -14,6 +15,8 @@
 #include "generator/formats/cpp_step.hpp"
 #include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/emit_context.hpp"
+#include "generator/formats/lanes_dialect.hpp"
+#include "generator/formats/lanes_step.hpp"
 #include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
 #include "generator/program/records.hpp"
@@ -43,7 +46,9 @@ void declare_quad_functions(CodeWriter& out, const std::set<std::string>& functi
 
 void write_includes(CodeWriter& out, const EmitContext& context, const Support& support) {
   const bool shared = context.options.shared_support;
-  if (context.quad()) {
+  if (context.options.lanes > 0) {
+    if (context.options.library_functions) out.line("#include <cmath>");
+  } else if (context.quad()) {
     declare_quad_functions(out, context.used.functions);
   } else if ((!context.used.functions.empty() && !context.options.builtins) ||
              support.uses_cmath(shared)) {
@@ -63,10 +68,12 @@ void write_includes(CodeWriter& out, const EmitContext& context, const Support& 
   out.line(fmt::format("#include \"{}\"", shared_file_name(context.scalar)));
 }
 
-void write_pi(CodeWriter& out, const ScalarType& scalar) {
+void write_pi(CodeWriter& out, const EmitContext& context) {
   // 50 digits, rounded by the compiler where the type is standard.
   const Rational pi = *parse_decimal("3.14159265358979323846264338327950288419716939937510");
-  out.line(fmt::format("inline constexpr Real pi = {};", literal(pi, scalar)));
+  out.line(fmt::format("inline constexpr {} pi = {};",
+                       context.options.lanes > 0 ? context.scalar.cpp : "Real",
+                       literal(pi, context.scalar)));
 }
 
 // What is said of the system alone: equal for all of its methods.
@@ -74,13 +81,15 @@ std::string system_text(EmitContext& context) {
   CodeWriter functions;
   write_functions(functions, context);
   CodeWriter out;
-  out.line(context.quad() ? "__extension__ typedef __float128 Real;"
-                          : fmt::format("using Real = {};", context.scalar.cpp));
-  if (context.used.pi) write_pi(out, context.scalar);
+  if (context.options.lanes == 0) {
+    out.line(context.quad() ? "__extension__ typedef __float128 Real;"
+                            : fmt::format("using Real = {};", context.scalar.cpp));
+  }
+  if (context.used.pi) write_pi(out, context);
   if (context.arrays()) {
     out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", context.n()));
   }
-  out.line();
+  if (!out.text().empty()) out.line();
   for (const Record* record : std::initializer_list<const Record*>{&context.system_parameters,
                                                                    context.code.record("State")}) {
     write_record(out, *record, context.scalar);
@@ -101,11 +110,11 @@ std::string method_text(EmitContext& context) {
   CodeWriter steps;
   write_modified_energies(steps, context);
   write_solver(steps, context);
-  write_steps(steps, context);
+  context.options.lanes > 0 ? write_lane_steps(steps, context) : write_steps(steps, context);
   if (context.options.tangent) context.write_with_callees(steps, "tangent");
   CodeWriter out;
   if (context.used.pi && !had_pi) {
-    write_pi(out, context.scalar);
+    write_pi(out, context);
     out.line();
   }
   if (!context.method_parameters.fields.empty()) {
@@ -121,7 +130,7 @@ std::string method_text(EmitContext& context) {
 // not mix with it: in one translation unit it is an error, and in two the inline namespace, named
 // after the digest, keeps them apart.
 void write_section(CodeWriter& out, std::string_view kind, const std::string& name_space,
-                   const std::string& digest, const std::string& text) {
+                   const std::string& digest, const std::string& text, bool in_lanes) {
   std::string macro =
       fmt::format("HAMGEN_{}_{}", kind == "system" ? "SYSTEM" : "METHOD", name_space);
   for (auto at = macro.find("::"); at != std::string::npos; at = macro.find("::")) {
@@ -132,8 +141,10 @@ void write_section(CodeWriter& out, std::string_view kind, const std::string& na
   out.line(fmt::format("#define {} 0x{}", macro, digest));
   out.line(fmt::format("namespace {} {{", name_space));
   out.line(fmt::format("inline namespace {} {{", version));
+  if (in_lanes) out.line(fmt::format("inline namespace {} {{", kRegisters));
   out.line();
   out.lines(text);
+  if (in_lanes) out.line(fmt::format("}}  // namespace {}", kRegisters));
   out.line(fmt::format("}}  // namespace {}", version));
   out.line(fmt::format("}}  // namespace {}", name_space));
   out.line(fmt::format("#elif {} != 0x{}", macro, digest));
@@ -144,10 +155,21 @@ void write_section(CodeWriter& out, std::string_view kind, const std::string& na
   out.line();
 }
 
-CppDialect dialect_of(const Program& program, const EmitOptions& options) {
+std::unique_ptr<Dialect> dialect_of(const Program& program, const EmitOptions& options) {
+  const ScalarType& scalar = find_scalar(options.scalar);
   const bool arrays = program.plan.arrays.has_value();
-  return {find_scalar(options.scalar),
-          arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0, options.builtins};
+  const int n = arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0;
+  if (options.lanes > 0) {
+    return std::make_unique<LanesDialect>(scalar, n, options.library_functions);
+  }
+  return std::make_unique<CppDialect>(scalar, n, options.builtins);
+}
+
+// The text, and before it what it uses of the fixed blocks.
+std::string with_names(const Support& support, const std::string& text) {
+  CodeWriter names;
+  support.write_names(names, text);
+  return names.text() + text;
 }
 
 // All but what a plugin has besides.
@@ -155,8 +177,9 @@ std::string file_text(EmitContext& context, const char* first_line) {
   const EmitOptions& options = context.options;
   const std::string system = system_text(context);
   const std::string method = method_text(context);
-  Support support(context.scalar, options.builtins);
-  support.require_for(method);
+  const bool in_lanes = options.lanes > 0;
+  Support support(context.scalar, options.builtins, options.lanes);
+  support.require_for(in_lanes ? system + method : method);
   CodeWriter out;
   write_preamble(out, context);
   out.line(first_line);
@@ -164,12 +187,18 @@ std::string file_text(EmitContext& context, const char* first_line) {
   out.line();
   begin_ieee_arithmetic(out, context.scalar);
   out.line();
-  write_section(out, "system", options.spaces.system, short_digest(system), system);
-  support.write(out, options.shared_support);
-  CodeWriter known;
-  support.write_names(known, method);
+  if (in_lanes) {
+    write_registers(out);
+    support.write(out, false);
+    write_section(out, "system", options.spaces.system, short_digest(system + support.digest()),
+                  with_names(support, system), true);
+  } else {
+    write_section(out, "system", options.spaces.system, short_digest(system), system, false);
+    support.write(out, options.shared_support);
+  }
   write_section(out, "method", options.spaces.of_method(),
-                short_digest(system + method + support.digest()), known.text() + method);
+                short_digest(system + method + support.digest()), with_names(support, method),
+                in_lanes);
   end_ieee_arithmetic(out);
   return out.text();
 }
@@ -177,16 +206,17 @@ std::string file_text(EmitContext& context, const char* first_line) {
 }  // namespace
 
 std::string cpp_header(const Program& program, const EmitOptions& options) {
-  const CppDialect dialect = dialect_of(program, options);
-  EmitContext context(program, options, dialect);
+  const std::unique_ptr<Dialect> dialect = dialect_of(program, options);
+  EmitContext context(program, options, *dialect);
+  if (options.lanes > 0) require_lanes(context);
   return file_text(context, "#pragma once");
 }
 
 std::string cpp_plugin(const Program& program, const EmitOptions& options) {
   EmitOptions with_builtins = options;
   with_builtins.builtins = true;
-  const CppDialect dialect = dialect_of(program, with_builtins);
-  EmitContext context(program, with_builtins, dialect);
+  const std::unique_ptr<Dialect> dialect = dialect_of(program, with_builtins);
+  EmitContext context(program, with_builtins, *dialect);
   CodeWriter out;
   out.lines(file_text(context, "#include \"plugin.h\""));
   write_interface(out, context);
@@ -200,6 +230,7 @@ OutputFiles cpp_header_files(const Program& program, const EmitOptions& options)
 }
 
 OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options) {
+  refuse_lanes(options, "a plugin");
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
   }

@@ -29,6 +29,8 @@ class Dialect {
   [[nodiscard]] virtual std::string number(const std::string& integer) const = 0;
   // A function of the mathematical library: "sin" is std::sin.
   [[nodiscard]] virtual std::string function(const std::string& name) const = 0;
+  // Is a number a pack of as many as there are trajectories?
+  [[nodiscard]] virtual bool has_lanes() const { return false; }
   // What the program calls a record or a routine, and what a block calls a function.
   [[nodiscard]] virtual std::string record(const std::string& name) const = 0;
   [[nodiscard]] virtual std::string routine(const std::string& name) const = 0;

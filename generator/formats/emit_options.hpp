@@ -30,6 +30,10 @@ struct EmitOptions {
   // Where a plugin, whose interface has no h there, adds the modified energies to its invariants.
   Rational watched_step = {};
   bool builtins = false;  // functions of the compiler instead of <cmath>
+  // Of a batch: trajectories that are stepped together, 0 for one alone, and whether elementary
+  // functions are the library's, lane by lane, instead of blocks of our own.
+  int lanes = 0;
+  bool library_functions = false;
 };
 
 }  // namespace hamgen

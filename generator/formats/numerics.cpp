@@ -21,6 +21,16 @@ inline constexpr Real epsilon = {};  // the distance from 1 to the next number
                      value, scalar.largest, scalar.epsilon);
 }
 
+std::string lanes_vocabulary(const ScalarType& scalar, int lanes) {
+  return fmt::format(R"(using Real = Pack<{0}>;
+using Mask = LaneMask<{0}>;
+inline Real magnitude(const Real& x) {{ return lane_abs(x); }}
+inline constexpr double largest = {1};  // what is beyond counts as infinite
+inline constexpr double epsilon = {2};  // the distance from 1 to the next number
+)",
+                     lanes, scalar.largest, scalar.epsilon);
+}
+
 std::string cpp_numerics(std::string_view name) {
   const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
   if (found == all_numerics().end()) internal_error(fmt::format("no numerics '{}'", name));

@@ -21,6 +21,9 @@ namespace hamgen {
 // The vocabulary but for Real; |x| by the compiler's own function where no header is wanted.
 [[nodiscard]] std::string cpp_vocabulary(const ScalarType& scalar, bool builtins);
 
+// Real, Mask and the vocabulary of packs of so many numbers.
+[[nodiscard]] std::string lanes_vocabulary(const ScalarType& scalar, int lanes);
+
 // The text of generator/numerics/NAME.hpp.
 [[nodiscard]] std::string cpp_numerics(std::string_view name);
 

@@ -129,6 +129,12 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
   if (!options.tested.empty()) out.comment("//   tested    ", options.tested);
   if (!options.refuted.empty()) out.comment("//   refuted   ", options.refuted);
   out.comment("//   solve     ", plan.solver);
+  if (options.lanes > 0) {
+    out.comment(
+        "//   batch     ",
+        fmt::format("{} trajectories in lanes, functions {}; compile with -ffp-contract=off",
+                    options.lanes, options.library_functions ? "of <cmath>" : "below"));
+  }
   bool first = true;
   for (const std::string& item : plan.left_out) {
     out.comment(first ? "//   left out  " : "//             ", item);

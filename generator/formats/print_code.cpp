@@ -238,8 +238,14 @@ void RoutinePrinter::operator()(const Return& end) {
   if (routine_.result.type != "StepReport") return out_.line("return " + success + ";");
   if (end.success) {
     out_.line("report.converged = " + success + ";");
-    if (!end.finite.empty()) out_.line("if (!report.converged) report.increment = length;");
-    if (end.flag) out_.line(text(*end.flag) + " = report.converged;");
+    const bool lanes = dialect_.has_lanes();
+    if (!end.finite.empty()) {
+      out_.line(lanes ? "report.increment = select(report.converged, report.increment, length);"
+                      : "if (!report.converged) report.increment = length;");
+    }
+    // Of a lane that has failed nothing is asked any more.
+    const char* known = lanes ? " = any(report.converged);" : " = report.converged;";
+    if (end.flag) out_.line(text(*end.flag) + known);
   }
   out_.line("return report;");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
 #include <sstream>
 
 #include "generator/base/short_digest.hpp"
@@ -49,6 +50,30 @@ constexpr FixedBlock kBlocks[] = {
     {"forget", "forget"},
 };
 
+// Of a batch, where Real is a pack.
+constexpr FixedBlock kLaneBlocks[] = {
+    {"lane_vectors", "VectorOf MaskOf BitsOf"},
+    {"lane_mask", "LaneMask any all"},
+    {"pack", "Pack select lane_abs lane_sqrt"},
+    {"lane_pairs", "Pair"},
+    {"lane_sine", "lane_sin lane_cos lane_tan"},
+    {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
+    {"lane_logarithm", "lane_log lane_asinh lane_acosh lane_atanh"},
+    {"lane_power", "lane_pow"},
+    {"lane_arcs", "lane_atan lane_atan2 lane_asin lane_acos"},
+    {"lane_library", "library"},
+    {kVocabulary, "Real Mask magnitude largest epsilon"},
+    {"two_sum", "two_sum"},
+    {"sum_with_rest", "two_sum_with_rest"},
+    {"collected_sum", "collect"},
+    {"lane_step", "StepReport stop_failed add_substep move_lanes"},
+};
+
+std::span<const FixedBlock> blocks_of(int lanes) {
+  return lanes > 0 ? std::span<const FixedBlock>(kLaneBlocks)
+                   : std::span<const FixedBlock>(kBlocks);
+}
+
 // The words of C++ code, without comments and without members: what follows a dot.
 std::set<std::string> words_of(std::string_view code) {
   std::set<std::string> words;
@@ -86,7 +111,7 @@ std::string capitals(std::string text) {
 
 void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
-  for (const FixedBlock& block : kBlocks) {
+  for (const FixedBlock& block : blocks_of(lanes_)) {
     const bool used = std::ranges::any_of(
         names_of(block), [&](const std::string& name) { return words.contains(name); });
     if (used && blocks_.insert(block.name).second) require_for(text(block.name));
@@ -100,7 +125,8 @@ bool Support::uses_eigen() const {
 }
 
 bool Support::uses_cmath(bool shared) const {
-  return !shared && blocks_.contains(kVocabulary) && !builtins_ && scalar_.digits != 113;
+  return !shared && lanes_ == 0 && blocks_.contains(kVocabulary) && !builtins_ &&
+         scalar_.digits != 113;
 }
 
 void Support::write(CodeWriter& out, bool shared) const {
@@ -108,31 +134,35 @@ void Support::write(CodeWriter& out, bool shared) const {
     return blocks_.contains(block.name) && (block.eigen || !shared);
   };
   if (std::ranges::none_of(kBlocks, is_written)) return;
-  const std::string space = name_space();
+  const std::string name = name_space();
   out.line("// What follows is the same in every header.");
-  out.line(fmt::format("namespace {} {{", space));
-  out.line(scalar_.digits == 113 ? "__extension__ typedef __float128 Real;"
-                                 : fmt::format("using Real = {};", scalar_.cpp));
+  out.line(fmt::format("namespace {} {{", name));
+  if (lanes_ > 0) {
+    out.line(fmt::format("inline namespace {} {{", kRegisters));
+  } else {
+    out.line(scalar_.digits == 113 ? "__extension__ typedef __float128 Real;"
+                                   : fmt::format("using Real = {};", scalar_.cpp));
+  }
   out.line();
-  for (const FixedBlock& block : kBlocks) {
+  for (const FixedBlock& block : blocks_of(lanes_)) {
     if (!is_written(block)) continue;
-    const std::string guard =
-        fmt::format("HAMGEN_{}_{}_{}", capitals(digest()), capitals(std::string(scalar_.space)),
-                    capitals(std::string(block.name)));
+    const std::string guard = fmt::format("HAMGEN_{}_{}_{}", capitals(digest()), capitals(space()),
+                                          capitals(std::string(block.name)));
     out.line("#ifndef " + guard);
     out.line("#define " + guard);
     out.lines(text(block.name));
     out.line("#endif");
     out.line();
   }
-  out.line(fmt::format("}}  // namespace {}", space));
+  if (lanes_ > 0) out.line(fmt::format("}}  // namespace {}", kRegisters));
+  out.line(fmt::format("}}  // namespace {}", name));
   out.line();
 }
 
 void Support::write_names(CodeWriter& out, std::string_view code) const {
   const std::set<std::string> words = words_of(code);
   std::string list;
-  for (const FixedBlock& block : kBlocks) {
+  for (const FixedBlock& block : blocks_of(lanes_)) {
     for (const std::string& name : names_of(block)) {
       if (words.contains(name)) list += (list.empty() ? "numerics::" : ", numerics::") + name;
     }
@@ -145,18 +175,36 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
 
 std::string Support::digest() const {
   std::string all;
-  for (const FixedBlock& block : kBlocks) all += text(block.name);
+  for (const FixedBlock& block : blocks_of(lanes_)) all += text(block.name);
   return short_digest(all);
 }
 
-std::string Support::name_space() const {
-  return fmt::format("hamgen_{}::{}", digest(), scalar_.space);
+std::string Support::name_space() const { return fmt::format("hamgen_{}::{}", digest(), space()); }
+
+std::string Support::space() const {
+  return lanes_ > 0 ? fmt::format("lanes_{}", lanes_) : std::string(scalar_.space);
 }
 
 std::string Support::text(std::string_view block) const {
-  const std::string text =
-      block == kVocabulary ? cpp_vocabulary(scalar_, builtins_) : cpp_numerics(block);
+  const std::string text = block != kVocabulary ? cpp_numerics(block)
+                           : lanes_ > 0         ? lanes_vocabulary(scalar_, lanes_)
+                                                : cpp_vocabulary(scalar_, builtins_);
   return text.substr(0, text.find_last_not_of('\n') + 1);
+}
+
+void write_registers(CodeWriter& out) {
+  out.lines(
+      R"(#ifndef HAMGEN_REGISTERS  // what is compiled for other registers does not mix with this
+#if defined __AVX512F__
+#define HAMGEN_REGISTERS registers_of_8
+#elif defined __AVX2__
+#define HAMGEN_REGISTERS registers_of_4
+#else
+#define HAMGEN_REGISTERS registers_of_2
+#endif
+#endif
+
+)");
 }
 
 std::string shared_file_name(const ScalarType& scalar) {

@@ -21,7 +21,9 @@ namespace hamgen {
 class Support {
  public:
   // With builtins, |x| is the compiler's own function, where no header is wanted.
-  Support(const ScalarType& scalar, bool builtins) : scalar_(scalar), builtins_(builtins) {}
+  // Of a batch, for so many lanes.
+  Support(const ScalarType& scalar, bool builtins, int lanes = 0)
+      : scalar_(scalar), builtins_(builtins), lanes_(lanes) {}
 
   // Adds the blocks that the C++ text uses, and those that these use.
   void require_for(std::string_view code);
@@ -38,15 +40,22 @@ class Support {
 
  private:
   [[nodiscard]] std::string name_space() const;
+  // What tells it from other scalars.
+  [[nodiscard]] std::string space() const;
   [[nodiscard]] std::string text(std::string_view block) const;
 
   const ScalarType& scalar_;
   bool builtins_;
+  int lanes_;
   std::set<std::string_view> blocks_;
 };
 
 // "hamgen_support.hpp" of double numbers.
 [[nodiscard]] std::string shared_file_name(const ScalarType& scalar);
+// The name that inline namespaces of a batch have: what is compiled for other registers is other
+// code, and does not mix.
+inline constexpr const char* kRegisters = "HAMGEN_REGISTERS";
+void write_registers(CodeWriter& out);
 // All blocks that need no library in a header that others include.
 [[nodiscard]] OutputFile shared_file(const ScalarType& scalar);
 

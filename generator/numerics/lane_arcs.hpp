@@ -120,3 +120,11 @@ template <int W>
 inline Pack<W> lane_atan2(const Pack<W>& a, const Pack<W>& b) {
   return lanewise<W>([](auto x, auto y) { return lane_atan2(x, y); }, a, b);
 }
+template <int W>
+inline Pack<W> lane_atan2(const Pack<W>& a, double b) {
+  return lane_atan2(a, Pack<W>(b));
+}
+template <int W>
+inline Pack<W> lane_atan2(double a, const Pack<W>& b) {
+  return lane_atan2(Pack<W>(a), b);
+}

@@ -48,3 +48,11 @@ template <int W>
 inline Pack<W> lane_pow(const Pack<W>& a, const Pack<W>& b) {
   return lanewise<W>([](auto x, auto y) { return lane_pow(x, y); }, a, b);
 }
+template <int W>
+inline Pack<W> lane_pow(const Pack<W>& a, double b) {
+  return lane_pow(a, Pack<W>(b));
+}
+template <int W>
+inline Pack<W> lane_pow(double a, const Pack<W>& b) {
+  return lane_pow(Pack<W>(a), b);
+}

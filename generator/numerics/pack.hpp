@@ -1,12 +1,5 @@
 // W numbers in lanes, for any W that is a power of two: one vector, or two packs of half as many
 // where the registers of the machine are shorter.
-#if defined __AVX512F__
-inline constexpr int register_lanes = 8;
-#elif defined __AVX2__
-inline constexpr int register_lanes = 4;
-#else
-inline constexpr int register_lanes = 2;
-#endif
 template <int W>
 struct Pack;
 template <int W, bool fits>
@@ -35,13 +28,24 @@ struct Pack : PackContent<W, (W <= register_lanes)> {
   // The same number in all lanes.
   Pack(double x) {
     if constexpr (W <= register_lanes) {
-      this->all = typename VectorOf<W>::Numbers() + x;
+      this->all = x - typename VectorOf<W>::Numbers();  // which keeps -0
     } else {
       this->first = this->second = x;
     }
   }
   explicit Pack(const double (&x)[W]) { __builtin_memcpy(this, x, sizeof x); }
   void copy_to(double (&x)[W]) const { __builtin_memcpy(x, this, sizeof x); }
+  double operator[](int lane) const {
+    double x[W];
+    copy_to(x);
+    return x[lane];
+  }
+  void set(int lane, double value) {
+    double x[W];
+    copy_to(x);
+    x[lane] = value;
+    *this = Pack(x);
+  }
 
   friend Pack operator+(const Pack& a, const Pack& b) {
     return lanewise<W>([](auto x, auto y) { return x + y; }, a, b);
@@ -58,9 +62,43 @@ struct Pack : PackContent<W, (W <= register_lanes)> {
   friend Pack operator-(const Pack& a) {
     return lanewise<W>([](auto x) { return -x; }, a);
   }
+  friend LaneMask<W> operator<=(const Pack& a, const Pack& b) {
+    return compared([](auto x, auto y) { return x <= y; }, a, b);
+  }
+  friend LaneMask<W> operator<(const Pack& a, const Pack& b) {
+    return compared([](auto x, auto y) { return x < y; }, a, b);
+  }
+  friend LaneMask<W> operator>(const Pack& a, const Pack& b) { return b < a; }
+  friend LaneMask<W> operator>=(const Pack& a, const Pack& b) { return b <= a; }
+  friend LaneMask<W> operator==(const Pack& a, const Pack& b) {
+    return compared([](auto x, auto y) { return x == y; }, a, b);
+  }
   Pack& operator+=(const Pack& b) { return *this = *this + b; }
   Pack& operator-=(const Pack& b) { return *this = *this - b; }
 };
+template <int W, class Comparison>
+inline LaneMask<W> compared(const Comparison& comparison, const Pack<W>& a, const Pack<W>& b) {
+  LaneMask<W> result;
+  if constexpr (W <= register_lanes) {
+    result.all = comparison(a.all, b.all);
+  } else {
+    result.first = compared(comparison, a.first, b.first);
+    result.second = compared(comparison, a.second, b.second);
+  }
+  return result;
+}
+// a in the lanes of the mask, b in the others.
+template <int W>
+inline Pack<W> select(const LaneMask<W>& mask, const Pack<W>& a, const Pack<W>& b) {
+  Pack<W> result;
+  if constexpr (W <= register_lanes) {
+    result.all = mask.all ? a.all : b.all;
+  } else {
+    result.first = select(mask.first, a.first, b.first);
+    result.second = select(mask.second, a.second, b.second);
+  }
+  return result;
+}
 template <int W>
 inline Pack<W> lane_abs(const Pack<W>& a) {
   return lanewise<W>([](auto x) { return lane_abs(x); }, a);

@@ -47,14 +47,16 @@ std::string messages(const std::string& compiler, const std::string& text,
   return result.succeeded() && result.output.empty() ? "" : "failed:\n" + result.output;
 }
 
-std::string run_program(const std::string& text) {
+std::string run_program(const std::string& text, const std::vector<std::string>& flags) {
   const runtime::TemporaryDirectory directory = runtime::private_directory();
   const std::filesystem::path source = directory.path() / "program.cpp";
   const std::filesystem::path program = directory.path() / "program";
   std::ofstream(source) << text;
-  const runtime::ProcessResult compiled =
-      run({"g++", "-std=gnu++20", "-O1", "-isystem", "/usr/include/eigen3", source.string(), "-o",
-           program.string(), "-lquadmath"});
+  std::vector<std::string> command = {"g++", "-std=gnu++20", "-O1", "-isystem",
+                                      "/usr/include/eigen3"};
+  command.insert(command.end(), flags.begin(), flags.end());
+  command.insert(command.end(), {source.string(), "-o", program.string(), "-lquadmath"});
+  const runtime::ProcessResult compiled = run(command);
   if (!compiled.succeeded()) throw std::runtime_error("does not compile:\n" + compiled.output);
   const runtime::ProcessResult ran = run({program.string()});
   if (!ran.succeeded()) throw std::runtime_error("does not run:\n" + ran.output);

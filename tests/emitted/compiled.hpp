@@ -22,8 +22,9 @@ namespace hamgen::emitted_test {
                                    const std::vector<std::string>& flags = strict_flags(),
                                    const std::string& action = "-fsyntax-only");
 
-// Compiles and runs a program with g++ -O1 -std=gnu++20 and returns its output.
-[[nodiscard]] std::string run_program(const std::string& text);
+// Compiles and runs a program with g++ -O1 -std=gnu++20, and these flags, and returns its output.
+[[nodiscard]] std::string run_program(const std::string& text,
+                                      const std::vector<std::string>& flags = {});
 
 [[nodiscard]] std::vector<std::filesystem::path> shipped_models();
 [[nodiscard]] std::string read(const std::filesystem::path& path);

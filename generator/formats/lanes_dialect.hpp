@@ -1,0 +1,33 @@
+// C++ in which a number is a pack: one number of each of W trajectories.
+#pragma once
+
+#include "generator/formats/cpp_dialect.hpp"
+
+namespace hamgen {
+
+class LanesDialect : public CppDialect {
+ public:
+  // library: elementary functions are those of <cmath>, lane by lane.
+  LanesDialect(const ScalarType& scalar_type, int count, bool library)
+      : CppDialect(scalar_type, count, false), library_(library) {}
+
+  [[nodiscard]] bool has_lanes() const override { return true; }
+  [[nodiscard]] std::string function(const std::string& name) const override {
+    // Those of both are exactly rounded.
+    const bool same = name == "sqrt" || name == "abs";
+    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+  }
+  // A pack is handed on by reference: as a value it is handed on otherwise by the instructions of
+  // every machine.
+  [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
+                                     const std::string& sizes) const override {
+    const bool number = argument.sizes.empty() && argument.record.empty();
+    if (!number) return CppDialect::argument(argument, name, sizes);
+    return name.empty() ? "const Real&" : "const Real& " + name;
+  }
+
+ private:
+  bool library_;
+};
+
+}  // namespace hamgen

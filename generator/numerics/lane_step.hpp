@@ -1,0 +1,38 @@
+// What a step says of each lane.  On failure the increment says how far the iteration was from its
+// end; it is not finite where the step left the domain of H.
+struct StepReport {
+  Mask converged = false;
+  Real iterations = 0;
+  Real increment = 0;
+};
+// Lanes that do not run have no part in the step; those that have failed in it run no more.
+inline void stop_failed(Mask& running, StepReport& report) {
+  report.iterations = select(running, report.iterations, Real(0));
+  report.increment = select(running, report.increment, Real(0));
+  running = running & report.converged;
+  report.converged = running;
+}
+// Of a lane a substep counts if those before it have succeeded.
+inline void add_substep(StepReport& total, const StepReport& report) {
+  const Mask lanes = total.converged;
+  total.iterations = select(lanes, total.iterations + report.iterations, total.iterations);
+  total.increment = select(lanes, report.increment, total.increment);
+  total.converged = lanes & report.converged;
+}
+// In these lanes value + carry moves by increment and rest; in the others it stays.
+inline void move_lanes(const Mask& lanes, Real& value, Real& carry, const Real& increment,
+                       const Real& rest) {
+  Real moved = value;
+  Real lost = carry;
+  two_sum_with_rest(moved, lost, increment, rest);
+  value = select(lanes, moved, value);
+  carry = select(lanes, lost, carry);
+}
+// For an increment with the old carry in it.
+inline void move_lanes(const Mask& lanes, Real& value, Real& carry, const Real& increment) {
+  Real moved = value;
+  Real lost = carry;
+  two_sum(moved, lost, increment);
+  value = select(lanes, moved, value);
+  carry = select(lanes, lost, carry);
+}

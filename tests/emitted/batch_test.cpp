@@ -1,0 +1,315 @@
+// Headers of a batch: a lane is bit for bit the trajectory alone, whatever goes on beside it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "generator/base/diagnostic.hpp"
+#include "tests/emitted/compiled.hpp"
+
+namespace hamgen::emitted_test {
+namespace {
+
+// Trajectories of a model; those of `fails` leave the domain of H or the numbers on the way.
+struct BatchCase {
+  std::string name;
+  std::string model;  // its state is q, p
+  Request request;
+  double h = 0.1;
+  int steps = 200;
+  std::vector<std::pair<double, double>> starts = {};  // 8 of them
+  int failing = 0;                                     // of these
+};
+
+void PrintTo(const BatchCase& test, std::ostream* out) { *out << test.name; }
+
+// The steps of a cubic well run away on one side of its barrier, sooner or later.
+const char* const kCubic =
+    "system cubic\ncoordinate q\nmomentum p\nparameter a = 1/3\n"
+    "H = p^2/2 + q^2/2 - a*q^3\n";
+const std::vector<std::pair<double, double>> kCubicStarts = {
+    {0.1, 0.2}, {1.5, 0}, {-0.3, 0.4}, {1.001, 0}, {0.9, 0.1}, {3, 1}, {0, 0}, {0.5, -0.3}};
+const char* const kFunctions =
+    "system functions\ncoordinate q\nmomentum p\nparameter a = 1/2\n"
+    "H = p^2/2 + exp(a*q) - q - cos(3*q) + sqrt(1 + q^2) + a*q^2\n";
+const char* const kLogarithm =
+    "system logarithm\ncoordinate q\nmomentum p\nH = p^2/2 - log(q) + q^(5/2)/7\n";
+const std::vector<std::pair<double, double>> kLogarithmStarts = {
+    {1, 0}, {0.5, 1}, {-1, 0}, {2, -3}, {0.01, 0}, {1.5, 0.5}, {1e-300, -1}, {0.7, 0.7}};
+
+std::vector<BatchCase> explicit_cases() {
+  Request verlet;
+  verlet.scheme = "stormer-verlet";
+  Request yoshida;
+  yoshida.scheme = "yoshida-4-verlet";
+  Request euler;
+  euler.scheme = "symplectic-euler-b";
+  euler.plain_sums = true;
+  return {{"Verlet", kCubic, verlet, 0.1, 200, kCubicStarts, 4},
+          {"Composition", kLogarithm, yoshida, 0.05, 200, kLogarithmStarts, 4},
+          {"PlainSums", kFunctions, euler, 0.05, 200, kCubicStarts, 0}};
+}
+
+std::string batch_header(const BatchCase& test, int lanes, const std::string& math) {
+  Request request = test.request;
+  request.batch = lanes;
+  request.math = math;
+  request.name_space = fmt::format("lanes{}::method", lanes);
+  return without_pragma(generate(make_source(test.name + ".ham", test.model), request)[0].text);
+}
+
+const char* const kPrintBatch = R"(
+#include <cstdio>
+struct Start { double q, p; };
+void print(int i, bool running, double time, double q, double p, double cq, double cp) {
+  std::printf("%d %s t=%a q=%a p=%a carry %a %a\n", i, running ? "runs" : "failed", time, q, p, cq, cp);
+}
+template <class T>
+double carried(const T& method, int lane, bool q) {
+  if constexpr (requires { method.carry(); }) {
+    return q ? method.carry().q[lane] : method.carry().p[lane];
+  } else {
+    return 0;
+  }
+}
+template <class Propagator, class Parameters, class State>
+void run(const Start* starts, int count, double h, int steps) {
+  constexpr int W = Propagator::lanes;
+  for (int i = 0; i < count; i += W) {
+    State z;
+    for (int lane = 0; lane < W; ++lane) {
+      z.q.set(lane, starts[i + lane].q);
+      z.p.set(lane, starts[i + lane].p);
+    }
+    Propagator method(Parameters(), h, z);
+    const auto report = method.advance(steps);
+    for (int lane = 0; lane < W; ++lane) {
+      if (report.converged[lane] != method.running()[lane]) std::printf("another report\n");
+      print(i + lane, method.running()[lane], method.time()[lane], method.state().q[lane],
+            method.state().p[lane], carried(method, lane, true), carried(method, lane, false));
+    }
+  }
+}
+)";
+
+std::string starts_text(const BatchCase& test) {
+  std::string text = "const Start starts[] = {";
+  for (const auto& [q, p] : test.starts) text += fmt::format("{{{}, {}}}, ", q, p);
+  return text + "};\n";
+}
+
+// What the trajectories come to in batches of so many, a line each.
+std::string batch_program(const BatchCase& test, const std::vector<int>& widths,
+                          const std::string& math) {
+  std::string headers;
+  std::string calls;
+  for (const int lanes : widths) {
+    headers += batch_header(test, lanes, math);
+    calls += fmt::format(
+        "  run<lanes{0}::method::Propagator, lanes{0}::Parameters, lanes{0}::State>(starts, 8, "
+        "{1}, "
+        "{2});\n",
+        lanes, test.h, test.steps);
+  }
+  return headers + kPrintBatch + "int main() {\n" + starts_text(test) + calls + "}\n";
+}
+
+std::vector<std::string> batch_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Instructions {
+  const char* name;
+  std::vector<std::string> flags;
+  bool there;
+};
+
+std::vector<Instructions> instructions() {
+  std::vector<Instructions> all = {{"portable", {"-ffp-contract=off"}, true}};
+#if defined __x86_64__
+  all.push_back({"avx2",
+                 {"-ffp-contract=off", "-mavx2", "-mfma", "-O2"},
+                 __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0});
+  all.push_back(
+      {"avx512",
+       {"-ffp-contract=off", "-mavx512f", "-mavx512dq", "-O2"},
+       __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0});
+#endif
+  return all;
+}
+
+int count_failed(const std::vector<std::string>& lines) {
+  return static_cast<int>(std::ranges::count_if(
+      lines, [](const std::string& line) { return line.find("failed") != std::string::npos; }));
+}
+
+class BatchLanes : public testing::TestWithParam<BatchCase> {};
+INSTANTIATE_TEST_SUITE_P(Cases, BatchLanes, testing::ValuesIn(explicit_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(BatchLanes, AreBitForBitTheTrajectoryAloneWhateverTheWidthAndTheInstructions) {
+  const std::string program = batch_program(GetParam(), {1, 2, 4, 8}, "");
+  std::vector<std::string> alone;
+  for (const Instructions& set : instructions()) {
+    if (!set.there) continue;
+    const std::vector<std::string> lines = batch_lines(run_program(program, set.flags));
+    ASSERT_EQ(lines.size(), 32u);
+    if (alone.empty()) alone.assign(lines.begin(), lines.begin() + 8);
+    EXPECT_EQ(count_failed(alone), GetParam().failing);
+    for (std::size_t i = 0; i < 32; ++i) {
+      EXPECT_EQ(lines[i], alone[i % 8]) << set.name << ", width " << (1 << i / 8);
+    }
+  }
+}
+
+// With functions of the library it is the header of one trajectory, if no step of it is decided by
+// an iteration: the state, and the last good one of those that fail.
+TEST_P(BatchLanes, AreBitForBitTheHeaderOfOneTrajectoryWithFunctionsOfTheLibrary) {
+  const BatchCase& test = GetParam();
+  Request request = test.request;
+  request.name_space = "one::method";
+  const std::string one =
+      without_pragma(generate(make_source(test.name + ".ham", test.model), request)[0].text);
+  std::string program = batch_program(test, {4}, "libm");
+  const std::string alone = fmt::format(
+      R"(  for (int i = 0; i < 8; ++i) {{
+    one::method::Propagator method(one::Parameters(), {}, one::State{{starts[i].q, starts[i].p}});
+    const bool runs = method.advance({}).converged;
+    double cq = 0, cp = 0;
+    {}
+    print(i, runs, method.time(), method.state().q, method.state().p, cq, cp);
+  }}
+}}
+)",
+      test.h, test.steps,
+      request.plain_sums ? "" : "cq = method.carry().q; cp = method.carry().p;");
+  program.replace(program.rfind("}"), 1, alone);
+  const std::vector<std::string> lines = batch_lines(run_program(one + program));
+  ASSERT_EQ(lines.size(), 16u);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(lines[i], lines[i + 8]);
+}
+
+// Parameters and step sizes differ from lane to lane; a propagator begins anew.
+TEST(BatchHeader, HasParametersAndStepSizesOfEachLane) {
+  const BatchCase test = explicit_cases()[0];
+  const std::string program = batch_header(test, 1, "") + batch_header(test, 4, "") + R"(
+#include <cstdio>
+template <class Pack>
+void differ(Pack& pack, const double* values, int first, int W) {
+  for (int lane = 0; lane < W; ++lane) pack.set(lane, values[first + lane]);
+}
+template <class Propagator, class Parameters, class State, class Real>
+void run() {
+  constexpr int W = Propagator::lanes;
+  const double a[] = {0.1, 1.0 / 3, -0.7, 5}, h[] = {0.1, -0.2, 0.01, 0.3}, q[] = {0.1, 2, 0.3, -0.4};
+  for (int i = 0; i < 4; i += W) {
+    Parameters parameters;
+    Real length;
+    State z;
+    differ(parameters.a, a, i, W);
+    differ(length, h, i, W);
+    differ(z.q, q, i, W);
+    State other;
+    other.p = 0.25;
+    Propagator method(parameters, length, other);
+    method.advance(3);
+    method.reset(z);
+    method.advance(100);
+    auto stepped = z;
+    const auto report = step(parameters, length, stepped);
+    for (int lane = 0; lane < W; ++lane) {
+      std::printf("%d t=%a q=%a p=%a H=%a step %d %a\n", i + lane, method.time()[lane],
+                  method.state().q[lane], method.state().p[lane],
+                  energy(parameters, method.state())[lane], int(report.converged[lane]),
+                  stepped.q[lane]);
+    }
+  }
+}
+int main() {
+  {
+    using namespace lanes1;
+    using method::step;
+    run<method::Propagator, Parameters, State, Real>();
+  }
+  run<lanes4::method::Propagator, lanes4::Parameters, lanes4::State, lanes4::Real>();
+}
+)";
+  std::string text = program;
+  text.replace(text.find("template <class Pack>\nvoid"), 0,
+               "using lanes1::method::step;\nusing lanes4::method::step;\n");
+  const std::vector<std::string> lines = batch_lines(run_program(text));
+  ASSERT_EQ(lines.size(), 8u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(lines[i], lines[i + 4]);
+  EXPECT_NE(lines[0].substr(2), lines[1].substr(2));
+}
+
+std::string refusal(Request request, const std::string& model = kCubic) {
+  try {
+    (void)generate(make_source("cubic.ham", model), request);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BatchHeader, IsRefusedWithAWayOutWhereThereAreNoLanes) {
+  Request request;
+  request.scheme = "stormer-verlet";
+  request.batch = 3;
+  EXPECT_TRUE(refusal(request).starts_with("--batch 3: not 1, 2, 4, ..., 256\nhelp: "));
+  request.batch = 512;
+  EXPECT_TRUE(refusal(request).starts_with("--batch 512: not 1, 2, 4, ..., 256\nhelp: "));
+  request.batch = 8;
+  request.math = "fast";
+  EXPECT_EQ(refusal(request), "--math fast: there are own and libm");
+  request.math = "libm";
+  request.scalar = "quad";
+  EXPECT_EQ(refusal(request), "--batch: lanes are of double numbers\nhelp: drop --scalar");
+  request.scalar = "";
+  request.support = "shared";
+  EXPECT_TRUE(refusal(request).starts_with("--batch: its fixed parts are in the header itself\n"));
+  request.support = "";
+  request.tangent = true;
+  EXPECT_EQ(refusal(request), "--batch: there is no tangent map in lanes\nhelp: drop --tangent");
+  request.tangent = false;
+  request.format = "cpp-plugin";
+  EXPECT_EQ(refusal(request),
+            "--batch: a plugin has no lanes\nhelp: --format cpp-header or cmake-package");
+  request.format = "c-header";
+  EXPECT_TRUE(refusal(request).starts_with("--format c-header: there are no lanes in C\nhelp: "));
+  request.format = "cmake-package";
+  EXPECT_EQ(refusal(request), "accepted");
+  request.batch = 0;
+  EXPECT_TRUE(refusal(request).starts_with("--math: is of the elementary functions of a batch\n"));
+}
+
+// All that its namespaces define meets the header of one trajectory in one program.
+TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
+  std::string text;
+  for (const int lanes : {0, 2, 8}) {
+    Request request;
+    request.scheme = "stormer-verlet";
+    request.batch = lanes;
+    text += without_pragma(generate(make_source("f.ham", kFunctions), request)[0].text);
+  }
+  text += "functions::batch_8::State z; functions::State one; functions::batch_2::State two;\n";
+  for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
+}
+
+// The first lines do not say that the text was read back.
+TEST(BatchHeader, SaysThatItsProgramIsProvedAndNotItsText) {
+  Request request;
+  request.scheme = "stormer-verlet";
+  request.batch = 2;
+  const std::string text = generate(make_source("cubic.ham", kCubic), request)[0].text;
+  EXPECT_NE(text.find("//   proved    symplectic, symmetric, order 2, program\n"),
+            std::string::npos);
+  request.require = "emitted-code";
+  EXPECT_THROW((void)generate(make_source("cubic.ham", kCubic), request), std::exception);
+}
+
+}  // namespace
+}  // namespace hamgen::emitted_test
