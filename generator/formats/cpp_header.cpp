@@ -6,6 +6,7 @@
 
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/numerics_text.hpp"
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
@@ -151,7 +152,7 @@ CppDialect dialect_of(const Program& program, const EmitOptions& options) {
 }
 
 // All but what a plugin has besides.
-std::string file_text(EmitContext& context, const char* first_line) {
+std::string file_text(EmitContext& context, const std::string& first_lines) {
   const EmitOptions& options = context.options;
   const std::string system = system_text(context);
   const std::string method = method_text(context);
@@ -159,7 +160,7 @@ std::string file_text(EmitContext& context, const char* first_line) {
   support.require_for(method);
   CodeWriter out;
   write_preamble(out, context);
-  out.line(first_line);
+  out.lines(first_lines);
   write_includes(out, context, support);
   out.line();
   begin_ieee_arithmetic(out, context.scalar);
@@ -188,7 +189,7 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
   const CppDialect dialect = dialect_of(program, with_builtins);
   EmitContext context(program, with_builtins, dialect);
   CodeWriter out;
-  out.lines(file_text(context, "#include \"plugin.h\""));
+  out.lines(file_text(context, std::string(plugin_header()) + "#include <new>"));
   write_interface(out, context);
   return out.text();
 }
@@ -203,7 +204,8 @@ OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options)
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
   }
-  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)}};
+  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)},
+          {"plugin.h", std::string(plugin_header()), OutputFile::Role::beside}};
 }
 
 bool needs_eigen(const Program& program) {
