@@ -94,9 +94,10 @@ int write(const OutputFiles& files, const std::string& directory) {
 }
 
 int print_only_file(const OutputFiles& files) {
-  if (files.size() != 1)
-    throw UsageError(fmt::format(
-        "this format has {} files\nhelp: say where they go with -o DIRECTORY", files.size()));
+  const auto needed = std::ranges::count(files, OutputFile::Role::needed, &OutputFile::role);
+  if (needed != 1)
+    throw UsageError(
+        fmt::format("this format has {} files\nhelp: say where they go with -o DIRECTORY", needed));
   print(files.front().text);
   return done;
 }

@@ -1,15 +1,16 @@
-/* The interface between a compiled integrator and the runtime: plain C, versioned.
+/* The interface between a compiled integrator and who runs it: plain C, versioned.
  *
  * A plugin exports one function, hamgen_plugin_entry, that returns a table of functions.  A value
  * crosses the interface as hi + lo, where hi is the double nearest to it; lo is 0 unless the scalar
- * is wider.  `lo` pointers may be null. Arrays are contiguous: state = q1..qn, p1..pn (2n values).
+ * is wider.  `lo` pointers may be null but get_carry's.  Arrays are contiguous: state = q1..qn,
+ * p1..pn (2n values), in the order of variable_list; a pointer to no values at all may be null.
  *
  * hamgen_plugin_entry returns null where hamgen_arithmetic_is_ieee() is 0: the plugin then was
  * compiled with flags, such as -ffast-math, under which its methods are not what they claim. */
 #ifndef HAMGEN_PLUGIN_H
 #define HAMGEN_PLUGIN_H
 
-#define HAMGEN_PLUGIN_VERSION 4
+#define HAMGEN_PLUGIN_VERSION 5
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,6 +41,16 @@ struct hamgen_report {
 
 /* A running integration: state, compensation, start values. Opaque. */
 struct hamgen_run;
+
+/* A variable, a parameter or an invariant of the model, or an array of them. */
+struct hamgen_quantity {
+  const char* name; /* "eps", or "m" of an array, whose elements are m[first], m[first + 1], ... */
+  const char* unit; /* as the model has it, "" if it has none */
+  const char* comment; /* likewise */
+  int is_array;
+  int first; /* subscript of the first element; 0 if it is no array */
+  int count; /* of its values; 1 if it is no array */
+};
 
 struct hamgen_plugin {
   int version; /* HAMGEN_PLUGIN_VERSION */
@@ -81,6 +92,28 @@ struct hamgen_plugin {
   /* Makes the run what it was when these were written, by the same plugin, so that what it does
    * next is the same to the last bit; 0 if the number of bytes is another. */
   int (*restore)(struct hamgen_run* run, const void* bytes, long long size);
+
+  /* What follows is null in a table that is not of an emitted plugin.
+   *
+   * What the values of a state, the parameters and the invariants are, in this order; each list
+   * ends with a quantity whose name is null. */
+  const struct hamgen_quantity* variable_list;
+  const struct hamgen_quantity* parameter_list;
+  const struct hamgen_quantity* invariant_list;
+  /* The parameters as the model declares them: parameter_count values. */
+  void (*default_parameters)(double* parameters, double* parameters_lo);
+  /* Time since t = 0 of `create`, or since what set_state said. */
+  double (*get_time)(const struct hamgen_run* run, double* t_lo);
+  double (*get_h)(const struct hamgen_run* run, double* h_lo);
+  void (*get_parameters)(const struct hamgen_run* run, double* parameters, double* parameters_lo);
+  /* The run goes on from this state at time t, as a new one would. */
+  void (*set_state)(struct hamgen_run* run, double t, double t_lo, const double* state,
+                    const double* state_lo);
+  /* The run goes on from its time and state with another step, or with other parameters; what
+   * rounding took from the state is forgotten. */
+  void (*set_h)(struct hamgen_run* run, double h, double h_lo);
+  void (*set_parameters)(struct hamgen_run* run, const double* parameters,
+                         const double* parameters_lo);
 };
 
 typedef const struct hamgen_plugin* (*hamgen_plugin_entry_type)(void);

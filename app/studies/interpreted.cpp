@@ -177,24 +177,22 @@ runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits
   for (const Field& field : all->code.record("State")->fields) {
     all->state += static_cast<std::size_t>(field.sizes.empty() ? 1 : field.sizes.front());
   }
-  all->table = {HAMGEN_PLUGIN_VERSION,
-                static_cast<int>(all->state / 2),
-                static_cast<int>(all->parameters),
-                static_cast<int>(plugin.invariant_names.size()),
-                digits,
-                all->description.c_str(),
-                all->solver.c_str(),
-                create<Real>,
-                destroy<Real>,
-                advance<Real>,
-                get_state<Real>,
-                get_carry<Real>,
-                energy<Real>,
-                invariants<Real>,
-                gradient<Real>,
-                nullptr,
-                nullptr,
-                nullptr};
+  // What the numbers are, and setters, are left out: whoever interprets has the model.
+  all->table = {.version = HAMGEN_PLUGIN_VERSION,
+                .degrees_of_freedom = static_cast<int>(all->state / 2),
+                .parameter_count = static_cast<int>(all->parameters),
+                .invariant_count = static_cast<int>(plugin.invariant_names.size()),
+                .scalar_digits = digits,
+                .description = all->description.c_str(),
+                .solver = all->solver.c_str(),
+                .create = create<Real>,
+                .destroy = destroy<Real>,
+                .advance = advance<Real>,
+                .get_state = get_state<Real>,
+                .get_carry = get_carry<Real>,
+                .energy = energy<Real>,
+                .invariants = invariants<Real>,
+                .gradient = gradient<Real>};
   runtime::LoadedPlugin loaded;
   loaded.library = std::make_shared<const runtime::Library>(all->table, all);
   return loaded;

@@ -14,4 +14,7 @@ struct NumericsText {
 };
 [[nodiscard]] std::span<const NumericsText> all_numerics();
 
+// plugin.h, the C interface of a plugin, which every plugin has a copy of.
+[[nodiscard]] std::string_view plugin_header();
+
 }  // namespace hamgen

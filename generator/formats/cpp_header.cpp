@@ -7,6 +7,7 @@
 
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/numerics_text.hpp"
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
@@ -173,7 +174,7 @@ std::string with_names(const Support& support, const std::string& text) {
 }
 
 // All but what a plugin has besides.
-std::string file_text(EmitContext& context, const char* first_line) {
+std::string file_text(EmitContext& context, const std::string& first_lines) {
   const EmitOptions& options = context.options;
   const std::string system = system_text(context);
   const std::string method = method_text(context);
@@ -182,7 +183,7 @@ std::string file_text(EmitContext& context, const char* first_line) {
   support.require_for(in_lanes ? system + method : method);
   CodeWriter out;
   write_preamble(out, context);
-  out.line(first_line);
+  out.lines(first_lines);
   write_includes(out, context, support);
   out.line();
   begin_ieee_arithmetic(out, context.scalar);
@@ -218,7 +219,7 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
   const std::unique_ptr<Dialect> dialect = dialect_of(program, with_builtins);
   EmitContext context(program, with_builtins, *dialect);
   CodeWriter out;
-  out.lines(file_text(context, "#include \"plugin.h\""));
+  out.lines(file_text(context, std::string(plugin_header()) + "#include <new>"));
   write_interface(out, context);
   return out.text();
 }
@@ -234,7 +235,8 @@ OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options)
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
   }
-  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)}};
+  return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)},
+          {"plugin.h", std::string(plugin_header()), OutputFile::Role::beside}};
 }
 
 bool needs_eigen(const Program& program) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/formats/plugin_quantities.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -82,6 +84,7 @@ void write_interface(CodeWriter& out, const EmitContext& context) {
   const std::string method = context.options.spaces.of_method();
   out.open("struct hamgen_run");
   out.line(method + "::Propagator propagator;");
+  out.line(context.options.spaces.system + "::Real start_time = 0;  // of the propagator");
   out.close(";");
   out.line();
   out.line(fmt::format("namespace {} {{", method));
@@ -117,12 +120,19 @@ Real carried(Real value, Real carry) {
 
 hamgen_run* create(const double* parameters, const double* parameters_lo, double h, double h_lo,
                    const double* state, const double* state_lo) {
-  return new hamgen_run{Propagator(read_parameters(parameters, parameters_lo),
-                                   static_cast<Real>(h) + static_cast<Real>(h_lo),
-                                   read_state(state, state_lo))};
+  void* const memory = __builtin_malloc(sizeof(hamgen_run));
+  if (!memory) return nullptr;
+  return new (memory) hamgen_run{Propagator(read_parameters(parameters, parameters_lo),
+                                            static_cast<Real>(h) + static_cast<Real>(h_lo),
+                                            read_state(state, state_lo)),
+                                 0};
 }
 
-void destroy(hamgen_run* run) { delete run; }
+void destroy(hamgen_run* run) {
+  if (!run) return;
+  run->~hamgen_run();
+  __builtin_free(run);
+}
 
 void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* report) {
   hamgen_report total{};
@@ -256,10 +266,14 @@ int restore_run(hamgen_run* run, const void* bytes, long long size) {
   out.close();
   out.line();
   if (context.options.tangent) write_tangent_interface(out, context);
+  write_setters(out, context);
+  write_quantity_lists(out, context);
   out.line(
       fmt::format("const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, "
                   "{}, create, destroy, advance, get_state, get_carry, energy_of, invariants_of, "
-                  "gradient_of, {}, save_run, restore_run}};",
+                  "gradient_of, {}, save_run, restore_run, variable_list, parameter_list, "
+                  "invariant_list, default_parameters, get_time, get_h, get_parameters, set_state, "
+                  "set_h, set_parameters}};",
                   context.n(), context.environment.parameters.size(), invariants + modified,
                   context.scalar.digits, description, cpp_string(context.program.plan.solver),
                   context.options.tangent ? "tangent_of" : "nullptr"));

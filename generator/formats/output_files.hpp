@@ -7,8 +7,10 @@
 namespace hamgen {
 
 struct OutputFile {
+  enum class Role { needed, beside };
   std::string path;  // relative to the output directory
   std::string text;
+  Role role = Role::needed;  // or what the others do without
   bool operator==(const OutputFile&) const = default;
 };
 using OutputFiles = std::vector<OutputFile>;

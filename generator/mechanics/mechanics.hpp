@@ -27,6 +27,7 @@ struct NamedExpression {
   std::string name;
   Expression value;
   bool only_observed = false;  // an "invariant" that need not be conserved
+  std::string comment = {};    // of its author
 };
 
 // A summand of H as it was written.

@@ -2,18 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "generator/base/quoted_text.hpp"
+
 namespace hamgen {
 
 namespace {
-
-std::string as_string(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + "\"";
-}
 
 class InterfaceText {
  public:
@@ -25,7 +18,8 @@ class InterfaceText {
 
   std::vector<InterfacePiece> pieces() {
     add("the record of a run",
-        {fmt::format("struct hamgen_run {{ {}::Propagator propagator; }};", facts_.space)});
+        {fmt::format("struct hamgen_run {{ {}::Propagator propagator; {}::Real start_time = 0; }};",
+                     facts_.space, facts_.system)});
     add("the interface", {fmt::format("namespace {} {{ namespace {{", facts_.space)});
     add("read_parameters", parameters());
     add("read_state", state());
@@ -38,9 +32,12 @@ class InterfaceText {
     add("create",
         {"hamgen_run* create(const double* parameters, const double* parameters_lo, double h,"
          "double h_lo, const double* state, const double* state_lo) {"
-         "return new hamgen_run{Propagator(read_parameters(parameters, parameters_lo),"
-         "static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo))}; }"});
-    add("destroy", {"void destroy(hamgen_run* run) { delete run; }"});
+         "void* const memory = __builtin_malloc(sizeof(hamgen_run));"
+         "if (!memory) return nullptr;"
+         "return new (memory) hamgen_run{Propagator(read_parameters(parameters, parameters_lo),"
+         "static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)), 0}; }"});
+    add("destroy", {"void destroy(hamgen_run* run) { if (!run) return; run->~hamgen_run();"
+                    "__builtin_free(run); }"});
     add("advance", advance());
     add("get_state", get_state());
     add("get_carry", get_carry());
@@ -60,6 +57,37 @@ class InterfaceText {
     add("invariants_of", invariants_of());
     add("gradient_of", gradient_of());
     if (facts_.tangent) add("tangent_of", tangent_of());
+    add("give_parameters", give_parameters());
+    add("default_parameters",
+        {"void default_parameters(double* parameters, double* parameters_lo) {"
+         "give_parameters(Parameters(), parameters, parameters_lo); }"});
+    add("get_time",
+        {"Real time_of(const hamgen_run* run) { return run->start_time + run->propagator.time(); }"
+         "double get_time(const hamgen_run* run, double* t_lo) {"
+         "return high_part(time_of(run), t_lo); }"});
+    add("get_h", {"double get_h(const hamgen_run* run, double* h_lo) {"
+                  "return high_part(run->propagator.h(), h_lo); }"});
+    add("get_parameters",
+        {"void get_parameters(const hamgen_run* run, double* parameters, double* parameters_lo) {"
+         "give_parameters(run->propagator.parameters(), parameters, parameters_lo); }"});
+    add("set_state",
+        {"void set_state(hamgen_run* run, double t, double t_lo, const double* state,"
+         "const double* state_lo) { run->start_time = static_cast<Real>(t) +"
+         "static_cast<Real>(t_lo); run->propagator.reset(read_state(state, state_lo)); }"});
+    add("go_on_with",
+        {"void go_on_with(hamgen_run* run, const Parameters& par, Real h) {"
+         "run->start_time = time_of(run); const State z = run->propagator.state();"
+         "run->propagator.~Propagator(); new (&run->propagator) Propagator(par, h, z); }"});
+    add("set_h", {"void set_h(hamgen_run* run, double h, double h_lo) {"
+                  "const Parameters par = run->propagator.parameters();"
+                  "go_on_with(run, par, static_cast<Real>(h) + static_cast<Real>(h_lo)); }"});
+    add("set_parameters",
+        {"void set_parameters(hamgen_run* run, const double* parameters,"
+         "const double* parameters_lo) {"
+         "go_on_with(run, read_parameters(parameters, parameters_lo), run->propagator.h()); }"});
+    add("the list of the variables", list("variable", facts_.named.variables));
+    add("the list of the parameters", list("parameter", facts_.named.parameters));
+    add("the list of the invariants", list("invariant", facts_.named.invariants));
     add("the table of the interface", table());
     add("the entry of the plugin",
         {fmt::format("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() {{"
@@ -246,16 +274,50 @@ class InterfaceText {
     return {text};
   }
 
+  [[nodiscard]] Pattern give_parameters() const {
+    const bool any = !facts_.parameters.empty();
+    std::string text = any ? "void give_parameters(const Parameters& par, double* parameters,"
+                             "double* parameters_lo) {"
+                           : "void give_parameters(const Parameters&, double*, double*) {";
+    for (std::size_t i = 0; i < facts_.parameters.size(); ++i)
+      text += fmt::format(
+          "parameters[{0}] = high_part(par.{1}, parameters_lo ? parameters_lo + {0} : nullptr);", i,
+          facts_.parameters[i]);
+    return {text + "}"};
+  }
+
+  // Elements of an array that follow each other are one entry.
+  [[nodiscard]] static Pattern list(const std::string& of,
+                                    const std::vector<InterfaceQuantity>& all) {
+    std::string text = fmt::format("const hamgen_quantity {}_list[] = {{", of);
+    for (std::size_t i = 0; i < all.size();) {
+      const auto bracket = all[i].name.find('[');
+      const std::string base = all[i].name.substr(0, bracket);
+      const long first =
+          bracket == std::string::npos ? 0 : std::stol(all[i].name.substr(bracket + 1));
+      std::size_t end = i + 1;
+      while (bracket != std::string::npos && end < all.size() &&
+             all[end].name == fmt::format("{}[{}]", base, first + static_cast<long>(end - i)))
+        ++end;
+      text += fmt::format("{{{}, {}, {}, {}, {}, {}}},", cpp_string(base), cpp_string(all[i].unit),
+                          cpp_string(all[i].comment), bracket == std::string::npos ? 0 : 1, first,
+                          end - i);
+      i = end;
+    }
+    return {text + "{}};"};
+  }
+
   // In the order of struct hamgen_plugin, and the end of both namespaces.
   [[nodiscard]] Pattern table() const {
     return {fmt::format(
         "const hamgen_plugin plugin = {{HAMGEN_PLUGIN_VERSION, {}, {}, {}, {}, {}, {}, create,"
         "destroy, advance, get_state, get_carry, energy_of, invariants_of, gradient_of, {},"
-        "save_run, restore_run}};"
+        "save_run, restore_run, variable_list, parameter_list, invariant_list,"
+        "default_parameters, get_time, get_h, get_parameters, set_state, set_h, set_parameters}};"
         "}} }}",
         facts_.degrees_of_freedom, facts_.parameters.size(),
         facts_.invariants + facts_.shell.modified, facts_.precision.bits,
-        as_string(facts_.description), as_string(facts_.solver),
+        cpp_string(facts_.description), cpp_string(facts_.solver),
         facts_.tangent ? "tangent_of" : "nullptr")};
   }
 

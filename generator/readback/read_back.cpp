@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/base/numerics_text.hpp"
 #include "generator/program/environment.hpp"
 #include "generator/readback/c_file.hpp"
 #include "generator/readback/findings.hpp"
@@ -32,12 +33,25 @@ std::string time_field(const Program& program) {
   return to_text(environment.state_layout.places[last]).substr(1);
 }
 
-constexpr std::string_view kPluginInclude = "#include \"plugin.h\"";
+constexpr std::string_view kPluginGuard = "#ifndef HAMGEN_PLUGIN_H";
 
 TextKind kind_of(std::span<const CppToken> tokens) {
-  if (tokens[0].text == kPluginInclude) return TextKind::plugin;
+  if (tokens[0].text == kPluginGuard) return TextKind::plugin;
   const bool in_c = tokens.size() > 1 && tokens[1].text == "#include <math.h>";
   return in_c ? TextKind::c_header : TextKind::header;
+}
+
+InterfaceLists named_values(const Program& program, const Environment& environment) {
+  InterfaceLists lists;
+  for (const Quantity& each : environment.variables)
+    lists.variables.push_back({each.name, each.unit, each.comment});
+  for (const Quantity& each : environment.parameters)
+    lists.parameters.push_back({each.name, each.unit, each.comment});
+  for (const NamedExpression& each : program.plan.equations.mechanics.invariants)
+    lists.invariants.push_back({each.name, {}, each.comment});
+  for (const int power : program.modified_powers)
+    lists.invariants.push_back({fmt::format("modified_energy_{}", power), {}, {}});
+  return lists;
 }
 
 ShellFacts facts_of(const Program& program, const StepCode& code) {
@@ -68,7 +82,12 @@ class FileReader {
 
   void run() {
     const bool plugin = found_.kind == TextKind::plugin;
-    expect_directive(cursor_, plugin ? std::string(kPluginInclude) : "#pragma once");
+    if (plugin) {
+      expect(std::string(plugin_header()), "plugin.h");
+      expect_directive(cursor_, "#include <new>");
+    } else {
+      expect_directive(cursor_, "#pragma once");
+    }
     const std::vector<std::string> included = read_includes(cursor_, precision_);
     expect_ieee_begin(cursor_, precision_);
     read_section("system");
@@ -117,11 +136,13 @@ class FileReader {
     const InterfaceFacts facts{
         .shell = facts_,
         .precision = precision_,
+        .system = system_,
         .space = method_,
         .degrees_of_freedom = mechanics.degrees_of_freedom,
         .parameters = place_texts(environment.parameter_layout.places),
         .state = place_texts(environment.state_layout.places),
         .invariants = static_cast<int>(mechanics.invariants.size()),
+        .named = named_values(program_, environment),
         .tangent = seen_.contains("tangent"),
         .watched_step = file_.watched_step,
         .description = fmt::format("{}, {}", mechanics.name, equations.scheme.name),

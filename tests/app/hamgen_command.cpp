@@ -22,15 +22,11 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
   return result;
 }
 
-}  // namespace
-
-Result hamgen(const std::vector<std::string>& arguments,
-              const std::vector<std::string>& environment, const std::string& working_directory) {
+Result run(std::vector<std::string> words, const std::vector<std::string>& environment,
+           const std::string& working_directory) {
   const Scratch scratch;
   const std::string out = scratch.path("out");
   const std::string err = scratch.path("err");
-  std::vector<std::string> words = {HAMGEN_EXECUTABLE};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment;  // the first of two equal names counts
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view variable = *entry;
@@ -46,13 +42,30 @@ Result hamgen(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, working_directory.c_str());
   pid_t child = 0;
-  const int failure = posix_spawn(&child, HAMGEN_EXECUTABLE, &actions, nullptr,
+  const int failure = posix_spawn(&child, words[0].c_str(), &actions, nullptr,
                                   pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw std::runtime_error("cannot start " HAMGEN_EXECUTABLE);
+  if (failure != 0) throw std::runtime_error("cannot start " + words[0]);
   int status = 0;
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(out), read(err)};
+}
+
+}  // namespace
+
+Result hamgen(const std::vector<std::string>& arguments,
+              const std::vector<std::string>& environment, const std::string& working_directory) {
+  std::vector<std::string> words = {HAMGEN_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run(std::move(words), environment, working_directory);
+}
+
+Result shell(const std::string& command, const std::string& working_directory) {
+  const char* const path = std::getenv("PATH");
+  const std::string folder = std::filesystem::path(HAMGEN_EXECUTABLE).parent_path().string();
+  return run({"/bin/sh", "-c", command},
+             {"PATH=" + folder + ":" + (path != nullptr ? path : "/usr/bin:/bin")},
+             working_directory);
 }
 
 Scratch::Scratch() {

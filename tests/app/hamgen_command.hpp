@@ -1,4 +1,4 @@
-// Runs the hamgen executable as a user would, without a shell in between.
+// Runs the hamgen executable as a user would, without a shell in between or with one.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,9 @@ struct Result {
 [[nodiscard]] Result hamgen(const std::vector<std::string>& arguments,
                             const std::vector<std::string>& environment = {},
                             const std::string& working_directory = ".");
+
+// A command line for the shell, which finds this hamgen first.
+[[nodiscard]] Result shell(const std::string& command, const std::string& working_directory = ".");
 
 // A directory that is removed at the end of the test.
 class Scratch {

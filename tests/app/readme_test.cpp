@@ -1,96 +1,18 @@
-// The commands of README.md and of the tutorial print what these say.
+// The commands of the pages print what these say.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <span>
-#include <sstream>
+#include <regex>
+#include <string>
+#include <vector>
 
 #include "tests/app/hamgen_command.hpp"
+#include "tests/app/page_examples.hpp"
 
 namespace hamgen::app_test {
 namespace {
 
-struct Example {
-  std::string command;
-  std::vector<std::string> output;  // "..." stands for any number of lines
-};
-
-// The blocks marked `console`; a line that begins with "$ hamgen " starts an example.
-std::vector<Example> examples(const std::string& text) {
-  std::vector<Example> result;
-  bool inside = false;
-  for (const std::string& line : lines(text)) {
-    if (line.starts_with("```")) {
-      inside = line == "```console";
-    } else if (inside && line.starts_with("$ hamgen ")) {
-      result.push_back({line.substr(9), {}});
-    } else if (inside && !result.empty()) {
-      result.back().output.push_back(line);
-    }
-  }
-  return result;
-}
-
-std::vector<std::string> words(const std::string& text) {
-  std::vector<std::string> result;
-  std::istringstream stream(text);
-  for (std::string word; stream >> word;) result.push_back(word);
-  return result;
-}
-
-std::vector<std::string> rendered_cells(std::string line) {
-  std::ranges::replace(line, ',', ' ');
-  return words(line);
-}
-
-// Equal words, numbers to a part in a thousand: the last digits depend on the mathematics library,
-// and an energy error of the size of round-off on all of them.
-bool agrees(const std::string& shown, const std::string& printed) {
-  if (shown == printed) return true;
-  char* end_shown = nullptr;
-  char* end_printed = nullptr;
-  const double a = std::strtod(shown.c_str(), &end_shown);
-  const double b = std::strtod(printed.c_str(), &end_printed);
-  if (end_shown == shown.c_str() || std::string(end_shown) != end_printed) return false;
-  return std::fabs(a - b) <= 1e-3 * std::fabs(a) + 1e-12;
-}
-
-bool line_agrees(const std::string& shown, const std::string& printed) {
-  if (shown == printed) return true;
-  const std::vector<std::string> left = rendered_cells(shown);
-  const std::vector<std::string> right = rendered_cells(printed);
-  // Times are nobody's promise.
-  if (!left.empty() && !right.empty() && left[0] == "time") return right[0] == "time";
-  return std::equal(left.begin(), left.end(), right.begin(), right.end(), agrees);
-}
-
-bool output_agrees(std::span<const std::string> shown, std::span<const std::string> printed) {
-  if (shown.empty()) return printed.empty();
-  if (shown[0] == "...") {
-    for (std::size_t skipped = 0; skipped <= printed.size(); ++skipped) {
-      if (output_agrees(shown.subspan(1), printed.subspan(skipped))) return true;
-    }
-    return false;
-  }
-  return !printed.empty() && line_agrees(shown[0], printed[0]) &&
-         output_agrees(shown.subspan(1), printed.subspan(1));
-}
-
-void expect_page_is_true(const std::string& page, const std::string& directory) {
-  const std::vector<Example> all = examples(read(page));
-  ASSERT_GE(all.size(), 5u);
-  for (const Example& example : all) {
-    const Result result = hamgen(words(example.command), {}, directory);
-    const std::vector<std::string> printed = lines(result.out + result.err);
-    EXPECT_TRUE(output_agrees(example.output, printed)) << "$ hamgen " << example.command << '\n'
-                                                        << result.out << result.err;
-  }
-}
-
 TEST(Readme, ShowsWhatTheCommandsPrint) {
-  expect_page_is_true(HAMGEN_SOURCE_DIR "/README.md", HAMGEN_SOURCE_DIR);
+  expect_page_is_true(HAMGEN_SOURCE_DIR "/README.md", HAMGEN_SOURCE_DIR, 5);
 }
 
 // The model of the page is that of its folder, and its commands do what it says.
@@ -102,7 +24,41 @@ TEST(Tutorial, ShowsWhatTheCommandsPrint) {
   const std::string shown = model.substr(system, model.find("scene plane") - system);
   EXPECT_TRUE(contains(page, shown));
   scratch.write("galaxy.ham", model);
-  expect_page_is_true(HAMGEN_SOURCE_DIR "/docs/tutorial.md", scratch.path("."));
+  expect_page_is_true(HAMGEN_SOURCE_DIR "/docs/tutorial.md", scratch.path("."), 5);
+}
+
+// The programs of the page are those of its folder, and do what it says, in C and in Python.
+TEST(PluginPage, ShowsWhatTheProgramsPrint) {
+  const Scratch scratch;
+  const std::string page = read(HAMGEN_SOURCE_DIR "/docs/plugin.md");
+  for (const std::string name : {"orbit.c", "orbit.py"}) {
+    const std::string program = read(HAMGEN_SOURCE_DIR "/docs/plugin/" + name);
+    EXPECT_TRUE(contains(page, "\n" + program + "```")) << name;
+    scratch.write(name, program);
+  }
+  scratch.write("kepler.ham", read(HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham"));
+  expect_page_is_true(HAMGEN_SOURCE_DIR "/docs/plugin.md", scratch.path("."), 6);
+}
+
+// The table that the Python program declares is that of plugin.h: the same members, in their order.
+TEST(PluginPage, DeclaresTheTableOfTheHeader) {
+  const std::string header = read(HAMGEN_SOURCE_DIR "/runtime/plugin.h");
+  const std::size_t begin = header.find("struct hamgen_plugin {");
+  std::string table = header.substr(begin, header.find("\n};", begin) - begin);
+  table = std::regex_replace(table, std::regex(R"(/\*[^*]*(\*(?!/)[^*]*)*\*/)"), "");
+  std::vector<std::string> members;
+  const std::regex member(R"((\(\*(\w+)\)\()|((\w+);))");
+  for (std::sregex_iterator it(table.begin(), table.end(), member), end; it != end; ++it)
+    members.push_back((*it)[2].matched ? (*it)[2] : (*it)[4]);
+  const std::string program = read(HAMGEN_SOURCE_DIR "/docs/plugin/orbit.py");
+  const std::size_t from = program.find("class Plugin(");
+  const std::string fields = program.substr(from, program.find("def load", from) - from);
+  std::vector<std::string> declared;
+  const std::regex field(R"re(\("(\w+)",)re");
+  for (std::sregex_iterator it(fields.begin(), fields.end(), field), end; it != end; ++it)
+    declared.push_back((*it)[1]);
+  EXPECT_EQ(members.size(), 28u);
+  EXPECT_EQ(members, declared);
 }
 
 }  // namespace

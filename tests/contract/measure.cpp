@@ -32,7 +32,6 @@ std::string inside(const Case& c, const std::string& name_space, const std::stri
   if (scalar == "quad" && request.solver == "fixed-point") request.solver = "";
   std::string text = generate_plugin(c.model, request).text;
   text.erase(text.find("// The interface of plugin.h."));
-  replace_all(text, "#include \"plugin.h\"\n", "");
   replace_all(text, " private:\n", " public:\n");
   return text;
 }

@@ -138,12 +138,6 @@ TEST(HostileNames, OfCoordinatesInPluginsCompile) {
     } catch (const ModelError&) {
       continue;
     }
-    const std::string interface =
-        read(std::filesystem::path(HAMGEN_SOURCE_DIR) / "runtime/plugin.h");
-    const std::string include = "#include \"plugin.h\"\n";
-    if (const auto at = code.find(include); at != std::string::npos) {
-      code.replace(at, include.size(), interface);
-    }
     EXPECT_EQ(messages("g++", code, {"-std=c++20", "-Wall"}), "") << name;
   }
 }
@@ -360,16 +354,11 @@ TEST(TakenNames, WorkInQuadPrecision) {
 
 TEST(TakenNames, WorkInPlugins) {
   const std::vector<std::string> names = free_names();
-  const std::string interface = read(std::filesystem::path(HAMGEN_SOURCE_DIR) / "runtime/plugin.h");
   for (const std::string name : {"plugin", "create", "read_state", "hamgen_plugin_entry",
                                  "HAMGEN_PLUGIN_VERSION", "advance", "I", "linux", "gamma"}) {
     const auto first = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     ASSERT_LT(first, names.size()) << name;
-    std::string code = generate_plugin(make_source("m.ham", model_of(names, first)), {}).text;
-    const std::string include = "#include \"plugin.h\"\n";
-    const std::size_t at = code.find(include);
-    ASSERT_NE(at, std::string::npos);
-    code.replace(at, include.size(), interface);
+    const std::string code = generate_plugin(make_source("m.ham", model_of(names, first)), {}).text;
     EXPECT_EQ(messages("g++", code, {"-std=gnu++17", "-Wall"}), "") << name;
   }
 }

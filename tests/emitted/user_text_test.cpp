@@ -32,14 +32,11 @@ std::string all_traps() {
   return text;
 }
 
-// The header or plugin of a model, with the interface written out where it is included.
+// The header or plugin of a model.
 std::string emitted(const std::string& text, Request request, const std::string& path = "m.ham") {
   const SourceText source = make_source(path, text);
   if (request.format != "cpp-plugin") return without_pragma(generate(source, request).at(0).text);
-  std::string code = generate(source, request).at(0).text;
-  const std::string include = "#include \"plugin.h\"\n";
-  return code.replace(code.find(include), include.size(),
-                      read(std::filesystem::path(HAMGEN_SOURCE_DIR) / "runtime/plugin.h"));
+  return generate(source, request).at(0).text;
 }
 
 const std::string declarations = "system m\ncoordinate q\nmomentum p\n";
@@ -104,7 +101,8 @@ TEST(UserText, InPathsCommandsAndDigestsStaysThere) {
 }
 
 // The model with the text as comments and units, or nothing if the language refuses it.
-std::optional<std::string> with_remarks(const std::string& text, const std::string& range) {
+std::optional<std::string> with_remarks(const std::string& text, const std::string& range,
+                                        const std::string& format = {}) {
   std::string unit = text;
   std::erase_if(unit, [](char c) { return c == ']' || c == '#' || c == '\n'; });
   const std::string rest = " [" + unit + "] # " + text + "\n";
@@ -116,7 +114,7 @@ std::optional<std::string> with_remarks(const std::string& text, const std::stri
                             "H = " + hamiltonian + " # " + text + "\ninvariant c = " + hamiltonian +
                             " # " + text + "\nscene s { # " + text + "\n  h = 1\n}\n";
   try {
-    return emitted(model, {.name_space = "m::n"});
+    return emitted(model, {.format = format, .name_space = "m::n"});
   } catch (const ModelError&) {
     return std::nullopt;
   }
@@ -137,10 +135,12 @@ TEST(UserText, InCommentsAndUnitsOfAModelStaysThereOrIsRefused) {
   EXPECT_EQ(refused, 128 + 30 + 1 + 15);
   std::erase(accepted, '\n');
   for (const std::string range : {"", "[1..2]"}) {
-    const std::optional<std::string> code = with_remarks(accepted, range);
-    ASSERT_TRUE(code);
-    EXPECT_NE(code->find("#error reached"), std::string::npos);
-    expect_clean(*code);
+    for (const std::string format : {"cpp-header", "cpp-plugin"}) {
+      const std::optional<std::string> code = with_remarks(accepted, range, format);
+      ASSERT_TRUE(code);
+      EXPECT_NE(code->find("#error reached"), std::string::npos);
+      expect_clean(*code);
+    }
     for (const std::string end : {"\\", "\\ ", "?\?/", "*/", "\"", "\r"}) {
       const std::optional<std::string> ended = with_remarks("x" + end, range);
       if (ended) expect_clean(*ended);

@@ -67,7 +67,22 @@ TEST(PlantedFaultInAPlugin, OfTheInterfaceIsFoundAtItsLine) {
       {"functions exchanged", "pendulum", plugin(), "get_state, get_carry,",
        "get_carry, get_state,"},
       {"whatever the flags", "pendulum", plugin(), "hamgen_arithmetic_is_ieee() ?", "true ?"},
-      {"another name", "pendulum", plugin(), "\"pendulum, implicit", "\"kepler, implicit"},
+      {"another name", "pendulum", plugin(), "53, \"pendulum, implicit", "53, \"kepler, implicit"},
+      {"units exchanged", "pendulum", plugin(), "{\"q\", \"rad\"", "{\"q\", \"rad/s\""},
+      {"a variable in another's place", "kepler", plugin(), "{\"q1\", ", "{\"q2\", "},
+      {"an array of another length", "fput", plugin(), "1, 1, 32},", "1, 1, 31},"},
+      {"parameters for variables", "pendulum", plugin(), "restore_run, variable_list,",
+       "restore_run, parameter_list,"},
+      {"defaults of another", "outer_solar_system", plugin(), "parameters[1] = high_part(par.",
+       "parameters[1] = high_part(+par."},
+      {"the time of the propagator alone", "pendulum", plugin(),
+       "return run->start_time + run->propagator.time();", "return run->propagator.time();"},
+      {"time lost where h changes", "pendulum", plugin(), "run->start_time = time_of(run);",
+       "run->start_time = run->propagator.time();"},
+      {"a start of another time", "pendulum", plugin(), "static_cast<Real>(t) +",
+       "static_cast<Real>(t) -"},
+      {"h and parameters that stay", "pendulum", plugin(), "Propagator(par, h, z);",
+       "Propagator(par, run->propagator.h(), z);"},
   };
   for (const Fault& fault : faults) expect_found(fault);
 }
@@ -80,7 +95,8 @@ TEST(PlantedFaultInAPlugin, OfTheStepIsFoundAtItsLine) {
       {"of another scalar", "pendulum", plugin({.scalar = "float"}), "__builtin_sinf(q)",
        "__builtin_sin(q)"},
       {"update subtracted", kNonseparable, plugin(), "q_bar += delta_q;", "q_bar -= delta_q;"},
-      {"another header", "pendulum", plugin(), "#include \"plugin.h\"", "#include \"plugin2.h\""},
+      {"another interface", "pendulum", plugin(), "HAMGEN_NOT_FINITE = 2", "HAMGEN_NOT_FINITE = 1"},
+      {"another include", "pendulum", plugin(), "#include <new>", "#include <old>"},
   };
   for (const Fault& fault : faults) expect_found(fault);
 }

@@ -1,0 +1,96 @@
+#include "tests/app/page_examples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <sstream>
+#include <vector>
+
+#include "tests/app/hamgen_command.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+struct Example {
+  std::string command;
+  std::vector<std::string> output;  // "..." stands for any number of lines
+};
+
+// The blocks marked `console`; a line that begins with "$ " starts an example.
+std::vector<Example> examples(const std::string& text) {
+  std::vector<Example> result;
+  bool inside = false;
+  for (const std::string& line : lines(text)) {
+    if (line.starts_with("```")) {
+      inside = line == "```console";
+    } else if (inside && line.starts_with("$ ")) {
+      result.push_back({line.substr(2), {}});
+    } else if (inside && !result.empty()) {
+      result.back().output.push_back(line);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+std::vector<std::string> rendered_cells(std::string line) {
+  std::ranges::replace(line, ',', ' ');
+  return words(line);
+}
+
+// Equal words, numbers to a part in a thousand: the last digits depend on the mathematics library,
+// and an energy error of the size of round-off on all of them.
+bool agrees(const std::string& shown, const std::string& printed) {
+  if (shown == printed) return true;
+  char* end_shown = nullptr;
+  char* end_printed = nullptr;
+  const double a = std::strtod(shown.c_str(), &end_shown);
+  const double b = std::strtod(printed.c_str(), &end_printed);
+  if (end_shown == shown.c_str() || std::string(end_shown) != end_printed) return false;
+  return std::fabs(a - b) <= 1e-3 * std::fabs(a) + 1e-12;
+}
+
+bool line_agrees(const std::string& shown, const std::string& printed) {
+  if (shown == printed) return true;
+  const std::vector<std::string> left = rendered_cells(shown);
+  const std::vector<std::string> right = rendered_cells(printed);
+  // Times are nobody's promise.
+  if (!left.empty() && !right.empty() && left[0] == "time") return right[0] == "time";
+  return std::equal(left.begin(), left.end(), right.begin(), right.end(), agrees);
+}
+
+bool output_agrees(std::span<const std::string> shown, std::span<const std::string> printed) {
+  if (shown.empty()) return printed.empty();
+  if (shown[0] == "...") {
+    for (std::size_t skipped = 0; skipped <= printed.size(); ++skipped) {
+      if (output_agrees(shown.subspan(1), printed.subspan(skipped))) return true;
+    }
+    return false;
+  }
+  return !printed.empty() && line_agrees(shown[0], printed[0]) &&
+         output_agrees(shown.subspan(1), printed.subspan(1));
+}
+
+}  // namespace
+
+void expect_page_is_true(const std::string& page, const std::string& directory, std::size_t least) {
+  const std::vector<Example> all = examples(read(page));
+  ASSERT_GE(all.size(), least);
+  for (const Example& example : all) {
+    const Result result = shell(example.command, directory);
+    const std::vector<std::string> printed = lines(result.out + result.err);
+    EXPECT_TRUE(output_agrees(example.output, printed)) << "$ " << example.command << '\n'
+                                                        << result.out << result.err;
+  }
+}
+
+}  // namespace hamgen::app_test
