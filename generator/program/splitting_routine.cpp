@@ -79,7 +79,6 @@ class SplittingRoutine {
       Body unknown;
       add_call(unknown, first_);
       body.push_back({If{known, false, std::move(unknown)}});
-      body.push_back({SetFlag{known, false}});
     }
     add_pairs(body);
     Return end;

@@ -115,6 +115,20 @@ TEST(Failure, AnAbsurdStepNeverGivesAStateThatIsNotFinite) {
   }
 }
 
+// The gradient at its end is not that at the state it left: 0 there, and all but 1e165 here.
+TEST(Failure, AFailedStepFailsAgain) {
+  const std::string hill = "coordinate q\nmomentum p\nH = p^2/2 - 1e165*exp(-q^2)\n";
+  EXPECT_EQ(
+      run_program(without_pragma(header(hill, {.scheme = "stormer-verlet"})) +
+                  "#include <cstdio>\nint main() {\n"
+                  "  model::Propagator run({}, 0.1, model::State{0.7, 0});\n"
+                  "  for (int i = 0; i < 3; ++i) {\n"
+                  "    if (run.step().converged) std::puts(\"converged\");\n"
+                  "    if (run.state().q != 0.7 || run.state().p != 0) std::puts(\"moved\");\n"
+                  "  }\n}\n"),
+      "");
+}
+
 TEST(Failure, AnInitialStateThatIsNotFiniteFailsAtOnce) {
   EXPECT_EQ(
       run_program(without_pragma(header(pendulum_text, {})) +
