@@ -46,6 +46,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   if (request.support != "own") add("--support", request.support);  // the default
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
+  if (request.events) words.emplace_back("--events");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
   return runtime::command_text(words);
 }

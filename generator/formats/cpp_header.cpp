@@ -9,6 +9,7 @@
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
+#include "generator/formats/cpp_events.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_step.hpp"
@@ -60,7 +61,8 @@ void write_includes(CodeWriter& out, const EmitContext& context, const Support& 
   }
   if (!shared) return;
   out.line();
-  out.line(fmt::format("#include \"{}\"", shared_file_name(context.scalar)));
+  out.line(fmt::format("#include \"{}\"",
+                       shared_file_name(context.scalar, !context.code.events.empty())));
 }
 
 void write_pi(CodeWriter& out, const ScalarType& scalar) {
@@ -102,6 +104,7 @@ std::string method_text(EmitContext& context) {
   write_modified_energies(steps, context);
   write_solver(steps, context);
   write_steps(steps, context);
+  write_events(steps, context);
   if (context.options.tangent) context.write_with_callees(steps, "tangent");
   CodeWriter out;
   if (context.used.pi && !had_pi) {
@@ -155,7 +158,7 @@ std::string file_text(EmitContext& context, const char* first_line) {
   const EmitOptions& options = context.options;
   const std::string system = system_text(context);
   const std::string method = method_text(context);
-  Support support(context.scalar, options.builtins);
+  Support support(context.scalar, options.builtins, !context.code.events.empty());
   support.require_for(method);
   CodeWriter out;
   write_preamble(out, context);
@@ -195,13 +198,19 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
 
 OutputFiles cpp_header_files(const Program& program, const EmitOptions& options) {
   OutputFiles files = {{options.file_name + ".hpp", cpp_header(program, options)}};
-  if (options.shared_support) files.push_back(shared_file(find_scalar(options.scalar)));
+  if (options.shared_support)
+    files.push_back(shared_file(find_scalar(options.scalar), !program.events.results.empty()));
   return files;
 }
 
 OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options) {
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
+  }
+  if (!program.events.results.empty()) {
+    throw UsageError(
+        "--events with --format cpp-plugin: a plugin's interface has no events\n"
+        "help: a cpp-header has them; hamgen run --events FILE finds them");
   }
   return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)}};
 }

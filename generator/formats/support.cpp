@@ -18,6 +18,7 @@ struct FixedBlock {
   std::string_view name;     // of its file in generator/numerics
   std::string_view defines;  // with blanks between them
   bool eigen = false;
+  bool events = false;  // of headers that find events alone
 };
 
 constexpr std::string_view kVocabulary = "vocabulary";  // see numerics.hpp
@@ -47,6 +48,9 @@ constexpr FixedBlock kBlocks[] = {
     {"refinement", "Refinement"},
     {"history", "History"},
     {"forget", "forget"},
+    {.name = "bracketed_root", .defines = "bracketed_root", .events = true},
+    {.name = "crossings", .defines = "cubic_between find_crossings", .events = true},
+    {.name = "crossing_list", .defines = "CrossingList", .events = true},
 };
 
 // The words of C++ code, without comments and without members: what follows a dot.
@@ -87,6 +91,7 @@ std::string capitals(std::string text) {
 void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
   for (const FixedBlock& block : kBlocks) {
+    if (block.events && !events_) continue;
     const bool used = std::ranges::any_of(
         names_of(block), [&](const std::string& name) { return words.contains(name); });
     if (used && blocks_.insert(block.name).second) require_for(text(block.name));
@@ -133,6 +138,7 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
   const std::set<std::string> words = words_of(code);
   std::string list;
   for (const FixedBlock& block : kBlocks) {
+    if (block.events && !events_) continue;
     for (const std::string& name : names_of(block)) {
       if (words.contains(name)) list += (list.empty() ? "numerics::" : ", numerics::") + name;
     }
@@ -145,7 +151,9 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
 
 std::string Support::digest() const {
   std::string all;
-  for (const FixedBlock& block : kBlocks) all += text(block.name);
+  for (const FixedBlock& block : kBlocks) {
+    if (events_ || !block.events) all += text(block.name);
+  }
   return short_digest(all);
 }
 
@@ -159,13 +167,14 @@ std::string Support::text(std::string_view block) const {
   return text.substr(0, text.find_last_not_of('\n') + 1);
 }
 
-std::string shared_file_name(const ScalarType& scalar) {
-  return scalar.digits == 53 ? "hamgen_support.hpp"
-                             : fmt::format("hamgen_support_{}.hpp", scalar.space);
+std::string shared_file_name(const ScalarType& scalar, bool events) {
+  return fmt::format("hamgen_support{}{}.hpp",
+                     scalar.digits == 53 ? "" : "_" + std::string(scalar.space),
+                     events ? "_events" : "");
 }
 
-OutputFile shared_file(const ScalarType& scalar) {
-  Support support(scalar, false);
+OutputFile shared_file(const ScalarType& scalar, bool events) {
+  Support support(scalar, false, events);
   for (const FixedBlock& block : kBlocks) {
     if (!block.eigen) support.require_for(block.defines);
   }
@@ -180,7 +189,7 @@ OutputFile shared_file(const ScalarType& scalar) {
   out.line();
   support.write(out, false);
   end_ieee_arithmetic(out);
-  return {shared_file_name(scalar), out.text()};
+  return {shared_file_name(scalar, events), out.text()};
 }
 
 }  // namespace hamgen

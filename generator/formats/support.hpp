@@ -21,7 +21,10 @@ namespace hamgen {
 class Support {
  public:
   // With builtins, |x| is the compiler's own function, where no header is wanted.
-  Support(const ScalarType& scalar, bool builtins) : scalar_(scalar), builtins_(builtins) {}
+  // Those that find events are there for headers with events alone, whose blocks have a namespace
+  // of their own for them.
+  Support(const ScalarType& scalar, bool builtins, bool events)
+      : scalar_(scalar), builtins_(builtins), events_(events) {}
 
   // Adds the blocks that the C++ text uses, and those that these use.
   void require_for(std::string_view code);
@@ -42,12 +45,13 @@ class Support {
 
   const ScalarType& scalar_;
   bool builtins_;
+  bool events_;
   std::set<std::string_view> blocks_;
 };
 
-// "hamgen_support.hpp" of double numbers.
-[[nodiscard]] std::string shared_file_name(const ScalarType& scalar);
+// "hamgen_support.hpp" of double numbers, "hamgen_support_events.hpp" of headers with events.
+[[nodiscard]] std::string shared_file_name(const ScalarType& scalar, bool events);
 // All blocks that need no library in a header that others include.
-[[nodiscard]] OutputFile shared_file(const ScalarType& scalar);
+[[nodiscard]] OutputFile shared_file(const ScalarType& scalar, bool events);
 
 }  // namespace hamgen
