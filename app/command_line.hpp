@@ -132,9 +132,14 @@ void specialise(const SceneOptions& options, const SceneValues& values,
 void record_origin(const MethodOptions& options, const SourceText& source, Request& request);
 
 // What headers made with --support shared have beside them.
-inline constexpr const char* kSupportFiles[] = {"hamgen_support.hpp", "hamgen_support_float32.hpp",
+inline constexpr const char* kSupportFiles[] = {"hamgen_support.hpp",
+                                                "hamgen_support_float32.hpp",
                                                 "hamgen_support_long_double.hpp",
-                                                "hamgen_support_quad.hpp"};
+                                                "hamgen_support_quad.hpp",
+                                                "hamgen_support_events.hpp",
+                                                "hamgen_support_float32_events.hpp",
+                                                "hamgen_support_long_double_events.hpp",
+                                                "hamgen_support_quad_events.hpp"};
 
 // Help that fits one screen: one line an option.
 void use_short_help(CLI::App& app);

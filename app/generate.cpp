@@ -26,6 +26,7 @@ struct GenerateOptions {
   std::string require;
   std::string watch_modified;
   bool tangent = false;
+  bool events = false;
   bool check = false;
 };
 
@@ -116,6 +117,7 @@ int generate_files(const GenerateOptions& options) {
   request.math = options.math;
   request.require = options.require;
   request.tangent = options.tangent;
+  request.events = options.events;
   if (!options.watch_modified.empty()) {
     request.watch_modified = modified_term_count("--watch-modified", options.watch_modified);
     if (request.format == "cpp-plugin")
@@ -165,8 +167,9 @@ Command add_generate(CLI::App& app) {
       ->add_option("--watch-modified", options->watch_modified,
                    "emit dZ/dz too; K terms of the modified Hamiltonian")
       ->type_name("K");
+  parser->add_flag("--events", options->events, "");
   parser->add_flag("--check", options->check,
-                   "compare with the files in DIRECTORY; 1 and a diff if they differ");
+                   "find the model's events too; compare with DIRECTORY, 1 and a diff");
   add_method_options(*parser, options->method);
   add_scene_choice(*parser, options->scene);
   return {parser, [options] { return generate_files(*options); }};

@@ -104,8 +104,11 @@ std::optional<TrajectoryTable> table_of(const std::string& output, const Columns
   return std::optional<TrajectoryTable>(std::in_place, output, remarks, columns);
 }
 
-std::string trajectory_text(const std::string& output, const TrajectoryTable& table) {
-  return fmt::format("{}, {} rows", output == "-" ? "on standard output" : output, table.rows());
+// `is_kept`: for a run that goes on from its checkpoint.
+std::string trajectory_text(const std::string& output, const TrajectoryTable& table, bool is_kept) {
+  const std::string rows = fmt::format("{} rows", table.rows());
+  if (is_kept) return fmt::format("{0}.part, {1}; {0} at the end of the run", output, rows);
+  return fmt::format("{}, {}", output == "-" ? "on standard output" : output, rows);
 }
 
 int status_of(const RunReport& report) {
@@ -314,7 +317,7 @@ int run(const RunOptions& options) {
   const bool is_kept = keeper && has_steps_left(report.summary.status);
   if (rows.table()) {
     if (!is_kept) rows.table()->publish(outcome_text(report));
-    report.trajectory = trajectory_text(options.output, *rows.table());
+    report.trajectory = trajectory_text(options.output, *rows.table(), is_kept);
   }
   if (keeper && !is_kept) keeper->remove();
   if (event_file) event_file->publish(outcome_text(report));

@@ -29,10 +29,7 @@ std::vector<WatchedEvent> watched_events(const WatchOptions& options, const Mode
   std::vector<WatchedEvent> events;
   if (!options.events.empty()) {
     if (model.events.empty())
-      throw UsageError(
-          fmt::format("--events {}: {} has no event\nhelp: declare one in the model: "
-                      "event crossing = {} rising",
-                      options.events, model.name, element_names(model.coordinates).front()));
+      throw UsageError(fmt::format("--events {}: {}", options.events, no_event_text(model)));
     for (const ModelEvent& each : model.events)
       events.push_back(watch({.event = each}, false, model, scene));
   }

@@ -146,6 +146,7 @@ std::optional<EmittedHeader> read_header(const std::string& path, Request& reque
     if (std::filesystem::exists(beside)) header.beside[name] = read_source(beside.string()).text;
   }
   if (!option_of_header(header.text, "--tangent").empty()) request.tangent = true;
+  if (!option_of_header(header.text, "--events").empty()) request.events = true;
   const std::string modified = option_of_header(header.text, "--watch-modified");
   if (!modified.empty()) request.watch_modified = modified_term_count("--watch-modified", modified);
   return header;

@@ -211,7 +211,10 @@ Proof verify_step(const SourceText& source, const Request& request,
     Request run = request;
     run.format = "cpp-plugin";
     run.support.clear();
-    add_plugin(read_file({}, source, stages, run), proof);
+    run.events = false;  // a plugin has none
+    const std::optional<Stages> without_events =
+        request.events ? std::optional(run_stages(source, run)) : std::nullopt;
+    add_plugin(read_file({}, source, without_events ? *without_events : stages, run), proof);
   }
   return proof;
 }
@@ -266,6 +269,11 @@ StepCode make_step_code(const SourceText& source, const Request& request) {
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
+  if (request.events) {  // found by who runs it
+    Request plain = request;
+    plain.events = false;
+    return generate_plugin(source, plain, proof);
+  }
   Stages stages = run_stages(source, request);
   EmitOptions options = emit_options(source, stages, request);
   PluginSource plugin;

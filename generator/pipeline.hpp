@@ -46,6 +46,7 @@ struct Request {
   std::string support;                // of fixed blocks: own (of every header) or shared
   std::vector<std::string> fold;      // parameters to burn in
   bool tangent = false;               // the linearised step too, where it can be written
+  bool events = false;                // the model's events, and a way to find them along the steps
   bool plain_sums = false;            // what rounding takes from the state is not carried along
   std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;  // other integer constants than the file's

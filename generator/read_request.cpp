@@ -88,12 +88,28 @@ std::set<std::string> named_by_scheme(const Model& model, const Request& request
   return names;
 }
 
+// Their values are computed beside the invariants.
+void add_events(Model& model) {
+  if (model.events.empty()) throw UsageError("--events: " + no_event_text(model));
+  for (const ModelEvent& each : model.events) {
+    model.invariants.push_back({.name = each.name,
+                                .value = each.value,
+                                .text = each.formula,
+                                .comment = each.comment,
+                                .span = each.span,
+                                .only_observed = true,
+                                .rising = each.rising,
+                                .falling = each.falling});
+  }
+}
+
 }  // namespace
 
 Model read_request(const SourceText& source, const Request& request) {
   Model model = read_model(source, request.sizes);
   add_scheme_parameters(model, request);
   fold_parameters(model, request);
+  if (request.events) add_events(model);
   return model;
 }
 

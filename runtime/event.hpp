@@ -36,12 +36,7 @@ struct Crossing {
 // Crossings of zero of a quantity.  Each is the root in theta of the quantity after one step of
 // length theta h of the same scheme from the state before, so that it has the order of the steps;
 // the orbit is not changed.
-//
-// Note [several crossings in a step]
-// The signs at both ends tell of an odd number of them only.  Between them the state is taken from
-// the cubic through both states and their derivatives J grad H, with an error of order h^4, which
-// costs no step; where its signs change, or it comes near zero and turns, the sign is that after a
-// part of the step.  What the cubic misses, a touch of zero by less than its error, is not found.
+// How they are told from each other: Note [several crossings in a step] of numerics/crossings.hpp.
 class EventLocator {
  public:
   using Quantity = std::function<double(std::span<const Wide> state)>;
@@ -59,19 +54,8 @@ class EventLocator {
                                              double value_after) const;
 
  private:
-  struct Sample {
-    double theta = 0.0;
-    double value = 0.0;
-  };
   [[nodiscard]] std::optional<double> value_after_part(const std::vector<Wide>& from,
                                                        double theta) const;
-  [[nodiscard]] std::vector<double> suspected(const std::vector<Wide>& before, double value_before,
-                                              const std::vector<Wide>& after,
-                                              double value_after) const;
-  [[nodiscard]] bool counts(double before, double after) const;
-  [[nodiscard]] std::optional<Crossing> root(const std::vector<Wide>& from, const Sample& low,
-                                             const Sample& high,
-                                             const std::vector<Wide>& after) const;
 
   std::shared_ptr<const Library> library_;
   InitialValues start_;

@@ -111,6 +111,8 @@ const std::vector<Rule>& rules() {
         "generator/algebra/exact.hpp", "generator/base/"},
        {fmt}},
       {"generator/", {"generator/"}, {fmt}},
+      // Events are found as emitted files find them.
+      {"runtime/event.cpp", {"runtime/", "generator/numerics/"}, {fmt, system}},
       {"runtime/", {"runtime/"}, {fmt, system}},
       // What a command measures, without a screen.
       {"app/studies/",

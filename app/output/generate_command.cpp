@@ -48,6 +48,7 @@ std::string generate_command(const std::string& model, const Request& request) {
   add("--math", request.math);
   add("--require", request.require);
   if (request.tangent) words.emplace_back("--tangent");
+  if (request.events) words.emplace_back("--events");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
   return runtime::command_text(words);
 }

@@ -191,6 +191,11 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, const std::string& t
 }  // namespace
 
 OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
+  if (!program.events.results.empty()) {
+    throw UsageError(
+        "--events with --format c-header: C has no functions to be called for an event\n"
+        "help: a cpp-header has them; invariant NAME = EXPR in the model is a value in C, too");
+  }
   const CDialect dialect(find_scalar(options.scalar), options.spaces);
   EmitContext context(program, options, dialect);
   require_c(context);

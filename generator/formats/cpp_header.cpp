@@ -11,6 +11,7 @@
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
+#include "generator/formats/cpp_events.hpp"
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_step.hpp"
@@ -66,7 +67,8 @@ void write_includes(CodeWriter& out, const EmitContext& context, const Support& 
   }
   if (!shared) return;
   out.line();
-  out.line(fmt::format("#include \"{}\"", shared_file_name(context.scalar)));
+  out.line(fmt::format("#include \"{}\"",
+                       shared_file_name(context.scalar, !context.code.events.empty())));
 }
 
 void write_pi(CodeWriter& out, const EmitContext& context) {
@@ -112,6 +114,7 @@ std::string method_text(EmitContext& context) {
   write_modified_energies(steps, context);
   write_solver(steps, context);
   context.options.lanes > 0 ? write_lane_steps(steps, context) : write_steps(steps, context);
+  write_events(steps, context);
   if (context.options.tangent) context.write_with_callees(steps, "tangent");
   CodeWriter out;
   if (context.used.pi && !had_pi) {
@@ -179,7 +182,7 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
   const std::string system = system_text(context);
   const std::string method = method_text(context);
   const bool in_lanes = options.lanes > 0;
-  Support support(context.scalar, options.builtins, options.lanes);
+  Support support(context.scalar, options.builtins, !context.code.events.empty(), options.lanes);
   support.require_for(in_lanes ? system + method : method);
   CodeWriter out;
   write_preamble(out, context);
@@ -226,7 +229,8 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
 
 OutputFiles cpp_header_files(const Program& program, const EmitOptions& options) {
   OutputFiles files = {{options.file_name + ".hpp", cpp_header(program, options)}};
-  if (options.shared_support) files.push_back(shared_file(find_scalar(options.scalar)));
+  if (options.shared_support)
+    files.push_back(shared_file(find_scalar(options.scalar), !program.events.results.empty()));
   return files;
 }
 
@@ -234,6 +238,11 @@ OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options)
   refuse_lanes(options, "a plugin");
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
+  }
+  if (!program.events.results.empty()) {
+    throw UsageError(
+        "--events with --format cpp-plugin: a plugin's interface has no events\n"
+        "help: a cpp-header has them; hamgen run --events FILE finds them");
   }
   return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)},
           {"plugin.h", std::string(plugin_header()), OutputFile::Role::beside}};

@@ -42,6 +42,7 @@ EmitContext::EmitContext(const Program& the_program, const EmitOptions& the_opti
       state_fields(texts(environment.state_layout)) {
   for (const char* name : {"prepare", "solve"}) needed_.merge(callees(code, name));
   if (options.tangent) needed_.merge(callees(code, "tangent"));
+  needed_.merge(callees(code, "events"));
   split_parameters();
 }
 

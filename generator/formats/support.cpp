@@ -19,6 +19,7 @@ struct FixedBlock {
   std::string_view name;     // of its file in generator/numerics
   std::string_view defines;  // with blanks between them
   bool eigen = false;
+  bool events = false;  // of headers that find events alone
 };
 
 constexpr std::string_view kVocabulary = "vocabulary";  // see numerics.hpp
@@ -48,6 +49,9 @@ constexpr FixedBlock kBlocks[] = {
     {"refinement", "Refinement"},
     {"history", "History"},
     {"forget", "forget"},
+    {.name = "bracketed_root", .defines = "bracketed_root", .events = true},
+    {.name = "crossings", .defines = "cubic_between find_crossings", .events = true},
+    {.name = "crossing_list", .defines = "CrossingList", .events = true},
 };
 
 // Of a batch, where Real is a pack.
@@ -112,6 +116,7 @@ std::string capitals(std::string text) {
 void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
   for (const FixedBlock& block : blocks_of(lanes_)) {
+    if (block.events && !events_) continue;
     const bool used = std::ranges::any_of(
         names_of(block), [&](const std::string& name) { return words.contains(name); });
     if (used && blocks_.insert(block.name).second) require_for(text(block.name));
@@ -163,6 +168,7 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
   const std::set<std::string> words = words_of(code);
   std::string list;
   for (const FixedBlock& block : blocks_of(lanes_)) {
+    if (block.events && !events_) continue;
     for (const std::string& name : names_of(block)) {
       if (words.contains(name)) list += (list.empty() ? "numerics::" : ", numerics::") + name;
     }
@@ -175,7 +181,9 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
 
 std::string Support::digest() const {
   std::string all;
-  for (const FixedBlock& block : blocks_of(lanes_)) all += text(block.name);
+  for (const FixedBlock& block : blocks_of(lanes_)) {
+    if (events_ || !block.events) all += text(block.name);
+  }
   return short_digest(all);
 }
 
@@ -207,13 +215,14 @@ void write_registers(CodeWriter& out) {
 )");
 }
 
-std::string shared_file_name(const ScalarType& scalar) {
-  return scalar.digits == 53 ? "hamgen_support.hpp"
-                             : fmt::format("hamgen_support_{}.hpp", scalar.space);
+std::string shared_file_name(const ScalarType& scalar, bool events) {
+  return fmt::format("hamgen_support{}{}.hpp",
+                     scalar.digits == 53 ? "" : "_" + std::string(scalar.space),
+                     events ? "_events" : "");
 }
 
-OutputFile shared_file(const ScalarType& scalar) {
-  Support support(scalar, false);
+OutputFile shared_file(const ScalarType& scalar, bool events) {
+  Support support(scalar, false, events);
   for (const FixedBlock& block : kBlocks) {
     if (!block.eigen) support.require_for(block.defines);
   }
@@ -228,7 +237,7 @@ OutputFile shared_file(const ScalarType& scalar) {
   out.line();
   support.write(out, false);
   end_ieee_arithmetic(out);
-  return {shared_file_name(scalar), out.text()};
+  return {shared_file_name(scalar, events), out.text()};
 }
 
 }  // namespace hamgen

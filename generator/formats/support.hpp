@@ -21,9 +21,10 @@ namespace hamgen {
 class Support {
  public:
   // With builtins, |x| is the compiler's own function, where no header is wanted.
-  // Of a batch, for so many lanes.
-  Support(const ScalarType& scalar, bool builtins, int lanes = 0)
-      : scalar_(scalar), builtins_(builtins), lanes_(lanes) {}
+  // Those that find events are there for headers with events alone, whose blocks have a namespace
+  // of their own for them.  Of a batch, for so many lanes.
+  Support(const ScalarType& scalar, bool builtins, bool events, int lanes = 0)
+      : scalar_(scalar), builtins_(builtins), events_(events), lanes_(lanes) {}
 
   // Adds the blocks that the C++ text uses, and those that these use.
   void require_for(std::string_view code);
@@ -46,17 +47,18 @@ class Support {
 
   const ScalarType& scalar_;
   bool builtins_;
+  bool events_;
   int lanes_;
   std::set<std::string_view> blocks_;
 };
 
-// "hamgen_support.hpp" of double numbers.
-[[nodiscard]] std::string shared_file_name(const ScalarType& scalar);
+// "hamgen_support.hpp" of double numbers, "hamgen_support_events.hpp" of headers with events.
+[[nodiscard]] std::string shared_file_name(const ScalarType& scalar, bool events);
 // The name that inline namespaces of a batch have: what is compiled for other registers is other
 // code, and does not mix.
 inline constexpr const char* kRegisters = "HAMGEN_REGISTERS";
 void write_registers(CodeWriter& out);
 // All blocks that need no library in a header that others include.
-[[nodiscard]] OutputFile shared_file(const ScalarType& scalar);
+[[nodiscard]] OutputFile shared_file(const ScalarType& scalar, bool events);
 
 }  // namespace hamgen

@@ -20,6 +20,7 @@ ModelEvent crossing(ExpressionParser& in, const SourceText& source) {
   const std::size_t begin = in.peek().span.begin;
   ModelEvent event;
   event.value = in.expression();
+  event.formula = one_line(source, {begin, in.previous().span.end});
   if (in.at_direction()) {
     event.rising = in.peek().text == "rising";
     event.falling = !event.rising;

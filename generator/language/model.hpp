@@ -62,6 +62,10 @@ struct Invariant {
   std::string comment;
   Span span;
   bool only_observed = false;  // nobody says that it is conserved
+  // Of an event, which the emitted code has the value of: the directions that count.
+  bool rising = false, falling = false;
+
+  [[nodiscard]] bool is_event() const { return rising || falling; }
 };
 
 // What is looked for along an orbit: where the value crosses zero.
@@ -69,6 +73,7 @@ struct ModelEvent {
   std::string name;
   NodePtr value;
   std::string text;                    // as written, with its direction
+  std::string formula = {};            // without it
   bool rising = true, falling = true;  // the directions that count
   std::string comment = {};
   Span span = {};
@@ -127,6 +132,8 @@ struct Model {
 // "q", "q[3]": the names of all elements of coordinates (or momenta, parameters), in state order.
 [[nodiscard]] std::vector<std::string> element_names(const std::vector<Variable>& variables);
 [[nodiscard]] std::vector<std::string> element_names(const std::vector<Parameter>& parameters);
+// "kepler has no event", and how to declare one.
+[[nodiscard]] std::string no_event_text(const Model& model);
 // An expression in the language's own notation, with the fewest parentheses.
 [[nodiscard]] std::string to_text(const NodePtr& node);
 [[nodiscard]] std::string to_text(const Model& model);

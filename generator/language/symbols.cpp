@@ -95,8 +95,10 @@ void declare_names(const Model& model, Symbols& symbols) {
   declare_arrays(model.parameters, SymbolKind::parameter, symbols);
   for (const Definition& each : model.definitions)
     symbols.declare({each.name, each.span}, {.kind = SymbolKind::definition, .span = each.span});
-  for (const Invariant& each : model.invariants)
+  for (const Invariant& each : model.invariants) {
+    if (each.is_event()) continue;
     symbols.declare({each.name, each.span}, {.kind = SymbolKind::invariant, .span = each.span});
+  }
   for (const ModelEvent& each : model.events)
     symbols.declare({each.name, each.span}, {.kind = SymbolKind::event, .span = each.span});
 }

@@ -191,6 +191,11 @@ long degrees_of_freedom(const Model& model) {
   return count;
 }
 
+std::string no_event_text(const Model& model) {
+  return fmt::format("{} has no event\nhelp: declare one in the model: event crossing = {} rising",
+                     model.name, element_names(model.coordinates).front());
+}
+
 std::vector<std::string> element_names(const std::vector<Variable>& variables) {
   return names_of_elements(variables);
 }
@@ -220,6 +225,7 @@ std::string to_text(const Model& model) {
   }
   text += fmt::format("H = {}\n", to_text(model.hamiltonian));
   for (const Invariant& each : model.invariants) {
+    if (each.is_event()) continue;
     text += fmt::format("invariant {} = {}{}\n", each.name, to_text(each.value),
                         comment_text(each.comment));
   }

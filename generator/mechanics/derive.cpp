@@ -180,7 +180,8 @@ Mechanics derive(const Model& model, bool keep_sums, int most) {
       return from_ginac(converter.convert(invariant.value), table);
     });
     mechanics.invariants.push_back(
-        {invariant.name, value, invariant.only_observed, invariant.comment});
+        {invariant.name, value, invariant.only_observed, invariant.comment, invariant.rising,
+         invariant.falling});
   }
   return mechanics;
 }

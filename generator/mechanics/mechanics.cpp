@@ -60,7 +60,8 @@ std::string to_text(const Mechanics& mechanics) {
         mechanics.variables[static_cast<std::size_t>(place.second)].name, to_text(value));
   }
   for (const NamedExpression& invariant : mechanics.invariants) {
-    text += fmt::format("invariant {} = {}\n", invariant.name, to_text(invariant.value));
+    text += fmt::format("{} {} = {}\n", invariant.is_event() ? "event" : "invariant",
+                        invariant.name, to_text(invariant.value));
   }
   return text;
 }

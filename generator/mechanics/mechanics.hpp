@@ -28,6 +28,10 @@ struct NamedExpression {
   Expression value;
   bool only_observed = false;  // an "invariant" that need not be conserved
   std::string comment = {};    // of its author
+  // Of an event, which is looked for where the value crosses zero: the directions that count.
+  bool rising = false, falling = false;
+
+  [[nodiscard]] bool is_event() const { return rising || falling; }
 };
 
 // A summand of H as it was written.

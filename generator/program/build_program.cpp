@@ -99,9 +99,11 @@ Program build_program(const SolvePlan& plan) {
   }
   program.sequence = sequence_of(plan.equations.scheme);
   std::vector<Expression> invariants;
-  for (const NamedExpression& invariant : mechanics.invariants)
-    invariants.push_back(invariant.value);
+  std::vector<Expression> events;
+  for (const NamedExpression& each : mechanics.invariants)
+    (each.is_event() ? events : invariants).push_back(each.value);
   program.invariants = evaluate_together(invariants);
+  program.events = evaluate_together(events);
   return program;
 }
 

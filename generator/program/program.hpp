@@ -69,6 +69,7 @@ struct Program {
   Evaluation energy;    // one result
   Evaluation gradient;  // 2n results
   Evaluation invariants;
+  Evaluation events = {};  // the values whose zeros they are
   // The modified Hamiltonian, functions of h too: H + ... cut off after each of these powers of h.
   Evaluation modified_energies = {};
   std::vector<int> modified_powers = {};

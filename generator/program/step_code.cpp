@@ -9,6 +9,7 @@
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_member.hpp"
 #include "generator/program/method_tangents.hpp"
+#include "generator/program/names.hpp"
 #include "generator/program/origins.hpp"
 #include "generator/program/plain_sums.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
@@ -42,10 +43,23 @@ Routine modified_energies(const Environment& environment, const Program& program
 Routine invariants(const Environment& environment, const Program& program) {
   std::string list;
   for (const NamedExpression& i : program.plan.equations.mechanics.invariants) {
-    list += (list.empty() ? "" : ", ") + i.name;
+    if (!i.is_event()) list += (list.empty() ? "" : ", ") + i.name;
   }
   return with_remark(values_routine(environment, "invariants", program.invariants),
                      "The model's invariants: " + list + ".");
+}
+
+void add_events(StepCode& code, const Environment& environment, const Program& program) {
+  std::string list;
+  for (const NamedExpression& each : program.plan.equations.mechanics.invariants) {
+    if (!each.is_event()) continue;
+    const char* direction = each.rising && each.falling ? "" : each.rising ? " rising" : " falling";
+    list += (list.empty() ? "" : ", ") + each.name + direction;
+    code.events.push_back({member_identifier(each.name), each.rising, each.falling});
+  }
+  if (code.events.empty()) return;
+  code.routines.push_back(with_remark(values_routine(environment, "events", program.events),
+                                      "Values whose zeros are the events: " + list + "."));
 }
 
 // What is remembered from step to step.
@@ -275,9 +289,10 @@ StepCode step_code(const Program& program) {
   } else {
     add_functions(code, environment, program);
   }
-  if (!equations.mechanics.invariants.empty()) {
+  if (!program.invariants.results.empty()) {
     code.routines.push_back(invariants(environment, program));
   }
+  add_events(code, environment, program);
   if (std::holds_alternative<Splitting>(scheme.method)) {
     add_splitting(code, environment, program);
   } else if (scheme.has_member()) {
@@ -308,7 +323,7 @@ std::string routines_as_text(const StepCode& code, const Text& text_of) {
   std::string text;
   for (const Record& record : code.records) text += to_text(record);
   std::set<std::string> wanted;
-  for (const char* name : {"energy", "invariants", "prepare", "solve", "tangent"}) {
+  for (const char* name : {"energy", "invariants", "events", "prepare", "solve", "tangent"}) {
     wanted.merge(callees(code, name));
   }
   for (const Routine& routine : code.routines) {

@@ -17,6 +17,12 @@ struct RuleOfNewton {
   int count = 0;
 };
 
+// An event of the model, which is where its value crosses zero in a direction that counts.
+struct EventName {
+  std::string name;  // free in C++
+  bool rising = true, falling = true;
+};
+
 // A step is
 //
 //   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
@@ -35,7 +41,8 @@ struct StepCode {
   std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
   std::vector<Place> changed;              // fields of State that a step may change
   std::vector<std::string>
-      parameters;  // in the order of their record; E0 last, if the step uses it
+      parameters;                      // in the order of their record; E0 last, if the step uses it
+  std::vector<EventName> events = {};  // in the order of the values of the routine "events"
 
   // Does solve leave what is small of an increment in `rest`?
   [[nodiscard]] bool has_rest() const { return solve_takes("rest"); }

@@ -24,7 +24,8 @@ constexpr std::string_view kBlockNames[] = {
     "Verdict",          "NewtonRule",        "FixedPointRule",
     "Distance",         "ImpatientRule",     "SimplifiedNewtonRule",
     "Refinement",       "History",           "forget",
-    "ContractionRule",  "WaitingNewtonRule"};
+    "ContractionRule",  "WaitingNewtonRule", "CrossingList",
+    "cubic_between",    "find_crossings"};
 
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });

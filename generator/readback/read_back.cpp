@@ -8,6 +8,7 @@
 #include "generator/base/numerics_text.hpp"
 #include "generator/program/environment.hpp"
 #include "generator/readback/c_file.hpp"
+#include "generator/readback/event_shell.hpp"
 #include "generator/readback/findings.hpp"
 #include "generator/readback/fixed_text.hpp"
 #include "generator/readback/plugin_interface.hpp"
@@ -54,16 +55,18 @@ InterfaceLists named_values(const Program& program, const Environment& environme
   return lists;
 }
 
-ShellFacts facts_of(const Program& program, const StepCode& code) {
-  return {code, program.plan.arrays.has_value(), time_field(program),
-          static_cast<int>(program.modified_powers.size())};
-}
-
 // "q", "q[2]": places in a record.
 std::vector<std::string> place_texts(const std::vector<Place>& places) {
   std::vector<std::string> texts;
   for (const Place& place : places) texts.push_back(to_text(place).substr(1));
   return texts;
+}
+
+ShellFacts facts_of(const Program& program, const StepCode& code) {
+  const bool arrays = program.plan.arrays.has_value();
+  const Environment environment = environment_of(program.plan.equations, arrays);
+  return {code, arrays, time_field(program), static_cast<int>(program.modified_powers.size()),
+          place_texts(environment.state_layout.places)};
 }
 
 // A header or a plugin.
@@ -140,7 +143,7 @@ class FileReader {
         .space = method_,
         .degrees_of_freedom = mechanics.degrees_of_freedom,
         .parameters = place_texts(environment.parameter_layout.places),
-        .state = place_texts(environment.state_layout.places),
+        .state = facts_.state,
         .invariants = static_cast<int>(mechanics.invariants.size()),
         .named = named_values(program_, environment),
         .tangent = seen_.contains("tangent"),
@@ -193,7 +196,8 @@ class FileReader {
   void read_item(const Section& section) {
     const CppToken& first = cursor_.peek();
     if (first.is("struct")) return read_struct(section);
-    if (first.is("class")) return once("Propagator", propagator_pattern(facts_));
+    if (first.is("class")) return read_class();
+    if (first.is("enum") && has_events()) return once("Event", event_pattern(facts_));
     if (first.is("namespace")) {
       return expect(fmt::format("namespace numerics = ::hamgen_{}::{};", digest_, precision_.space),
                     "the name of the fixed blocks");
@@ -202,6 +206,14 @@ class FileReader {
     if (first.is("using")) return read_using();
     if (first.is("inline") && cursor_.peek(1).is("constexpr")) return read_constant();
     read_routine();
+  }
+
+  [[nodiscard]] bool has_events() const { return !code_.events.empty(); }
+
+  void read_class() {
+    if (has_events() && cursor_.peek(1).is("WatchedPropagator"))
+      return once("WatchedPropagator", watched_propagator_pattern(facts_));
+    once("Propagator", propagator_pattern(facts_));
   }
 
   void read_using() {
@@ -230,6 +242,7 @@ class FileReader {
     const std::string name = cursor_.peek(1).text;
     const int line = cursor_.line();
     if (name == "Order") return read_matrix();
+    if (name == "Crossing" && has_events()) return once("Crossing", crossing_pattern());
     if (name == "Parameters") return read_parameters(section);
     if (name == "Folded") {
       const std::vector<Quantity>& constants = program_.plan.equations.mechanics.constants;
@@ -304,8 +317,9 @@ class FileReader {
       if (code_.record(name) != nullptr) wanted.insert(name);
     }
     for (const char* name :
-         {"energy", "gradient", "invariants", "modified_energies", "prepare", "solve"})
+         {"energy", "gradient", "invariants", "events", "modified_energies", "prepare", "solve"})
       wanted.merge(callees(code_, name));
+    if (has_events()) wanted.insert({"Event", "Crossing", "WatchedPropagator"});
     if (seen_.contains("tangent")) wanted.merge(callees(code_, "tangent"));
     if (facts_.arrays) wanted.insert({"n", "gradient of a state"});
     if (facts_.modified > 0) wanted.insert("modified_energy");

@@ -9,9 +9,10 @@ namespace hamgen {
 
 struct ShellFacts {
   const StepCode& code;
-  bool arrays = false;  // is the state two arrays of n?
-  std::string time;     // the field of State that is the time; empty: there is none
-  int modified = 0;     // how many modified energies there are
+  bool arrays = false;                  // is the state two arrays of n?
+  std::string time;                     // the field of State that is the time; empty: there is none
+  int modified = 0;                     // how many modified energies there are
+  std::vector<std::string> state = {};  // places of z_1..z_2n in State: "q", "q[2]"
 };
 
 // Its name and base are not part of it: "{ Real eps = 0.1; ... };"

@@ -4,8 +4,9 @@
 namespace hamgen {
 
 Model observed(Model model, const SceneValues& scene) {
-  std::erase_if(model.invariants,
-                [&scene](const Invariant& each) { return !observes(scene, each.name); });
+  std::erase_if(model.invariants, [&scene](const Invariant& each) {
+    return !each.is_event() && !observes(scene, each.name);
+  });
   for (const auto* formulas : {&scene.formulas, &scene.watched}) {
     for (const ObservedFormula& formula : *formulas) {
       model.invariants.push_back({.name = formula.name,

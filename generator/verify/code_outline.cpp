@@ -273,7 +273,7 @@ class Outline {
 
 }  // namespace
 
-std::vector<CodeEvent> outline(const StepCode& code, const std::string& left_out) {
+std::vector<CodeEvent> outline(const StepCode& code, const std::set<std::string>& left_out) {
   Outline lines(&code);
   for (const Record& record : code.records) {
     lines.word("record " + record.name);
@@ -291,7 +291,7 @@ std::vector<CodeEvent> outline(const StepCode& code, const std::string& left_out
     }
   }
   for (const Routine& routine : code.routines) {
-    if (routine.name == left_out) continue;
+    if (left_out.contains(routine.name)) continue;
     lines.begin(routine);
     lines.run(routine.body);
   }

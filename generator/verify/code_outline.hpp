@@ -2,6 +2,7 @@
 // stand by themselves: two sizes of one system are compared by it.
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,7 +33,8 @@ struct CodeEvent {
 };
 
 // All but `left_out`.
-[[nodiscard]] std::vector<CodeEvent> outline(const StepCode& code, const std::string& left_out);
+[[nodiscard]] std::vector<CodeEvent> outline(const StepCode& code,
+                                             const std::set<std::string>& left_out);
 [[nodiscard]] std::vector<CodeEvent> outline(const std::vector<Kernel>& kernels);
 
 }  // namespace hamgen

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "generator/mechanics/modified_hamiltonian.hpp"
 #include "generator/verify/growth.hpp"
@@ -138,12 +140,18 @@ void add_corners(const std::vector<Corner>& more, std::vector<Corner>& all) {
   }
 }
 
+// And of the events.
 std::vector<Identities> invariant_identities(const StepUnderProof& step) {
   std::vector<Expression> invariants;
-  for (const NamedExpression& invariant : step.mechanics.invariants)
-    invariants.push_back(invariant.value);
-  if (invariants.empty()) return {};
-  return {values_identities(step, "invariants", "values", "invariant", invariants)};
+  std::vector<Expression> events;
+  for (const NamedExpression& each : step.mechanics.invariants)
+    (each.is_event() ? events : invariants).push_back(each.value);
+  std::vector<Identities> parts;
+  if (!invariants.empty())
+    parts.push_back(values_identities(step, "invariants", "values", "invariant", invariants));
+  if (!events.empty())
+    parts.push_back(values_identities(step, "events", "values", "event", events));
+  return parts;
 }
 
 std::vector<Identities> all_identities(const StepUnderProof& step, const Program& program,
@@ -207,9 +215,10 @@ std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const S
                        {second.size, outline(second.mechanics.kernels)},
                        {size, outline(mechanics.kernels)}}});
   if (why) return why;
-  return why_not_longer({{{first.size, outline(step_code(first.program), "invariants")},
-                          {second.size, outline(step_code(second.program), "invariants")},
-                          {size, outline(code, "invariants")}}});
+  const std::set<std::string> whole = {"invariants", "events"};
+  return why_not_longer({{{first.size, outline(step_code(first.program), whole)},
+                          {second.size, outline(step_code(second.program), whole)},
+                          {size, outline(code, whole)}}});
 }
 
 namespace {

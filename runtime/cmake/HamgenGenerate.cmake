@@ -4,7 +4,7 @@ hamgen_generate(TARGET target MODEL model.ham
                 [GAUGE locally-exact or C] [REFERENCE NAME=VALUE,...]
                 [SOLVER name] [SCALAR type] [FOLD parameter...] [SIZES NAME=N...]
                 [SCENE name] [SET NAME=VALUE...] [INITIAL NAME=VALUE...] [OBSERVE list]
-                [WHOLE] [KEEP name...] [PLAIN_SUMS] [TANGENT] [WATCH_MODIFIED k]
+                [WHOLE] [KEEP name...] [PLAIN_SUMS] [TANGENT] [EVENTS] [WATCH_MODIFIED k]
                 [REQUIRE list] [FORMAT cpp-header, c-header or cpp-plugin]
                 [NAMESPACE name] [SUPPORT own or shared] [PREFIX folder])
 
@@ -37,7 +37,7 @@ endif()
 function(hamgen_generate)
   set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE SUPPORT
                 SCENE OBSERVE WATCH_MODIFIED REQUIRE FORMAT PREFIX)
-  set(flags PLAIN_SUMS TANGENT WHOLE)
+  set(flags PLAIN_SUMS TANGENT EVENTS WHOLE)
   cmake_parse_arguments(PARSE_ARGV 0 arg "${flags}" "${one_value}" "FOLD;SIZES;SET;INITIAL;KEEP")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hamgen_generate: unexpected ${arg_UNPARSED_ARGUMENTS}")

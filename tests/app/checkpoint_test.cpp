@@ -1,19 +1,14 @@
 // hamgen run --checkpoint and --resume: bit for bit the run that nobody interrupted.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <thread>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
-
-extern char** environ;
 
 namespace hamgen::app_test {
 namespace {
@@ -103,6 +98,17 @@ TEST(CheckpointLong, KeepsWhatStepsRemember) {
   keeps_what_steps_remember(chain, {"--set", "N=40"});
 }
 
+TEST(Checkpoint, OfARunOutOfTimeSaysWhereItsRowsAreAndHowToGoOn) {
+  const Scratch scratch;
+  const Result result =
+      hamgen({"run", scratch.write("pendulum.ham", pendulum), "--steps", "1e12", "--every", "1e6",
+              "--seconds", "0.01", "-o", scratch.path("x.csv"), "--checkpoint", scratch.path("c")});
+  EXPECT_EQ(result.status, 6) << result.err;
+  EXPECT_TRUE(contains(result.out + result.err, "x.csv.part, ")) << result.out << result.err;
+  EXPECT_TRUE(contains(result.err, "--resume " + scratch.path("c") + " goes on")) << result.err;
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"c", "pendulum.ham", "x.csv.part"}));
+}
+
 // The negative control: from the state alone, even with all its digits, it is another run.
 TEST(Checkpoint, IsMoreThanTheState) {
   const Scratch scratch;
@@ -123,24 +129,10 @@ void kill_runs_often(int kills) {
   std::mt19937 random(1);
   int met = 0;
   while (met < kills) {
-    std::vector<std::string> words = run.command();
-    words.insert(words.begin(), HAMGEN_EXECUTABLE);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t process = 0;
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
-    ASSERT_EQ(
-        posix_spawn(&process, HAMGEN_EXECUTABLE, &actions, nullptr, arguments.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 120000));
-    ::kill(process, SIGKILL);
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
-    met += WIFSIGNALED(status) ? 1 : 0;
+    const int status =
+        status_if_killed(run.command(), std::chrono::microseconds(random() % 120000));
+    ASSERT_TRUE(status == 128 + SIGKILL || status == 0);
+    met += status == 128 + SIGKILL ? 1 : 0;
     const bool is_done = std::filesystem::exists(run.scratch().path("x.csv")) &&
                          !std::filesystem::exists(run.scratch().path("c"));
     if (!is_done) continue;

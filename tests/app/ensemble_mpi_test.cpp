@@ -1,14 +1,8 @@
 // hamgen-mpi: the same bytes from any number of processes, and after one of them is lost.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
-
-extern char** environ;
 
 namespace hamgen::app_test {
 namespace {
@@ -28,19 +22,7 @@ int mpi(const Scratch& scratch, int ranks, std::vector<std::string> words,
                                          std::to_string(ranks),
                                          HAMGEN_MPI_EXECUTABLE};
   words.insert(words.begin(), head.begin(), head.end());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const std::string err = scratch.path("err");
-  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t process = 0;
-  EXPECT_EQ(posix_spawn(&process, "/usr/bin/env", &actions, nullptr, arguments.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return status_of(words, scratch.path("err"));
 }
 
 std::vector<std::string> words_of(const Scratch& scratch, const std::string& output) {

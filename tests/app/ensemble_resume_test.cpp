@@ -1,20 +1,13 @@
 // hamgen ensemble --resume: whatever ended a command, the next ones do exactly what is missing.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
 #include <random>
-#include <thread>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
-
-extern char** environ;
 
 namespace hamgen::app_test {
 namespace {
@@ -86,26 +79,12 @@ void kill_often(int kills) {
   const Scratch scratch;
   const std::string whole = uninterrupted(scratch);
   std::mt19937 random(1);
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(hamgen(command(scratch, "time.csv")).status, 0);
-  const auto length = std::chrono::duration_cast<std::chrono::microseconds>(
-      std::chrono::steady_clock::now() - begin);
   int met = 0;
-  for (int round = 0; met < kills; ++round) {
-    std::vector<std::string> words = with(command(scratch, "x.csv"), {"--resume"});
-    words.insert(words.begin(), HAMGEN_EXECUTABLE);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t process = 0;
-    ASSERT_EQ(posix_spawn(&process, HAMGEN_EXECUTABLE, nullptr, nullptr, arguments.data(), environ),
-              0);
-    std::this_thread::sleep_for(length * static_cast<long>(random() % 1000) / 1000);
-    ::kill(process, SIGKILL);
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    met += WIFSIGNALED(status) ? 1 : 0;
-    ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
+  while (met < kills) {
+    const int status = status_if_killed(with(command(scratch, "x.csv"), {"--resume"}),
+                                        std::chrono::microseconds(random() % 150000));
+    met += status == 128 + SIGKILL ? 1 : 0;
+    ASSERT_TRUE(status == 128 + SIGKILL || status == 0);
     if (std::filesystem::exists(scratch.path("x.csv"))) {
       // Whole, or not there; once in a while it begins anew.
       ASSERT_EQ(read(scratch.path("x.csv")), whole);

@@ -1,6 +1,7 @@
 // Runs the hamgen executable as a user would, without a shell in between or with one.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -21,6 +22,13 @@ struct Result {
 
 // A command line for the shell, which finds this hamgen first.
 [[nodiscard]] Result shell(const std::string& command, const std::string& working_directory = ".");
+// The exit status of a program, a path and its words, or 128 + signal; what it says of mistakes goes
+// into the file.
+[[nodiscard]] int status_of(const std::vector<std::string>& words, const std::string& err);
+
+// That of the command if it is killed so long after its beginning: 128 + SIGKILL where that met it.
+[[nodiscard]] int status_if_killed(const std::vector<std::string>& arguments,
+                                   std::chrono::microseconds after);
 
 // A directory that is removed at the end of the test.
 class Scratch {

@@ -47,6 +47,20 @@ TEST(Documentation, TheProgramOfTwoMethodsRuns) {
   EXPECT_EQ(run_program(program), "");
 }
 
+TEST(Documentation, TheProgramWithEventsRuns) {
+  std::string program = program_of("/docs/emitted-code.md", 2);
+  const std::string text = read(documented_root + "/docs/emitted-code.md");
+  const auto from = text.find("```ham\n") + 7;
+  const SourceText model =
+      make_source("ball.ham", text.substr(from, text.find("```\n", from) - from));
+  const auto at = program.find("#include \"ball.hpp\"");
+  ASSERT_NE(at, std::string::npos);
+  const auto end = program.find('\n', at) + 1;
+  program.replace(at, end - at, without_pragma(generate(model, {.events = true}).at(0).text));
+  // p^2/(2 g), which a step of a quadratic H conserves.
+  EXPECT_EQ(run_program(program), "5.096840 m\n2.04 s\n");
+}
+
 TEST(Documentation, TheProgramInCCompiles) {
   const std::string text = read(documented_root + "/docs/emitted-code.md");
   const auto from = text.find("```c\n") + 5;

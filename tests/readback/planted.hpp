@@ -20,6 +20,10 @@ inline const std::string kRational =
 inline const std::string kNonseparable =
     "coordinate q, r\nmomentum p, s\nH = (p^2 + s^2)*(1 + q^2 + r^2)/2 + q*r*p/5\n";
 
+inline const std::string kWithEvents =
+    "coordinate q\nmomentum p\nparameter line = 1/2\nH = p^2/2 - cos(q)\n"
+    "event right = q - line rising\nevent top = p\n";
+
 inline SourceText source_of(const std::string& model) {
   if (model.find('\n') != std::string::npos) return make_source("system.ham", model);
   return read_source(HAMGEN_SOURCE_DIR "/hamiltonians/" + model + ".ham");
@@ -43,7 +47,7 @@ inline Emitted emitted(const std::string& model, const Request& request) {
   const PluginSource plugin = generate_plugin(source, request);
   std::string text = plugin.header.text;
   if (request.format == "cpp-plugin") text = plugin.text;
-  if (request.format == "c-header") text = generate(source, request).at(0).text;
+  if (request.format == "c-header" || request.events) text = generate(source, request).at(0).text;
   return {run_stages(source, request), request.scalar, std::move(text), request.step};
 }
 

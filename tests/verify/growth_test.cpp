@@ -33,7 +33,7 @@ SizedSystem system_of(const std::string& text, long size, const std::string& sch
 }
 
 SizedOutline routines(const SizedSystem& system) {
-  return {system.size, outline(step_code(system.program), "invariants")};
+  return {system.size, outline(step_code(system.program), {"invariants"})};
 }
 SizedOutline kernels(const SizedSystem& system) {
   return {system.size, outline(system.mechanics.kernels)};
@@ -92,7 +92,7 @@ TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
     const auto refuse = [&](const std::vector<verify_test::Mutant>& list) {
       for (const verify_test::Mutant& mutant : list) {
         const auto why =
-            why_not_longer({{first, second, {60, outline(mutant.code, "invariants")}}});
+            why_not_longer({{first, second, {60, outline(mutant.code, {"invariants"})}}});
         EXPECT_TRUE(why || computes_the_same(code, mutant.code))
             << scheme << ", " << mutant.kind << ": " << mutant.description;
         ++mutants;
