@@ -14,14 +14,12 @@ class DenseMatrix {
   Mask factorise() {
     Mask regular = true;
     for (int c = 0; c < size; ++c) {
+      Mask small = false;
       for (int r = c + 1; r < size; ++r) {
-        const Mask larger = magnitude(entry_[r][c]) > magnitude(entry_[c][c]);
-        exchanged_[c][r] = larger;
-        exchanges_[c][r] = any(larger);
-        for (int j = 0; exchanges_[c][r] && j < size; ++j) {
-          exchange(larger, entry_[c][j], entry_[r][j]);
-        }
+        small = small | (magnitude(entry_[r][c]) > magnitude(entry_[c][c]));
       }
+      pivots_[c] = any(small);
+      if (pivots_[c]) bring_largest(c);
       regular = regular & (magnitude(entry_[c][c]) > 0);
       const Real reciprocal = 1 / entry_[c][c];
       for (int r = c + 1; r < size; ++r) {
@@ -34,8 +32,8 @@ class DenseMatrix {
   }
   void solve(Real (&vector)[size]) const {
     for (int c = 0; c < size; ++c) {
-      for (int r = c + 1; r < size; ++r) {
-        if (exchanges_[c][r]) exchange(exchanged_[c][r], vector[c], vector[r]);
+      for (int r = c + 1; pivots_[c] && r < size; ++r) {
+        exchange(exchanged_[c][r], vector[c], vector[r]);
       }
     }
     for (int r = 0; r < size; ++r) {
@@ -48,6 +46,13 @@ class DenseMatrix {
   }
 
  private:
+  // In each lane the largest entry of the column becomes its pivot.
+  void bring_largest(int c) {
+    for (int r = c + 1; r < size; ++r) {
+      exchanged_[c][r] = magnitude(entry_[r][c]) > magnitude(entry_[c][c]);
+      for (int j = 0; j < size; ++j) exchange(exchanged_[c][r], entry_[c][j], entry_[r][j]);
+    }
+  }
   static void exchange(const Mask& lanes, Real& a, Real& b) {
     const Real kept = a;
     a = select(lanes, b, a);
@@ -55,6 +60,6 @@ class DenseMatrix {
   }
 
   Real entry_[size][size] = {};
-  Mask exchanged_[size][size] = {};
-  bool exchanges_[size][size] = {};  // in any lane
+  Mask exchanged_[size][size];  // of columns with
+  bool pivots_[size] = {};      // exchanges in some lane
 };
