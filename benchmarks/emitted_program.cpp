@@ -52,7 +52,8 @@ std::string emitted_header(const std::string& model, Request request, const std:
   return generate(make_source("benchmark.ham", model), request).at(0).text;
 }
 
-std::string output_of_program(const std::vector<ProgramFile>& headers, const std::string& program) {
+std::string output_of_program(const std::vector<ProgramFile>& headers, const std::string& program,
+                              const std::vector<std::string>& flags) {
   const Directory directory;
   runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
                                   .working_directory = directory.path(),
@@ -61,6 +62,7 @@ std::string output_of_program(const std::vector<ProgramFile>& headers, const std
                            "-isystem", "/usr/include/eigen3"}) {
     compile.command.emplace_back(flag);
   }
+  compile.command.insert(compile.command.end(), flags.begin(), flags.end());
   for (const ProgramFile& header : headers) {
     std::ofstream(directory.path() / header.name) << header.text;
     compile.command.insert(compile.command.end(), {"-include", header.name});

@@ -17,9 +17,10 @@ struct ProgramFile {
 [[nodiscard]] std::string emitted_header(const std::string& model, Request request,
                                          const std::string& scalar, const std::string& name_space);
 
-// What program.cpp prints, the headers included before it in their order.  Throws
-// std::runtime_error with the compiler's or the program's words.
+// What program.cpp prints, the headers included before it in their order, with more flags at the
+// end of those there are.  Throws std::runtime_error with the compiler's or the program's words.
 [[nodiscard]] std::string output_of_program(const std::vector<ProgramFile>& headers,
-                                            const std::string& program);
+                                            const std::string& program,
+                                            const std::vector<std::string>& flags = {});
 
 }  // namespace hamgen

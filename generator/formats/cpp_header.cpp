@@ -212,7 +212,7 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
 std::string cpp_header(const Program& program, const EmitOptions& options) {
   const std::unique_ptr<Dialect> dialect = dialect_of(program, options);
   EmitContext context(program, options, *dialect);
-  if (options.lanes > 0) require_lanes(context);
+  if (options.lanes > 0) use_lanes(context);
   return file_text(context, "#pragma once");
 }
 

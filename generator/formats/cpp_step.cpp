@@ -11,10 +11,10 @@ namespace {
 std::string initial_value(const Field& field, const ScalarType& scalar) {
   std::string values;
   for (const Rational& value : field.values) {
-    const std::string text = field.type == "int"    ? value.get_str()
-                             : field.type != "bool" ? literal(value, scalar)
-                             : value == 0           ? "false"
-                                                    : "true";
+    const std::string text = field.type == "int"                            ? value.get_str()
+                             : field.type != "bool" && field.type != "Mask" ? literal(value, scalar)
+                             : value == 0                                   ? "false"
+                                                                            : "true";
     values += (values.empty() ? "" : ", ") + text;
   }
   if (!field.sizes.empty()) return " = {" + values + "}";

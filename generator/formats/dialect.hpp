@@ -31,6 +31,8 @@ class Dialect {
   [[nodiscard]] virtual std::string function(const std::string& name) const = 0;
   // Is a number a pack of as many as there are trajectories?
   [[nodiscard]] virtual bool has_lanes() const { return false; }
+  // Names that its routines use besides and a local must not have.
+  [[nodiscard]] virtual std::vector<std::string> taken_names() const { return {}; }
   // What the program calls a record or a routine, and what a block calls a function.
   [[nodiscard]] virtual std::string record(const std::string& name) const = 0;
   [[nodiscard]] virtual std::string routine(const std::string& name) const = 0;

@@ -1,6 +1,7 @@
 // C++ in which a number is a pack: one number of each of W trajectories.
 #pragma once
 
+#include "generator/algebra/functions.hpp"
 #include "generator/formats/cpp_dialect.hpp"
 
 namespace hamgen {
@@ -16,6 +17,12 @@ class LanesDialect : public CppDialect {
     // Those of both are exactly rounded.
     const bool same = name == "sqrt" || name == "abs";
     return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+  }
+  [[nodiscard]] std::vector<std::string> taken_names() const override {
+    std::vector<std::string> names = {"Mask",    "any",           "select",         "moving",
+                                      "library", "end_iteration", "require_finite", "lane_pow"};
+    for (const Function& row : all_functions()) names.push_back("lane_" + std::string(row.name));
+    return names;
   }
   // A pack is handed on by reference: as a value it is handed on otherwise by the instructions of
   // every machine.

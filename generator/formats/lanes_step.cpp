@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
+#include <utility>
 #include <variant>
 
 #include "generator/base/diagnostic.hpp"
@@ -16,15 +18,14 @@ namespace {
 std::string without_lanes(const Body& body) {
   for (const Instruction& instruction : body) {
     const auto& value = instruction.value;
-    if (std::holds_alternative<Iterate>(value) || std::holds_alternative<IterateArray>(value) ||
-        std::holds_alternative<Refine>(value) || std::holds_alternative<RefineArray>(value) ||
-        std::holds_alternative<Alternate>(value)) {
-      return "iterations";
+    const auto* iterate = std::get_if<Iterate>(&value);
+    const bool fixed_point = iterate != nullptr && iterate->rule != Rule::newton;
+    if (fixed_point || std::holds_alternative<Refine>(value) ||
+        std::holds_alternative<RefineArray>(value) || std::holds_alternative<Alternate>(value)) {
+      return "a fixed-point iteration";
     }
-    if (std::holds_alternative<Matrix>(value) || std::holds_alternative<Factorise>(value) ||
-        std::holds_alternative<SolveFactorised>(value) || std::holds_alternative<Invert>(value)) {
-      return "eliminations";
-    }
+    if (std::holds_alternative<IterateArray>(value)) return "an iteration of arrays";
+    if (std::holds_alternative<Invert>(value)) return "the inverse of a matrix";
     for (const Body* inner : inner_bodies(instruction)) {
       const std::string found = without_lanes(*inner);
       if (!found.empty()) return found;
@@ -83,8 +84,15 @@ class LaneStepWriter {
     out_.indent();
   }
 
-  // With what the arguments are called there.
-  [[nodiscard]] std::string solve(const std::map<std::string, std::string>& names) const {
+  // Arguments of solve that are called otherwise where it is called.
+  using CallNames = std::map<std::string, std::string>;
+
+  // What is large has its place in the Propagator.
+  [[nodiscard]] std::string room(const std::string& name) const {
+    return large_ ? name + "_" : name;
+  }
+
+  [[nodiscard]] std::string solve(const CallNames& names) const {
     std::string list;
     for (const Argument& argument : code_.routine("solve")->arguments) {
       const auto found = names.find(argument.name);
@@ -103,6 +111,53 @@ class LaneStepWriter {
       return out_.close();
     }
     for (const Place& place : code_.changed) out_.line(line(to_text(place).substr(1)));
+  }
+
+  // The report of one solve; where it starts from what is known of earlier steps, and lanes fail,
+  // it is tried again in these.
+  void write_solve(const CallNames& names, const std::string& history) {
+    if (code_.unknowns == 0) return out_.line("StepReport report = " + solve(names) + ";");
+    const std::string& start = names.at("start");
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("{}.{}.stopped = !running_;", start, rule.name));
+    }
+    out_.line(fmt::format("{}.known = {}.known > 0;", start, history));
+    out_.line(fmt::format("{}.extrapolate({}.value);", history, start));
+    out_.line("StepReport report = " + solve(names) + ";");
+    out_.line(fmt::format("const Mask astray = running_ & {}.known & !report.converged;", start));
+    out_.open("if (any(astray))");
+    out_.line("// Extrapolation may lead astray, the state itself seldom does.");
+    write_solve_again(names);
+    out_.close();
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("{0}.{1}.watch({2}, {0}.value, {3}, {4});", start, rule.name, history,
+                            rule.first, rule.count));
+    }
+    out_.line(fmt::format("{}.record({}.value);", history, start));
+  }
+
+  void write_solve_again(CallNames names) {
+    const std::string start = std::exchange(names["start"], "again");
+    const std::string dz = std::exchange(names["dz"], "dz_again");
+    const std::string rest = std::exchange(names["rest"], "rest_again");
+    out_.line("Start again;");
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("again.{}.stopped = !astray;", rule.name));
+    }
+    out_.line(rest_ ? "State dz_again, rest_again;" : "State dz_again;");
+    out_.line(fmt::format("take_lanes(astray, report, {});", solve(names)));
+    write_each([&](const std::string& x) {
+      return fmt::format("take_lanes(astray, {0}.{1}, dz_again.{1});", dz, x);
+    });
+    if (rest_) {
+      write_each([&](const std::string& x) {
+        return fmt::format("take_lanes(astray, {0}.{1}, rest_again.{1});", rest, x);
+      });
+    }
+    out_.line(fmt::format("take_lanes(astray, {}.value, again.value);", start));
+    for (const RuleOfNewton& rule : code_.rules) {
+      out_.line(fmt::format("take_lanes(astray, {0}.{1}, again.{1});", start, rule.name));
+    }
   }
 
   void write_constructor() {
@@ -132,26 +187,18 @@ class LaneStepWriter {
     out_.line("// One step of the lanes that are running.");
     out_.open("StepReport step()");
     if (!large_) out_.line(rest_ ? "State dz, rest;" : "State dz;");
-    const std::string dz = large_ ? "dz_" : "dz";
-    const std::string rest = large_ ? "rest_" : "rest";
-    out_.line("StepReport report = " +
-              solve({{"par", "par_"},
-                     {"k", "k_"},
-                     {"h", "h_"},
-                     {"z", "z_"},
-                     {"carry", "carry_"},
-                     {"start", "start_"},
-                     {"dz", dz},
-                     {"rest", rest}}) +
-              ";");
+    const CallNames names = {{"par", "par_"},    {"k", "k_"},           {"h", "h_"},
+                             {"z", "z_"},        {"carry", "carry_"},   {"start", "start_"},
+                             {"dz", room("dz")}, {"rest", room("rest")}};
+    write_solve(names, "history_");
     out_.line("stop_failed(running_, report);");
     write_each([&](const std::string& x) {
       if (!carry_)
-        return fmt::format("z_.{0} = select(running_, z_.{0} + {1}.{0}, z_.{0});", x, dz);
+        return fmt::format("z_.{0} = select(running_, z_.{0} + {1}.{0}, z_.{0});", x, room("dz"));
       return fmt::format(
           fmt::runtime(rest_ ? "move_lanes(running_, z_.{0}, carry_.{0}, {1}.{0}, {2}.{0});"
                              : "move_lanes(running_, z_.{0}, carry_.{0}, {1}.{0});"),
-          x, dz, rest);
+          x, room("dz"), room("rest"));
     });
     write_count();
     out_.line("return report;");
@@ -186,26 +233,19 @@ class LaneStepWriter {
   }
 
   void write_substep() {
-    const std::string dz = large_ ? "dz_" : "dz";
-    const std::string rest = large_ ? "rest_" : "rest";
     out_.line(carry_ ? "// Substep i from z + carry." : "// Substep i.");
     out_.open(carry_ ? "StepReport substep(int i, State& z, State& carry)"
                      : "StepReport substep(int i, State& z)");
     if (!large_) out_.line(rest_ ? "State dz, rest;" : "State dz;");
-    out_.line("const StepReport report = " +
-              solve({{"par", "par_"},
-                     {"k", "k_[i]"},
-                     {"h", "lengths_[i]"},
-                     {"start", "start_[i]"},
-                     {"dz", dz},
-                     {"rest", rest}}) +
-              ";");
+    const CallNames names = {{"par", "par_"},        {"k", "k_[i]"},     {"h", "lengths_[i]"},
+                             {"start", "start_[i]"}, {"dz", room("dz")}, {"rest", room("rest")}};
+    write_solve(names, "history_[i]");
     write_each([&](const std::string& x) {
-      if (!carry_) return fmt::format("z.{0} += {1}.{0};", x, dz);
+      if (!carry_) return fmt::format("z.{0} += {1}.{0};", x, room("dz"));
       return fmt::format(
           fmt::runtime(rest_ ? "two_sum_with_rest(z.{0}, carry.{0}, {1}.{0}, {2}.{0});"
                              : "two_sum(z.{0}, carry.{0}, {1}.{0});"),
-          x, dz, rest);
+          x, room("dz"), room("rest"));
     });
     out_.line("return report;");
     out_.close();
@@ -240,12 +280,20 @@ StepReport advance(long long steps) {
     if (carry_) out_.line("carry_ = State();");
     if (!has_time_) out_.line("steps_ = 0;");
     if (start_) write_start_anew();
+    if (code_.unknowns > 0) {
+      out_.line(composed_ ? "for (auto& history : history_) forget(history);"
+                          : "forget(history_);");
+    }
     out_.line("running_ = true;");
     out_.close();
   }
 
   // What decides how the next step begins; numbers are filled before they are read.
   void write_start_anew() {
+    if (code_.unknowns > 0) {
+      return out_.line(composed_ ? "for (Start& start : start_) start = Start();"
+                                 : "start_ = Start();");
+    }
     for (const Field& field : code_.record("Start")->fields) {
       if (field.type != "bool") continue;
       out_.line(fmt::format(fmt::runtime(composed_ ? "for (Start& start : start_) start.{} = false;"
@@ -285,6 +333,9 @@ StepReport advance(long long steps) {
     if (composed_) out_.line("Real lengths_[substeps] = {};");
     if (coefficients_) out_.line(fmt::format("Coefficients k_{};", each));
     if (start_) out_.line(fmt::format("Start start_{};", each));
+    if (code_.unknowns > 0) {
+      out_.line(fmt::format("History<{}> history_{};", code_.unknowns, each));
+    }
     if (large_) out_.line(rest_ ? "State dz_, rest_;" : "State dz_;");
   }
 
@@ -315,7 +366,7 @@ void refuse_lanes(const EmitOptions& options, std::string_view what) {
       fmt::format("--batch: {} has no lanes\nhelp: --format cpp-header or cmake-package", what));
 }
 
-void require_lanes(const EmitContext& context) {
+void use_lanes(EmitContext& context) {
   if (context.scalar.digits != 53) {
     throw UsageError("--batch: lanes are of double numbers\nhelp: drop --scalar");
   }
@@ -325,15 +376,21 @@ void require_lanes(const EmitContext& context) {
   if (context.options.tangent) {
     throw UsageError("--batch: there is no tangent map in lanes\nhelp: drop --tangent");
   }
-  for (const std::string& name : callees(context.code, "solve")) {
-    const std::string found = without_lanes(context.code.routine(name)->body);
+  for (const Routine& routine : context.code.routines) {
+    if (!context.needs(routine.name)) continue;
+    const std::string found = without_lanes(routine.body);
     if (found.empty()) continue;
-    throw UsageError(fmt::format(
-        "--batch: {0} has {1} in its step, and there are none in lanes\n"
-        "help: explicit steps are there: of separable H symplectic-euler-a, -b and splittings as "
-        "--scheme stormer-verlet, blanes-moan-6, yoshida-4-verlet, see `hamgen list schemes`; of "
-        "any H rk4",
-        context.equations.scheme.name, found));
+    throw UsageError(
+        fmt::format("--batch: {0} has {1} in its step, and there is none in lanes\n"
+                    "help: what there is are explicit steps, as --scheme stormer-verlet, and "
+                    "Newton's iteration "
+                    "of members and their compositions for small systems: --solver newton",
+                    context.equations.scheme.name, found));
+  }
+  const auto start = std::ranges::find(context.code.records, "Start", &Record::name);
+  if (start == context.code.records.end() || context.code.unknowns == 0) return;
+  for (Field& field : start->fields) {
+    if (field.type == "bool") field.type = "Mask";
   }
 }
 

@@ -8,8 +8,9 @@
 
 namespace hamgen {
 
-// Throws UsageError, and says why, for a step that is not there in lanes.
-void require_lanes(const EmitContext& context);
+// Flags that differ from lane to lane become masks.  Throws UsageError, and says why, for a step
+// that is not there in lanes.
+void use_lanes(EmitContext& context);
 // Throws UsageError if the options ask for lanes, of which `what` knows nothing.
 void refuse_lanes(const EmitOptions& options, std::string_view what);
 

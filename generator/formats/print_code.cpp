@@ -27,6 +27,7 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
         "i", "j", "rule", "more", "lack", "slope", "point", "distance"}) {
     names_.reserve(local);
   }
+  for (const std::string& taken : dialect.taken_names()) names_.reserve(taken);
   name_objects();
   reserve_arrays(routine.body);
 }
@@ -146,8 +147,8 @@ void RoutinePrinter::operator()(const Array& array) {
 }
 void RoutinePrinter::operator()(const Matrix& matrix) {
   if (matrix.patterned) return out_.line("Matrix " + matrix.name + ";");
-  // Eigen does not know quad numbers.
-  const bool eigen = matrix.large && dialect_.scalar.digits != 113;
+  // Eigen knows neither quad numbers nor packs.
+  const bool eigen = matrix.large && dialect_.scalar.digits != 113 && !dialect_.has_lanes();
   out_.line(fmt::format("{}<{}> {};", eigen ? "EigenDenseMatrix" : "DenseMatrix", matrix.size,
                         matrix.name));
 }
@@ -215,12 +216,18 @@ void RoutinePrinter::operator()(const Alternate& alternate) {
   out_.close();
 }
 void RoutinePrinter::operator()(const Factorise& factorise) {
+  if (dialect_.has_lanes()) return factorise_lanes(factorise);
   const std::string condition = fmt::format("if (!{}.factorise())", text(factorise.matrix));
   if (!iterates_) return out_.line(condition + " " + failure());
   out_.open(condition);
   out_.line("report.iterations += iteration;");
   out_.line(failure());
   out_.close();
+}
+void RoutinePrinter::factorise_lanes(const Factorise& factorise) {
+  const std::string regular = text(factorise.matrix) + ".factorise()";
+  out_.line(iterates_ ? fmt::format("{}.require({});", rule_, regular)
+                      : fmt::format("report.converged = report.converged & {};", regular));
 }
 void RoutinePrinter::operator()(const SolveFactorised& solve) {
   out_.line(fmt::format("{}.solve({});", text(solve.matrix), text(solve.vector)));
@@ -237,11 +244,12 @@ void RoutinePrinter::operator()(const Return& end) {
                                   : fmt::format("length <= {}", dialect_.scalar.largest);
   if (routine_.result.type != "StepReport") return out_.line("return " + success + ";");
   if (end.success) {
-    out_.line("report.converged = " + success + ";");
     const bool lanes = dialect_.has_lanes();
-    if (!end.finite.empty()) {
-      out_.line(lanes ? "report.increment = select(report.converged, report.increment, length);"
-                      : "if (!report.converged) report.increment = length;");
+    if (lanes && !end.finite.empty()) {
+      out_.line("require_finite(report, length);");
+    } else if (!lanes) {
+      out_.line("report.converged = " + success + ";");
+      if (!end.finite.empty()) out_.line("if (!report.converged) report.increment = length;");
     }
     // Of a lane that has failed nothing is asked any more.
     const char* known = lanes ? " = any(report.converged);" : " = report.converged;";
@@ -262,7 +270,7 @@ void RoutinePrinter::length_of(const Return& end) {
     out_.line(head(end.ranges.back()) + " length += " + sum + ";");
     for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.close();
   }
-  out_.line("// False for infinities and NaN alike.");
+  if (!dialect_.has_lanes()) out_.line("// False for infinities and NaN alike.");
   if (end.ranges.empty()) out_.line(fmt::format("const {} length = {};", dialect_.real(), sum));
 }
 

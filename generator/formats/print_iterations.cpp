@@ -15,8 +15,10 @@ void RoutinePrinter::operator()(const Iterate& iterate) {
   }
   for (const Unknown& u : iterate.unknowns) {
     const std::string start = cpp_(u.start);
-    out_.line(fmt::format("{0} {1} = {2}known ? {2}value[{3}] : {4};", dialect_.real(),
-                          names_.local(u.symbol), of("start"), u.memory, start));
+    out_.line(fmt::format(
+        fmt::runtime(dialect_.has_lanes() ? "{0} {1} = select({2}known, {2}value[{3}], {4});"
+                                          : "{0} {1} = {2}known ? {2}value[{3}] : {4};"),
+        dialect_.real(), names_.local(u.symbol), of("start"), u.memory, start));
   }
   kept_.insert(iterate.kept.begin(), iterate.kept.end());
   iterates_ = true;
@@ -111,6 +113,7 @@ void RoutinePrinter::newton(const Iterate& iterate) {
   for (const std::string& line : *remark_) out_.remark("// ", line);
   out_.line(dialect_.call("NewtonRule", rule, "begin", of("start") + "known") + ";");
   out_.open("for (int iteration = 1;; ++iteration)");
+  rule_ = rule;
   print(iterate.body);
   std::vector<std::string> corrections;
   std::vector<std::string> sizes;
@@ -120,6 +123,7 @@ void RoutinePrinter::newton(const Iterate& iterate) {
   }
   out_.line(fmt::format("const {} size = {};", dialect_.real(), joined_texts(sizes, " + ")));
   out_.line(fmt::format("const {} scale = {};", dialect_.real(), scale(iterate)));
+  if (dialect_.has_lanes()) return end_newton_of_lanes(iterate, corrections);
   out_.line(fmt::format("const {} verdict = {};", dialect_.block("Verdict"),
                         dialect_.call("NewtonRule", rule, "", "size, scale, iteration")));
   end_newton();
@@ -127,6 +131,19 @@ void RoutinePrinter::newton(const Iterate& iterate) {
     out_.line(fmt::format("{} += {};", names_.local(iterate.unknowns[j].symbol), corrections[j]));
   }
   out_.close();
+}
+
+// Lanes that are done stand still until all are.
+void RoutinePrinter::end_newton_of_lanes(const Iterate& iterate,
+                                         const std::vector<std::string>& corrections) {
+  out_.line(fmt::format("const Mask moving = {}(size, scale, iteration);", rule_));
+  out_.line("if (!any(moving)) break;");
+  for (std::size_t j = 0; j < corrections.size(); ++j) {
+    out_.line(fmt::format("{0} = select(moving, {0} + {1}, {0});",
+                          names_.local(iterate.unknowns[j].symbol), corrections[j]));
+  }
+  out_.close();
+  out_.line(fmt::format("end_iteration(report, {});", rule_));
 }
 
 void RoutinePrinter::newton(const IterateArray& iterate) {

@@ -51,10 +51,12 @@ class RoutinePrinter {
 
   void newton(const Iterate& iterate);
   void fixed_point(const Iterate& iterate);
+  void factorise_lanes(const Factorise& factorise);
   void newton(const IterateArray& iterate);
   void contraction(const IterateArray& iterate);
   // What follows a verdict.
   void end_newton();
+  void end_newton_of_lanes(const Iterate& iterate, const std::vector<std::string>& corrections);
   void end_contraction(const std::string& rule);
   // The sum of the squares of what should be finite.
   void length_of(const Return& end);
@@ -101,6 +103,7 @@ class RoutinePrinter {
   std::set<std::string> records_;               // that it declares
   std::set<std::string> kept_;                  // locals that an iteration changes
   bool iterates_ = false;
+  std::string rule_;  // that it iterates by
   const std::vector<std::string>* remark_ = nullptr;
 };
 

@@ -58,7 +58,7 @@ constexpr FixedBlock kBlocks[] = {
 constexpr FixedBlock kLaneBlocks[] = {
     {"lane_vectors", "VectorOf MaskOf BitsOf"},
     {"lane_mask", "LaneMask any all"},
-    {"pack", "Pack select lane_abs lane_sqrt"},
+    {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
     {"lane_pairs", "Pair"},
     {"lane_sine", "lane_sin lane_cos lane_tan"},
     {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
@@ -70,7 +70,12 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"two_sum", "two_sum"},
     {"sum_with_rest", "two_sum_with_rest"},
     {"collected_sum", "collect"},
-    {"lane_step", "StepReport stop_failed add_substep move_lanes"},
+    {"lane_product_error", "product_error"},
+    {"lane_step",
+     "StepReport end_iteration require_finite stop_failed add_substep take_lanes move_lanes"},
+    {"lane_dense_matrix", "DenseMatrix"},
+    {"lane_newton_rule", "NewtonRule"},
+    {"lane_history", "History forget"},
 };
 
 std::span<const FixedBlock> blocks_of(int lanes) {

@@ -68,5 +68,9 @@ inline bool all(const LaneMask<W>& mask) {
 }
 template <int W>
 inline bool any(const LaneMask<W>& mask) {
-  return !all(!mask);
+  if constexpr (W <= register_lanes) {
+    return any(mask.all);
+  } else {
+    return any(mask.first | mask.second);
+  }
 }

@@ -133,24 +133,30 @@ template <class V>
 inline MaskOf<V> is_odd(BitsOf<V> quadrant) {
   return (quadrant & 1) != 0;
 }
-// What sin and cos of one number have in common: let a compiler see both, and it is done once.
 template <class V>
-inline V lane_sin(V x) {
+struct Circle {
+  V sine, cosine;
+};
+// sin x and cos x.  A compiler is told that it depends on x alone, and calls it once for both.
+template <class V>
+__attribute__((const)) inline Circle<V> circle(V x) {
   const Reduced<V> at = reduced(lane_abs(x));
   const SineAndCosine<V> values = sine_and_cosine(at.remainder);
   const V sine = values.sine.high + values.sine.low;
   const V cosine = values.cosine.high + values.cosine.low;
-  const BitsOf<V> sign = ((at.quadrant & 2) << 62) ^ (bits_of(x) & sign_bit);
-  return number_of<V>(bits_of(is_odd<V>(at.quadrant) ? cosine : sine) ^ sign);
+  const MaskOf<V> odd = is_odd<V>(at.quadrant);
+  const BitsOf<V> sign_of_sine = ((at.quadrant & 2) << 62) ^ (bits_of(x) & sign_bit);
+  const BitsOf<V> sign_of_cosine = ((at.quadrant + 1) & 2) << 62;
+  return {number_of<V>(bits_of(odd ? cosine : sine) ^ sign_of_sine),
+          number_of<V>(bits_of(odd ? sine : cosine) ^ sign_of_cosine)};
+}
+template <class V>
+inline V lane_sin(V x) {
+  return circle(x).sine;
 }
 template <class V>
 inline V lane_cos(V x) {
-  const Reduced<V> at = reduced(lane_abs(x));
-  const SineAndCosine<V> values = sine_and_cosine(at.remainder);
-  const V sine = values.sine.high + values.sine.low;
-  const V cosine = values.cosine.high + values.cosine.low;
-  const BitsOf<V> sign = ((at.quadrant + 1) & 2) << 62;
-  return number_of<V>(bits_of(is_odd<V>(at.quadrant) ? sine : cosine) ^ sign);
+  return circle(x).cosine;
 }
 template <class V>
 inline V lane_tan(V x) {

@@ -1,10 +1,23 @@
 // What a step says of each lane.  On failure the increment says how far the iteration was from its
 // end; it is not finite where the step left the domain of H.
 struct StepReport {
-  Mask converged = false;
+  Mask converged = true;
   Real iterations = 0;
   Real increment = 0;
 };
+// An iteration has ended, in some lanes without success.
+template <class Rule>
+inline void end_iteration(StepReport& report, const Rule& rule) {
+  report.iterations += rule.taken;
+  report.increment = select(report.converged & rule.failed, rule.last, report.increment);
+  report.converged = report.converged & !rule.failed;
+}
+// The sum of the squares of what should be finite: neither an infinity nor NaN.
+inline void require_finite(StepReport& report, const Real& length) {
+  const Mask finite = length <= largest;
+  report.increment = select(report.converged & !finite, length, report.increment);
+  report.converged = report.converged & finite;
+}
 // Lanes that do not run have no part in the step; those that have failed in it run no more.
 inline void stop_failed(Mask& running, StepReport& report) {
   report.iterations = select(running, report.iterations, Real(0));
@@ -18,6 +31,20 @@ inline void add_substep(StepReport& total, const StepReport& report) {
   total.iterations = select(lanes, total.iterations + report.iterations, total.iterations);
   total.increment = select(lanes, report.increment, total.increment);
   total.converged = lanes & report.converged;
+}
+// What stands in these lanes of `from`.
+inline void take_lanes(const Mask& lanes, Real& to, const Real& from) {
+  to = select(lanes, from, to);
+}
+template <class Numbers, int Size>
+inline void take_lanes(const Mask& lanes, Numbers (&to)[Size], const Numbers (&from)[Size]) {
+  for (int i = 0; i < Size; ++i) take_lanes(lanes, to[i], from[i]);
+}
+// A step tried again: both count.
+inline void take_lanes(const Mask& lanes, StepReport& to, const StepReport& from) {
+  take_lanes(lanes, to.iterations, to.iterations + from.iterations);
+  take_lanes(lanes, to.increment, from.increment);
+  to.converged = to.converged | (lanes & from.converged);
 }
 // In these lanes value + carry moves by increment and rest; in the others it stays.
 inline void move_lanes(const Mask& lanes, Real& value, Real& carry, const Real& increment,

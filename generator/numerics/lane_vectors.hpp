@@ -54,14 +54,29 @@ template <class Mask>
 inline bool is_set(Mask mask, int lane) {
   return mask[lane] != 0;
 }
+// By halves.
 template <class Mask>
 inline bool all(Mask mask) {
   if constexpr (sizeof(Mask) == 1) {
     return mask;
+  } else if constexpr (sizeof(Mask) == 16) {
+    return (mask[0] & mask[1]) != 0;
   } else {
-    auto lanes = mask[0];
-    for (int i = 1; i < int(sizeof(Mask) / 8); ++i) lanes &= mask[i];
-    return lanes != 0;
+    MaskOf<typename VectorOf<sizeof(Mask) / 16>::Numbers> half[2];
+    __builtin_memcpy(half, &mask, sizeof(Mask));
+    return all(half[0] & half[1]);
+  }
+}
+template <class Mask>
+inline bool any(Mask mask) {
+  if constexpr (sizeof(Mask) == 1) {
+    return mask;
+  } else if constexpr (sizeof(Mask) == 16) {
+    return (mask[0] | mask[1]) != 0;
+  } else {
+    MaskOf<typename VectorOf<sizeof(Mask) / 16>::Numbers> half[2];
+    __builtin_memcpy(half, &mask, sizeof(Mask));
+    return any(half[0] | half[1]);
   }
 }
 // The nearest integer where abs(x) < 2^51, and that integer in the last bits of what is added to

@@ -87,6 +87,10 @@ inline LaneMask<W> compared(const Comparison& comparison, const Pack<W>& a, cons
   }
   return result;
 }
+template <int W>
+constexpr int lanes_of(const Pack<W>&) {
+  return W;
+}
 // a in the lanes of the mask, b in the others.
 template <int W>
 inline Pack<W> select(const LaneMask<W>& mask, const Pack<W>& a, const Pack<W>& b) {

@@ -1,0 +1,100 @@
+// When to stop Newton's iteration in each lane: as the rule of one trajectory does (newton_rule.hpp
+// has the reasons), with a yes or no for every lane.  A lane that is done stands still: its body
+// gives the same values again and again, until the last lane is done.  So that lanes stay in step
+// the contraction is checked where the number of the step is a multiple of 32, in all of them.
+struct Motion {
+  Real move = 0;
+  Real bend = 0;
+};
+template <int Power>
+struct NewtonRule {
+  Real contraction = largest;
+  Real previous = 0;
+  Real grown = 0;
+  Real taken = 0;  // iterations
+  Real last = 0;   // increment of a lane that has failed
+  Mask predicted = false;
+  Mask open = false;  // lanes that go on
+  Mask failed = false;
+  Mask stopped = false;  // lanes that have no part in it
+  int step = 0;
+  Motion motion;
+
+  static Real power(const Real& size) { return Power == 2 ? size * size : size; }
+  // From a prediction, or else from the state itself.
+  void begin(const Mask& from_prediction) {
+    step = (step + 1) % 32;
+    grown = 0;
+    taken = 0;
+    predicted = from_prediction;
+    open = !stopped;
+    failed = false;
+  }
+  // The solution of a step, from the unknown `first` on, before the history records it.
+  template <class Past, int Unknowns>
+  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+    motion.move = past.error(0, solution, first, count);
+    motion.bend = past.error(Power + 1, solution, first, count);
+  }
+  void end_with(const Mask& lanes, const Real& size) {
+    failed = failed | lanes;
+    last = select(lanes, size, last);
+    open = open & !lanes;
+  }
+  // Lanes whose matrix is singular have failed.
+  void require(const Mask& regular) { end_with(open & !regular, Real(0)); }
+  // size, scale: sums over the unknowns, of their increments and of their values.  Gives the lanes
+  // that move.
+  Mask operator()(const Real& size, const Real& scale, int iterations) {
+    const Real round_off = epsilon * scale;
+    if (iterations == 1 && step != 0 && all(stopped | is_lost(size, round_off))) {
+      taken = select(open, Real(1), taken);
+      open = false;
+      return open;
+    }
+    taken = select(open, Real(iterations), taken);
+    end_with(open & !(size <= largest), size);
+    Mask done = size <= round_off;
+    if (iterations > 1) {
+      done = done | learn(size, round_off);
+      done = done | is_next_lost(size, round_off);
+    } else if (step != 0) {
+      done = done | is_lost(size, round_off);
+    }
+    open = open & !done;
+    if (iterations > 1) {
+      end_with(open & predicted & (2 * size > previous) & (size > 4096 * round_off), size);
+    }
+    if (iterations >= 60) end_with(open, size);
+    previous = size;
+    return open;
+  }
+  // Lanes that make no progress any more.
+  Mask learn(const Real& size, const Real& round_off) {
+    const Real seen = select(size < round_off, round_off, size) / power(previous);
+    // It may rise at once but falls slowly: one small increment may be luck.
+    const Mask rises = (contraction >= largest) | ((size > 64 * round_off) & (seen > contraction));
+    const Mask falls = open & !rises & (seen < contraction);
+    const Real lower = select(4 * seen < contraction, contraction / 4, seen);
+    contraction = select(open & rises, seen, select(falls, lower, contraction));
+    grown = select(open, select(size < previous, Real(0), grown + 1), grown);
+    return (grown >= 2) & (size <= 4096 * round_off);
+  }
+  // Would the next increment be?
+  Mask is_next_lost(const Real& size, const Real& round_off) const {
+    return contraction * power(size) * 1048576 <= round_off;
+  }
+  // The same of the first.
+  Mask is_lost(const Real& size, const Real& round_off) const {
+    return is_next_lost(size, round_off) & is_straight(size, round_off);
+  }
+  // Is bend (size / move)^Power lost in rounding?
+  Mask is_straight(const Real& size, const Real& round_off) const {
+    const Real bend = select(motion.bend > size, motion.bend, size);
+    return bend * power(size) * 1024 <= round_off * power(motion.move);
+  }
+};
+template <int Power>
+inline void take_lanes(const Mask& lanes, NewtonRule<Power>& to, const NewtonRule<Power>& from) {
+  take_lanes(lanes, to.contraction, from.contraction);
+}
