@@ -9,6 +9,7 @@
 #include "app/output/difference.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/all_formats.hpp"
 #include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
@@ -100,6 +101,15 @@ int print_only_file(const OutputFiles& files) {
   return done;
 }
 
+// The names of the list, for the help: the first is the default.
+std::string format_names() {
+  std::string names;
+  for (const NamedFormat& format : all_formats())
+    names += (names.empty() ? "" : ", ") + std::string(format.name) +
+             (names.empty() ? " (default)" : "");
+  return names;
+}
+
 int generate_files(const GenerateOptions& options) {
   if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
@@ -133,10 +143,7 @@ Command add_generate(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "write there; default, and -: print a single file")
       ->type_name("DIRECTORY");
-  parser
-      ->add_option("--format", options->format,
-                   "cpp-header (default), cpp-plugin, c-header, cmake-package")
-      ->type_name("NAME");
+  parser->add_option("--format", options->format, format_names())->type_name("NAME");
   parser
       ->add_option("--namespace", options->name_space,
                    "SYSTEM::METHOD of the emitted code, or one NAME for both")
