@@ -204,7 +204,7 @@ Command add_chaos(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "the numbers as CSV; a picture, .svg or .png, and its script .gp")
+                   "the numbers as CSV; a picture, .svg or .png, and its .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet,

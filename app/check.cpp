@@ -1,9 +1,11 @@
 // hamgen check: is the model fine, up to the text of its step?
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 
 #include "app/command_line.hpp"
+#include "app/output/json_document.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -36,40 +38,93 @@ void check_scenes(const Model& model, const ScalarType& scalar) {
   if (!mistakes.empty()) throw ModelError(mistakes, model.source);
 }
 
-int check(const MethodOptions& options, const SceneOptions& scene) {
-  const SourceText source = read_source(options.model);
-  const Request request = request_of(options, scene, source);
-  const Model model = read_model(source, request.sizes);
-  if (!model.warnings.empty()) print_error(render(model.warnings, source));
+// Throws ModelError where the model is not fine.  What it warns of is told as it is found.
+Model check_model(const SourceText& source, const Request& request,
+                  const std::function<void(const std::vector<Diagnostic>&)>& warn) {
+  Model model = read_model(source, request.sizes);
+  if (!model.warnings.empty()) warn(model.warnings);
   check_scenes(model, find_scalar(request.scalar));
   check_step(source, request);
   for (const Corner& corner : corners_of_hamiltonian(source, request)) {
-    const Diagnostic warning{
-        .severity = Severity::warning,
-        .span = model.hamiltonian->span,
-        .message =
-            fmt::format("H has a corner where {}, by {}", corner.place, to_text(corner.function)),
-        .help =
-            "a step across it is of low order, and what `hamgen verify` says holds off the "
-            "corner"};
-    print_error(render({warning}, source));
+    warn({{.severity = Severity::warning,
+           .span = model.hamiltonian->span,
+           .message = fmt::format("H has a corner where {}, by {}", corner.place,
+                                  to_text(corner.function)),
+           .help = "a step across it is of low order, and what `hamgen verify` says holds off the "
+                   "corner"}});
   }
   if (const std::string place = point_beyond_text(source, request); !place.empty()) {
-    const Diagnostic warning{
-        .severity = Severity::warning,
-        .span = model.hamiltonian->span,
-        .message = fmt::format("something cancels in H: at {} it has no value as it is written, "
-                               "but what is emitted has one",
-                               place),
-        .help = "steps go on there; write H without what cancels"};
-    print_error(render({warning}, source));
+    warn({{.severity = Severity::warning,
+           .span = model.hamiltonian->span,
+           .message = fmt::format("something cancels in H: at {} it has no value as it is written, "
+                                  "but what is emitted has one",
+                                  place),
+           .help = "steps go on there; write H without what cancels"}});
   }
-  print(fmt::format(
-      "{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
-      counted(degrees_of_freedom(model), "degree of freedom", "degrees of freedom"),
-      counted(static_cast<long>(element_names(model.parameters).size()), "parameter", "parameters"),
-      counted(static_cast<long>(model.invariants.size()), "invariant", "invariants"),
-      counted(static_cast<long>(model.scenes.size()), "scene", "scenes")));
+  return model;
+}
+
+struct Counts {
+  long degrees_of_freedom, parameters, invariants, scenes;
+};
+
+Counts counts_of(const Model& model) {
+  return {degrees_of_freedom(model), static_cast<long>(element_names(model.parameters).size()),
+          static_cast<long>(model.invariants.size()), static_cast<long>(model.scenes.size())};
+}
+
+nlohmann::ordered_json json_of(const Diagnostic& diagnostic, const Location& place) {
+  return {{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
+          {"file", place.file},
+          {"line", place.begin.line},
+          {"column", place.begin.column},
+          {"end_line", place.end.line},
+          {"end_column", place.end.column},
+          {"message", diagnostic.message},
+          {"help", diagnostic.help}};
+}
+
+// For editors: everything that is said, as one document, and nothing else.
+int check_as_json(const SourceText& source, const MethodOptions& options,
+                  const SceneOptions& scene) {
+  nlohmann::ordered_json document = {{"model", source.path}, {"fine", false}};
+  nlohmann::ordered_json said = nlohmann::ordered_json::array();
+  int status = done;
+  try {
+    const Request request = request_of(options, scene, source);
+    const Model model = check_model(source, request, [&](const std::vector<Diagnostic>& warnings) {
+      for (const Diagnostic& each : warnings)
+        said.push_back(json_of(each, location_of(each, source)));
+    });
+    const Counts counts = counts_of(model);
+    document["fine"] = true;
+    document["degrees_of_freedom"] = counts.degrees_of_freedom;
+    document["parameters"] = counts.parameters;
+    document["invariants"] = counts.invariants;
+    document["scenes"] = counts.scenes;
+  } catch (const ModelError& error) {
+    for (std::size_t i = 0; i < error.diagnostics().size(); ++i)
+      said.push_back(json_of(error.diagnostics()[i], error.locations()[i]));
+    status = model_error;
+  }
+  document["diagnostics"] = std::move(said);
+  print(json_document(document));
+  return status;
+}
+
+int check(const MethodOptions& options, const SceneOptions& scene, bool json) {
+  const SourceText source = read_source(options.model);
+  if (json) return check_as_json(source, options, scene);
+  const Request request = request_of(options, scene, source);
+  const Model model = check_model(source, request, [&](const std::vector<Diagnostic>& warnings) {
+    print_error(render(warnings, source));
+  });
+  const Counts counts = counts_of(model);
+  print(fmt::format("{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
+                    counted(counts.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+                    counted(counts.parameters, "parameter", "parameters"),
+                    counted(counts.invariants, "invariant", "invariants"),
+                    counted(counts.scenes, "scene", "scenes")));
   return done;
 }
 
@@ -78,11 +133,13 @@ int check(const MethodOptions& options, const SceneOptions& scene) {
 Command add_check(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
   const auto scene = std::make_shared<SceneOptions>();
+  const auto json = std::make_shared<bool>(false);
   CLI::App* parser = app.add_subcommand(
       "check", "says whether a model is fine: language, derivatives, scenes, plan of the step");
   add_method_options(*parser, *options);
   add_scene_choice(*parser, *scene);
-  return {parser, [options, scene] { return check(*options, *scene); }};
+  parser->add_flag("--json", *json, "what is said, with its places, for editors");
+  return {parser, [options, scene, json] { return check(*options, *scene, *json); }};
 }
 
 }  // namespace hamgen::app

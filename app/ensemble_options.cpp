@@ -174,7 +174,7 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
       ->type_name("FILE");
   parser
       .add_option("--observe", options.scene.observe,
-                  "at the end: q, energy, r = sqrt(x^2 + y^2); default: the scene's")
+                  "at the end: q, energy, r = sqrt(x^2 + y^2); or the scene's")
       ->type_name("LIST");
   parser.add_option("--statistics", options.statistics, "")->type_name("LIST");
   parser.add_option("--every", options.every, "least, largest, mean; over every K steps")

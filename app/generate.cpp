@@ -9,6 +9,7 @@
 #include "app/output/difference.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/all_formats.hpp"
 #include "runtime/atomic_file.hpp"
 
 namespace hamgen::app {
@@ -17,7 +18,7 @@ namespace {
 struct GenerateOptions {
   MethodOptions method;
   SceneOptions scene;
-  std::string output = "-";  // a directory, or standard output
+  std::string output = "-";  // a directory, a file of code, or standard output
   std::string format;
   std::string name_space;
   std::string support;
@@ -61,8 +62,36 @@ std::string said_of(const std::string& path, const std::string& text, const Sour
       found.what);
 }
 
-int compare(const OutputFiles& files, const std::string& directory, const SourceText& source,
-            const Request& request) {
+// Is it the name of a file of code, rather than of a directory?
+bool is_code_file(const std::string& output) {
+  constexpr std::string_view kEndings[] = {".hpp", ".h", ".hh", ".hxx", ".cpp", ".cc", ".cxx"};
+  return !std::filesystem::is_directory(output) &&
+         std::ranges::any_of(kEndings, [&](std::string_view end) { return output.ends_with(end); });
+}
+
+// The one file that is needed, under the name that was given, below no directory.
+OutputFiles under_one_name(const OutputFiles& files, const std::string& name) {
+  const auto needed = std::ranges::count(files, OutputFile::Role::needed, &OutputFile::role);
+  if (needed != 1)
+    throw UsageError(fmt::format(
+        "-o {}: there are {} files\nhelp: say where they go with -o DIRECTORY", name, needed));
+  const bool c = files.front().path.ends_with(".h");
+  const bool unit = files.front().path.ends_with(".cpp");
+  const bool header = name.ends_with(".h") || name.ends_with(".hpp") || name.ends_with(".hh") ||
+                      name.ends_with(".hxx");
+  if (header == unit || (c && !name.ends_with(".h")))
+    throw UsageError(fmt::format("-o {}: what is written is {}\nhelp: let the name end in {}", name,
+                                 unit ? "a translation unit in C++"
+                                 : c  ? "a header in C"
+                                      : "a header in C++",
+                                 unit ? ".cpp"
+                                 : c  ? ".h"
+                                      : ".hpp"));
+  return {{name, files.front().text}};
+}
+
+int compare(const OutputFiles& files, const std::string& directory, const std::string& output,
+            const SourceText& source, const Request& request) {
   const std::string& command = request.command;
   std::string text;
   std::string notes;
@@ -80,8 +109,7 @@ int compare(const OutputFiles& files, const std::string& directory, const Source
   if (text.empty()) return done;
   print(text);
   print_error(notes);
-  print_error(
-      fmt::format("help: to bring {} up to date: {} -o {}\n", directory, command, directory));
+  print_error(fmt::format("help: to bring {} up to date: {} -o {}\n", output, command, output));
   return numerical_failure;
 }
 
@@ -101,6 +129,15 @@ int print_only_file(const OutputFiles& files) {
         fmt::format("this format has {} files\nhelp: say where they go with -o DIRECTORY", needed));
   print(files.front().text);
   return done;
+}
+
+// The names of the list, for the help: the first is the default.
+std::string format_names() {
+  std::string names;
+  for (const NamedFormat& format : all_formats())
+    names += (names.empty() ? "" : ", ") + std::string(format.name) +
+             (names.empty() ? " (default)" : "");
+  return names;
 }
 
 int generate_files(const GenerateOptions& options) {
@@ -127,9 +164,12 @@ int generate_files(const GenerateOptions& options) {
           "them");
   }
   record_origin(options.method, source, request);
-  const OutputFiles files = generate(source, request);
-  if (options.check) return compare(files, options.output, source, request);
-  return options.output == "-" ? print_only_file(files) : write(files, options.output);
+  OutputFiles files = generate(source, request);
+  const bool one_file = is_code_file(options.output);
+  if (one_file) files = under_one_name(files, options.output);
+  const std::string directory = one_file ? "" : options.output;
+  if (options.check) return compare(files, directory, options.output, source, request);
+  return options.output == "-" ? print_only_file(files) : write(files, directory);
 }
 
 }  // namespace
@@ -139,12 +179,9 @@ Command add_generate(CLI::App& app) {
   CLI::App* parser = app.add_subcommand("generate", "writes the integrator as C++ source");
   parser
       ->add_option("-o,--output", options->output,
-                   "write there; default, and -: print a single file")
+                   "there, or to FILE.hpp, .h, .cpp; default: print a single file")
       ->type_name("DIRECTORY");
-  parser
-      ->add_option("--format", options->format,
-                   "cpp-header (default), cpp-plugin, c-header, cmake-package")
-      ->type_name("NAME");
+  parser->add_option("--format", options->format, format_names())->type_name("NAME");
   parser
       ->add_option("--namespace", options->name_space,
                    "SYSTEM::METHOD of the emitted code, or one NAME for both")

@@ -251,7 +251,7 @@ Command add_section(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "the points as CSV; a picture, .svg or .png, and its script .gp")
+                   "the points as CSV; a picture, .svg or .png, and its .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet, "the points as JSON; no summary, no progress");

@@ -108,7 +108,7 @@ const std::vector<Rule>& rules() {
       // Nothing of what writes the text.
       {"generator/readback/",
        {"generator/readback/", "generator/program/", "generator/algebra/expression.hpp",
-        "generator/algebra/exact.hpp", "generator/base/"},
+        "generator/algebra/functions.hpp", "generator/algebra/exact.hpp", "generator/base/"},
        {fmt}},
       {"generator/", {"generator/"}, {fmt}},
       // Events are found as emitted files find them.

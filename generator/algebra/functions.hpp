@@ -1,4 +1,5 @@
-// THE TABLE of functions the language knows.  To add a function, add one row in functions.cpp.
+// THE TABLE of functions the language knows.  To add a function, add one row in functions.cpp; what
+// no row can say is in docs/extending.md.
 #pragma once
 
 #include <array>

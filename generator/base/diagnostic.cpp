@@ -79,7 +79,16 @@ std::string render(const std::vector<Diagnostic>& diagnostics, const SourceText&
 }
 
 ModelError::ModelError(std::vector<Diagnostic> diagnostics, const SourceText& source)
-    : diagnostics_(std::move(diagnostics)), text_(render(diagnostics_, source)) {}
+    : diagnostics_(std::move(diagnostics)), text_(render(diagnostics_, source)) {
+  for (const Diagnostic& diagnostic : diagnostics_)
+    locations_.push_back(location_of(diagnostic, source));
+}
+
+Location location_of(const Diagnostic& diagnostic, const SourceText& source) {
+  return {.file = source.path,
+          .begin = position(source, diagnostic.span.begin),
+          .end = position(source, std::max(diagnostic.span.begin, diagnostic.span.end))};
+}
 
 void internal_error(std::string_view what, std::source_location where) {
   const std::string_view path = where.file_name();

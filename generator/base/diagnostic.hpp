@@ -28,15 +28,25 @@ struct Diagnostic {
 [[nodiscard]] std::string render(const std::vector<Diagnostic>& diagnostics,
                                  const SourceText& source);
 
+// Where a diagnostic points, for other programs: the end is behind the last character.
+struct Location {
+  std::string file;
+  Position begin, end;
+};
+[[nodiscard]] Location location_of(const Diagnostic& diagnostic, const SourceText& source);
+
 // A model that cannot be used: all the mistakes a stage found, in source order.
 class ModelError : public std::exception {
  public:
   ModelError(std::vector<Diagnostic> diagnostics, const SourceText& source);
   [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
   [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  // Of each, in its source: the model or the text of an option.
+  [[nodiscard]] const std::vector<Location>& locations() const { return locations_; }
 
  private:
   std::vector<Diagnostic> diagnostics_;
+  std::vector<Location> locations_;
   std::string text_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/readback/findings.hpp"
 
 namespace hamgen {
@@ -28,9 +29,6 @@ constexpr std::string_view kBlocks[] = {"StepReport",
                                         "NewtonRule_power",
                                         "NewtonRule_begin",
                                         "NewtonRule_check"};
-constexpr std::string_view kMathematics[] = {"fabs",  "acos",  "acosh", "asin", "asinh", "atan",
-                                             "atan2", "atanh", "cos",   "cosh", "exp",   "log",
-                                             "sin",   "sinh",  "sqrt",  "tan",  "tanh",  "pow"};
 
 constexpr std::string_view kFixed = "hamgen_";
 
@@ -120,7 +118,10 @@ class WordReader {
       return kOfHeader + std::string(of_method);
     if (is(0, "(") && text.ends_with(suffix_)) {
       const std::string name = text.substr(0, text.size() - suffix_.size());
-      if (is_one_of(kMathematics, name)) return "std::" + name;
+      const bool in_library =
+          name == "pow" ||
+          std::ranges::find(all_functions(), name, &Function::cpp) != all_functions().end();
+      if (in_library) return "std::" + name;
     }
     return text;
   }

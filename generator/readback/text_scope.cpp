@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "generator/algebra/functions.hpp"
 #include "generator/readback/findings.hpp"
 
 namespace hamgen {
@@ -207,11 +208,10 @@ std::string TextScope::function(const std::string& name, int line) const {
     plain.resize(plain.size() - suffix.size());
     return plain;
   }
-  constexpr std::string_view kQuad[] = {"fabsq",  "acosq",  "acoshq", "asinq", "asinhq", "atanq",
-                                        "atan2q", "atanhq", "cosq",   "coshq", "expq",   "logq",
-                                        "sinq",   "sinhq",  "sqrtq",  "tanq",  "tanhq",  "powq"};
-  if (precision_.is_quad() && std::ranges::find(kQuad, name) != std::end(kQuad))
-    return name.substr(0, name.size() - 1);
+  const bool in_quadmath =
+      name == "powq" ||
+      std::ranges::find(all_functions(), name, &Function::quad) != all_functions().end();
+  if (precision_.is_quad() && in_quadmath) return name.substr(0, name.size() - 1);
   return "::" + name;
 }
 

@@ -57,6 +57,45 @@ TEST(Generate, WritesAndThenFindsNoDifference) {
   EXPECT_EQ(compared.out + compared.err, "");
 }
 
+TEST(Generate, WritesAFileThatIsNamedAsOne) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string file = scratch.path("swing.hpp");
+  const Result written = hamgen({"generate", model, "-o", file});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_EQ(written.err, file + "\n");
+  EXPECT_EQ(read(file), hamgen({"generate", model}).out);
+  EXPECT_EQ(hamgen({"generate", model, "-o", file, "--check"}).status, 0);
+  scratch.write("swing.hpp", read(file) + "// more\n");
+  const Result differs = hamgen({"generate", model, "-o", file, "--check"});
+  EXPECT_EQ(differs.status, 1);
+  EXPECT_TRUE(contains(differs.err, " -o " + file + "\n")) << differs.err;
+  EXPECT_EQ(
+      hamgen({"generate", model, "--format", "cpp-plugin", "-o", scratch.path("p.cpp")}).status, 0);
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"p.cpp", "pendulum.ham", "swing.hpp"}));
+  // A folder of such a name stays one.
+  std::filesystem::create_directory(scratch.path("folder.h"));
+  EXPECT_EQ(hamgen({"generate", model, "-o", scratch.path("folder.h")}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch.path("folder.h/pendulum.hpp")));
+}
+
+TEST(Generate, RefusesTheNameOfAnotherKindOfFile) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const auto refused = [&](std::vector<std::string> options, const std::string& help) {
+    options.insert(options.begin(), {"generate", model});
+    const Result result = hamgen(options);
+    EXPECT_EQ(result.status, 2) << options[3];
+    EXPECT_TRUE(contains(result.err, help)) << result.err;
+  };
+  refused({"-o", scratch.path("a.cpp")}, "end in .hpp");
+  refused({"-o", scratch.path("a.hpp"), "--format", "cpp-plugin"}, "end in .cpp");
+  refused({"-o", scratch.path("a.hpp"), "--format", "c-header"}, "end in .h\n");
+  refused({"-o", scratch.path("a.hpp"), "--support", "shared"}, "-o DIRECTORY");
+  refused({"-o", scratch.path("a.hpp"), "--format", "cmake-package"}, "-o DIRECTORY");
+  EXPECT_EQ(scratch.names(), std::vector<std::string>{"pendulum.ham"});
+}
+
 TEST(Generate, PrintsADiffOfAChangedFile) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);

@@ -1,0 +1,99 @@
+// hamgen check --json: what editors read.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/app/hamgen_command.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+nlohmann::json checked(const Result& result) {
+  EXPECT_EQ(result.err, "");
+  return nlohmann::json::parse(result.out);
+}
+
+TEST(CheckAsJson, SaysOfEveryMistakeWhereItIs) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham",
+                                          "system m\n"
+                                          "coordinate q  # \xc3\xa9\n"
+                                          "momentum p\n"
+                                          "parameter \"a\" = 1\n"
+                                          "H = p^2/2 - coss(q) + r\n");
+  const Result result = hamgen({"check", "--json", model});
+  EXPECT_EQ(result.status, 3);
+  const Result text = hamgen({"check", model});
+  EXPECT_EQ(text.status, 3);
+  const nlohmann::json document = checked(result);
+  EXPECT_EQ(document["fine"], false);
+  EXPECT_EQ(document["model"], model);
+  ASSERT_GE(document["diagnostics"].size(), 1u);
+  // The same as the text says, in its order.
+  std::size_t from = 0;
+  for (const nlohmann::json& each : document["diagnostics"]) {
+    EXPECT_EQ(each["file"], model);
+    const std::string line = model + ":" + std::to_string(each["line"].get<int>()) + ":" +
+                             std::to_string(each["column"].get<int>()) +
+                             ": error: " + each["message"].get<std::string>() + "\n";
+    const std::size_t at = text.err.find(line, from);
+    ASSERT_NE(at, std::string::npos) << line << text.err;
+    from = at + line.size();
+    if (each["help"] != "")
+      EXPECT_TRUE(contains(text.err.substr(from), "help: " + each["help"].get<std::string>()));
+  }
+  EXPECT_EQ(text.err.find(": error: ", from), std::string::npos) << "one is missing";
+}
+
+TEST(CheckAsJson, GivesTheEndOfAWord) {
+  const Result result =
+      hamgen({"check", "--json", HAMGEN_SOURCE_DIR "/tests/diagnostics/misspelt_name.ham"});
+  EXPECT_EQ(result.status, 3);
+  const nlohmann::json each = checked(result)["diagnostics"].at(0);
+  EXPECT_EQ(each["severity"], "error");
+  EXPECT_EQ(each["line"], 9);
+  EXPECT_EQ(each["column"], 36);
+  EXPECT_EQ(each["end_line"], 9);
+  EXPECT_EQ(each["end_column"], 40);
+  EXPECT_EQ(each["message"], "unknown name 'thta'");
+  EXPECT_EQ(each["help"], "did you mean 'theta', the coordinate declared on line 3?");
+}
+
+TEST(CheckAsJson, WarnsOfAModelThatIsFine) {
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "m.ham", "system m\ncoordinate q\nmomentum p\nH = p^2/2 + abs(q)\nscene s { q = 1 }\n");
+  const Result result = hamgen({"check", "--json", model});
+  EXPECT_EQ(result.status, 0);
+  const nlohmann::json document = checked(result);
+  EXPECT_EQ(document["fine"], true);
+  EXPECT_EQ(document["degrees_of_freedom"], 1);
+  EXPECT_EQ(document["scenes"], 1);
+  ASSERT_EQ(document["diagnostics"].size(), 1u);
+  EXPECT_EQ(document["diagnostics"][0]["severity"], "warning");
+  EXPECT_EQ(document["diagnostics"][0]["line"], 4);
+}
+
+TEST(CheckAsJson, NamesTheOptionThatIsMeant) {
+  const Result result = hamgen(
+      {"check", "--json", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--beta", "0.1*nothing"});
+  EXPECT_EQ(result.status, 3);
+  const nlohmann::json each = checked(result)["diagnostics"].at(0);
+  EXPECT_EQ(each["file"], "--beta");
+  EXPECT_EQ(each["line"], 1);
+  EXPECT_EQ(each["column"], 5);
+}
+
+// Bytes that are no text stay a document.
+TEST(CheckAsJson, IsADocumentWhateverTheBytes) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m\"\n.ham", "system \xff\x01 \"\\\n");
+  const Result result = hamgen({"check", "--json", model});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_EQ(checked(result)["fine"], false);
+  EXPECT_EQ(hamgen({"check", "--json", scratch.path("none.ham")}).status, 2);
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
