@@ -20,8 +20,8 @@ struct Result {
                             const std::vector<std::string>& environment = {},
                             const std::string& working_directory = ".");
 
-// The exit status of a program, a path and its words, or 128 + signal; what it says of mistakes goes
-// into the file.
+// The exit status of a program, a path and its words, or 128 + signal; what it says of mistakes
+// goes into the file.
 [[nodiscard]] int status_of(const std::vector<std::string>& words, const std::string& err);
 
 // That of the command if it is killed so long after its beginning: 128 + SIGKILL where that met it.
