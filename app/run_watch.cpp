@@ -63,8 +63,9 @@ RowTimes row_times(const WatchOptions& options, const SceneValues& scene) {
       throw UsageError(
           fmt::format("--every-time {}: a time beyond 0 is wanted", options.every_time));
     if (position * kMostRowTimes < Rational(*scene.steps))
-      throw UsageError(
-          fmt::format("--every-time {}: more than {} rows", options.every_time, kMostRowTimes));
+      throw UsageError(fmt::format(
+          "--every-time {}: more than {} rows\nhelp: a longer time; every step is --every 1",
+          options.every_time, kMostRowTimes));
     times.every = position;
   }
   if (options.at.empty()) return times;

@@ -38,7 +38,8 @@ StressAxis axis_of(const std::string& text) {
   const long count = parts.size() == 3  ? integer_value(option, parts[2], 2)
                      : axis.logarithmic ? std::lround(4.0 * span) + 1
                                         : 21;
-  if (count > 1000) throw UsageError(fmt::format("{}: more than 1000 values", option));
+  if (count > 1000)
+    throw UsageError(fmt::format("{}: more than 1000 values\nhelp: a smaller COUNT", option));
   for (long i = 0; i < count; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(count - 1);
     axis.values.push_back(i == 0             ? low

@@ -48,6 +48,10 @@ int lanes_of(const Request& request) {
         "--batch {}: not 1, 2, 4, ..., {}\nhelp: as many numbers as a register has are fastest: 8 "
         "with AVX-512, 4 with AVX2, 2 elsewhere; twice that may be, too",
         request.batch, most));
+  if (request.events)
+    throw UsageError(
+        "--events with --batch: lanes cross at times of their own, which a batch does not look for\n"
+        "help: drop one of the two");
   return request.batch;
 }
 

@@ -86,7 +86,8 @@ AtomicFile::AtomicFile(const fs::path& target, const Part& from)
     std::rename(final_.c_str(), temporary_.c_str());
   if (from.size > 0 && !begins_with(temporary_, from))
     throw ToolError({.message = fmt::format("'{}' does not begin with the {} bytes that were "
-                                            "written before",
+                                            "written before\nhelp: put the file back as it was, "
+                                            "or begin the run anew",
                                             temporary_.string(), from.size)});
   file_ =
       FileDescriptor(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));

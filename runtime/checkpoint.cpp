@@ -123,7 +123,9 @@ std::uint64_t checksum(std::string_view text) {
 }
 
 [[noreturn]] void throw_not_read(const std::filesystem::path& path, const std::string& reason) {
-  throw ToolError({.message = fmt::format("cannot go on from '{}': {}", path.string(), reason)});
+  throw ToolError({.message = fmt::format("cannot go on from '{}': {}\nhelp: take another "
+                                          "checkpoint of the run, or begin it anew: --checkpoint",
+                                          path.string(), reason)});
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct Result {
 
 // A command line for the shell, which finds this hamgen first.
 [[nodiscard]] Result shell(const std::string& command, const std::string& working_directory = ".");
-// The exit status of a program, a path and its words, or 128 + signal; what it says of mistakes goes
-// into the file.
+// The exit status of a program, a path and its words, or 128 + signal; what it says of mistakes
+// goes into the file.
 [[nodiscard]] int status_of(const std::vector<std::string>& words, const std::string& err);
 
 // That of the command if it is killed so long after its beginning: 128 + SIGKILL where that met it.
