@@ -2,37 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <utility>
-#include <variant>
-
-#include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
 
 namespace {
-
-// What there are no blocks for in lanes; empty if the body has nothing of the kind.
-std::string without_lanes(const Body& body) {
-  for (const Instruction& instruction : body) {
-    const auto& value = instruction.value;
-    const auto* iterate = std::get_if<Iterate>(&value);
-    const bool fixed_point = iterate != nullptr && iterate->rule != Rule::newton;
-    if (fixed_point || std::holds_alternative<Refine>(value) ||
-        std::holds_alternative<RefineArray>(value) || std::holds_alternative<Alternate>(value)) {
-      return "a fixed-point iteration";
-    }
-    if (std::holds_alternative<IterateArray>(value)) return "an iteration of arrays";
-    if (std::holds_alternative<Invert>(value)) return "the inverse of a matrix";
-    for (const Body* inner : inner_bodies(instruction)) {
-      const std::string found = without_lanes(*inner);
-      if (!found.empty()) return found;
-    }
-  }
-  return {};
-}
 
 class LaneStepWriter {
  public:
@@ -359,40 +335,6 @@ StepReport advance(long long steps) {
 };
 
 }  // namespace
-
-void refuse_lanes(const EmitOptions& options, std::string_view what) {
-  if (options.lanes == 0) return;
-  throw UsageError(
-      fmt::format("--batch: {} has no lanes\nhelp: --format cpp-header or cmake-package", what));
-}
-
-void use_lanes(EmitContext& context) {
-  if (context.scalar.digits != 53) {
-    throw UsageError("--batch: lanes are of double numbers\nhelp: drop --scalar");
-  }
-  if (context.options.shared_support) {
-    throw UsageError("--batch: its fixed parts are in the header itself\nhelp: drop --support");
-  }
-  if (context.options.tangent) {
-    throw UsageError("--batch: there is no tangent map in lanes\nhelp: drop --tangent");
-  }
-  for (const Routine& routine : context.code.routines) {
-    if (!context.needs(routine.name)) continue;
-    const std::string found = without_lanes(routine.body);
-    if (found.empty()) continue;
-    throw UsageError(
-        fmt::format("--batch: {0} has {1} in its step, and there is none in lanes\n"
-                    "help: what there is are explicit steps, as --scheme stormer-verlet, and "
-                    "Newton's iteration "
-                    "of members and their compositions for small systems: --solver newton",
-                    context.equations.scheme.name, found));
-  }
-  const auto start = std::ranges::find(context.code.records, "Start", &Record::name);
-  if (start == context.code.records.end() || context.code.unknowns == 0) return;
-  for (Field& field : start->fields) {
-    if (field.type == "bool") field.type = "Mask";
-  }
-}
 
 void write_lane_steps(CodeWriter& out, const EmitContext& context) {
   LaneStepWriter(out, context).write();

@@ -28,15 +28,16 @@ void PrintTo(const BatchCase& test, std::ostream* out) { *out << test.name; }
 const char* const kCubic =
     "system cubic\ncoordinate q\nmomentum p\nparameter a = 1/3\n"
     "H = p^2/2 + q^2/2 - a*q^3\n";
-const std::vector<std::pair<double, double>> kCubicStarts = {
-    {0.1, 0.2}, {1.5, 0}, {-0.3, 0.4}, {1.001, 0}, {0.9, 0.1}, {3, 1}, {0, 0}, {0.5, -0.3}};
+using Starts = std::vector<std::pair<double, double>>;
+const Starts kCubicStarts = {{0.1, 0.2}, {1.5, 0}, {-0.3, 0.4}, {1.001, 0},
+                             {0.9, 0.1}, {3, 1},   {0, 0},      {0.5, -0.3}};
 const char* const kFunctions =
     "system functions\ncoordinate q\nmomentum p\nparameter a = 1/2\n"
     "H = p^2/2 + exp(a*q) - q - cos(3*q) + sqrt(1 + q^2) + a*q^2\n";
 const char* const kLogarithm =
     "system logarithm\ncoordinate q\nmomentum p\nH = p^2/2 - log(q) + q^(5/2)/7\n";
-const std::vector<std::pair<double, double>> kLogarithmStarts = {
-    {1, 0}, {0.5, 1}, {-1, 0}, {2, -3}, {0.01, 0}, {1.5, 0.5}, {1e-300, -1}, {0.7, 0.7}};
+const Starts kLogarithmStarts = {{1, 0},    {0.5, 1},   {-1, 0},      {2, -3},
+                                 {0.01, 0}, {1.5, 0.5}, {1e-300, -1}, {0.7, 0.7}};
 
 std::vector<BatchCase> explicit_cases() {
   Request verlet;
@@ -56,8 +57,8 @@ std::vector<BatchCase> explicit_cases() {
 const char* const kMixed =
     "system mixed\ncoordinate q\nmomentum p\nparameter a = 1/2\n"
     "H = (1 + q^2)*(1 + p^2)/2 + a*sin(q)*p - sqrt(2 - q)*(2 - q)/2\n";
-const std::vector<std::pair<double, double>> kMixedStarts = {
-    {0.1, 0.2}, {1.9, 1.5}, {-0.3, 0.4}, {2.5, 0}, {1, 3}, {0.9, -2.6}, {0, 0}, {0.5, -0.3}};
+const Starts kMixedStarts = {{0.1, 0.2}, {1.9, 1.5},  {-0.3, 0.4}, {2.5, 0},
+                             {1, 3},     {0.9, -2.6}, {0, 0},      {0.5, -0.3}};
 const char* const kCoupled =
     "system coupled\ncoordinate q, r, s\nmomentum p, u, v\nparameter a = 1/2\n"
     "H = (p^2 + u^2*(1 + q^2) + v^2)/2 + a*(q - r)^4 + sqrt(1 + q^2 + s^2) + (q^2 + r^2)/2 "
@@ -156,6 +157,10 @@ std::vector<std::string> batch_lines(const std::string& text) {
   return lines;
 }
 
+long failed_lines(const std::vector<std::string>& lines) {
+  return std::ranges::count_if(lines, [](const auto& line) { return count(line, "failed") > 0; });
+}
+
 struct Instructions {
   const char* name;
   std::vector<std::string> flags;
@@ -176,11 +181,6 @@ std::vector<Instructions> instructions() {
   return all;
 }
 
-int count_failed(const std::vector<std::string>& lines) {
-  return static_cast<int>(std::ranges::count_if(
-      lines, [](const std::string& line) { return line.find("failed") != std::string::npos; }));
-}
-
 class BatchLanes : public testing::TestWithParam<BatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Explicit, BatchLanes, testing::ValuesIn(explicit_cases()),
                          [](const auto& info) { return info.param.name; });
@@ -199,7 +199,7 @@ TEST_P(BatchLanes, AreBitForBitTheTrajectoryAloneWhateverTheWidthAndTheInstructi
     const std::vector<std::string> lines = batch_lines(run_program(program, set.flags));
     ASSERT_EQ(lines.size(), 8 * widths.size());
     if (alone.empty()) alone.assign(lines.begin(), lines.begin() + 8);
-    EXPECT_EQ(count_failed(alone), GetParam().failing);
+    EXPECT_EQ(failed_lines(alone), GetParam().failing);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       EXPECT_EQ(lines[i], alone[i % 8]) << set.name << ", width " << widths[i / 8];
     }
@@ -267,7 +267,7 @@ int main() {
 // Parameters and step sizes differ from lane to lane; a propagator begins anew.
 TEST(BatchHeader, HasParametersAndStepSizesOfEachLane) {
   const BatchCase test = explicit_cases()[0];
-  const std::string program = batch_header(test, 1, "") + batch_header(test, 4, "") + R"(
+  std::string text = batch_header(test, 1, "") + batch_header(test, 4, "") + R"(
 #include <cstdio>
 template <class Pack>
 void differ(Pack& pack, const double* values, int first, int W) {
@@ -309,7 +309,6 @@ int main() {
   run<lanes4::method::Propagator, lanes4::Parameters, lanes4::State, lanes4::Real>();
 }
 )";
-  std::string text = program;
   text.replace(text.find("template <class Pack>\nvoid"), 0,
                "using lanes1::method::step;\nusing lanes4::method::step;\n");
   const std::vector<std::string> lines = batch_lines(run_program(text));
@@ -358,7 +357,7 @@ TEST(BatchHeader, IsRefusedWithAWayOutWhereThereAreNoLanes) {
   EXPECT_TRUE(refusal(request).starts_with("--math: is of the elementary functions of a batch\n"));
 }
 
-// All that its namespaces define meets the header of one trajectory in one program.
+// Its namespaces meet those of the header of one trajectory in one program.
 TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
   std::string text;
   for (const int lanes : {0, 2, 8}) {
@@ -387,7 +386,6 @@ TEST(BatchHeader, TakesNoNameFromTheUser) {
   }
 }
 
-// The first lines do not say that the text was read back.
 TEST(BatchHeader, SaysThatItsProgramIsProvedAndNotItsText) {
   Request request;
   request.scheme = "stormer-verlet";
