@@ -50,7 +50,8 @@ int lanes_of(const Request& request) {
         request.batch, most));
   if (request.events)
     throw UsageError(
-        "--events with --batch: lanes cross at times of their own, which a batch does not look for\n"
+        "--events with --batch: lanes cross at times of their own, which a batch does not look "
+        "for\n"
         "help: drop one of the two");
   return request.batch;
 }

@@ -179,9 +179,8 @@ Mechanics derive(const Model& model, bool keep_sums, int most) {
     const Expression value = with_place(model, invariant.value->span, [&] {
       return from_ginac(converter.convert(invariant.value), table);
     });
-    mechanics.invariants.push_back(
-        {invariant.name, value, invariant.only_observed, invariant.comment, invariant.rising,
-         invariant.falling});
+    mechanics.invariants.push_back({invariant.name, value, invariant.only_observed,
+                                    invariant.comment, invariant.rising, invariant.falling});
   }
   return mechanics;
 }
