@@ -26,22 +26,6 @@ std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme&
   return modified_hamiltonian(mechanics, member.c, member.generating_order, last + 1);
 }
 
-// Ht, cut off after each of its terms, as functions of h and the state.
-void watch_modified(Program& program, const std::vector<Expression>& terms) {
-  const Expression h = step_size();
-  std::vector<Expression> sums;
-  Expression sum;
-  Expression power(1);
-  for (std::size_t j = 0; j < terms.size(); ++j) {
-    sum += power * terms[j];
-    power = power * h;
-    if (j == 0 || terms[j].is_zero()) continue;
-    sums.push_back(sum);
-    program.modified_powers.push_back(static_cast<int>(j));
-  }
-  program.modified_energies = evaluate_together(sums);
-}
-
 // Sweeps leave the step unsolved, and what is not symplectic has no modified Hamiltonian.
 void require_solved_step(const Request& request) {
   if (!request.solver.starts_with("sweeps")) return;

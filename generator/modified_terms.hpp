@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "generator/pipeline.hpp"
-#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -12,8 +11,6 @@ namespace hamgen {
 // scheme that follows none, and for sums that stay loops.
 [[nodiscard]] std::vector<Expression> modified_terms(const Mechanics& mechanics,
                                                      const Scheme& scheme, int count);
-// The program with these: what it computes is Ht, cut off after each of its terms.
-void watch_modified(Program& program, const std::vector<Expression>& terms);
 // Throws UsageError where sweeps leave the step unsolved.
 void require_solved_step(const Request& request);
 

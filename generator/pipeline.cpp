@@ -12,11 +12,11 @@
 #include "generator/emitted_text.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
-#include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"
 #include "generator/program/names.hpp"
+#include "generator/program/without_tangent.hpp"
 #include "generator/read_request.hpp"
 #include "generator/stages.hpp"
 #include "generator/verify/model_text.hpp"
@@ -57,16 +57,15 @@ int lanes_of(const Request& request) {
 }
 
 EmitOptions emit_options(const SourceText& source, const Stages& stages, const Request& request) {
-  const Program& program = stages.program;
   const bool is_special = request.scene && is_something_left_out(stages);
   return {.file_name = stem(source.path),
           .command = request.command,
           .model_path = source.path,
           .model_digest = request.model_digest,
           .scalar = request.scalar,
-          .spaces = emitted_spaces(program.plan.equations, request,
+          .spaces = emitted_spaces(stages.equations, request,
                                    is_special ? request.scene->values.name : ""),
-          .tangent = request.tangent && !without_tangent(program),
+          .tangent = request.tangent && !without_tangent(stages.plan),
           .shared_support = shares_support(request),
           .watched_step = request.step,
           .lanes = lanes_of(request),
@@ -89,7 +88,7 @@ ReadBack read_files(const OutputFiles& files, const Stages& stages, const Reques
                    .beside = {},
                    .watched_step = request.step};
   for (const OutputFile& other : files) file.beside[other.path] = other.text;
-  return read_back(file, stages.program, step_code(stages.program));
+  return read_back(file, stages.program);
 }
 
 // What the first lines of a header say of the step; `files` are what is emitted, but for them.
@@ -144,7 +143,7 @@ ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& 
                          .scalar = request.scalar,
                          .beside = there->beside,
                          .watched_step = request.step};
-  return read_back(file, stages.program, step_code(stages.program));
+  return read_back(file, stages.program);
 }
 
 }  // namespace
@@ -153,7 +152,7 @@ OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
   EmitOptions options = emit_options(source, stages, request);
   if (request.tangent && !options.tangent) {
-    throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.program));
+    throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.plan));
   }
   add_proof(source, stages, request, files_of(stages, options, request), options);
   return files_of(stages, options, request);
@@ -167,9 +166,9 @@ std::string show_stage(const SourceText& source, const Request& request, const s
   if (stage == "mechanics") return to_text(stages.system.mechanics);
   if (stage == "equations") return to_text(stages.equations);
   if (stage == "plan") return to_text(stages.plan);
-  if (stage == "program") return to_text(step_code(stages.program));
+  if (stage == "program") return to_text(stages.program);
   if (stage == "origins") {
-    return text_with_origins(step_code(stages.program), stages.system.mechanics.terms);
+    return text_with_origins(stages.program, stages.system.mechanics.terms);
   }
   throw UsageError(fmt::format(
       "unknown stage '{}'; there are model, mechanics, equations, plan, program, origins", stage));
@@ -269,8 +268,8 @@ Scheme request_scheme(const SourceText& source, const Request& request) {
   return choose_scheme(model, derive(model, may_keep_sums(request)), request);
 }
 
-StepCode make_step_code(const SourceText& source, const Request& request) {
-  return step_code(run_stages(source, request).program);
+Program make_program(const SourceText& source, const Request& request) {
+  return run_stages(source, request).program;
 }
 
 PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
@@ -313,11 +312,11 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   for (const NamedExpression& invariant : stages.system.mechanics.invariants) {
     plugin.invariant_names.push_back(invariant.name);
   }
-  for (const int power : stages.program.modified_powers)
+  for (const int power : stages.program.facts.modified_powers)
     plugin.invariant_names.push_back(fmt::format("modified_energy_{}", power));
-  plugin.without_tangent = without_tangent(stages.program).value_or("");
+  plugin.without_tangent = without_tangent(stages.plan).value_or("");
   plugin.singular_steps = singular_steps(stages.equations.scheme);
-  plugin.needs_eigen = needs_eigen(stages.program);
+  plugin.needs_eigen = stages.program.facts.needs_eigen;
   plugin.needs_quadmath = request.scalar == "quad";
   plugin.model = std::move(stages.model);
   return plugin;

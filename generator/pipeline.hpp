@@ -12,7 +12,7 @@
 #include "generator/formats/output_files.hpp"
 #include "generator/language/model.hpp"
 #include "generator/language/scene.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 #include "generator/readback/read_back.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/specialise/specialisation.hpp"
@@ -120,7 +120,7 @@ struct EmittedHeader {
 [[nodiscard]] Scheme request_scheme(const SourceText& source, const Request& request);
 
 // The step as records and routines: what the formats print and the interpreter runs.
-[[nodiscard]] StepCode make_step_code(const SourceText& source, const Request& request);
+[[nodiscard]] Program make_program(const SourceText& source, const Request& request);
 
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {

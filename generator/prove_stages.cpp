@@ -45,6 +45,7 @@ SizedSystem sized_system(const SourceText& source, Request request, const std::s
   return {size,
           std::move(stages.system.mechanics),
           std::move(stages.equations.scheme),
+          std::move(stages.plan),
           std::move(stages.program),
           std::move(hamiltonian),
           std::move(read)};
@@ -65,11 +66,11 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
                           sized_system(source, wish, largest->name, size),
                           sized_system(source, wish, largest->name, size + 1)};
   };
-  const auto routines = [](const Program& program) { return step_code(program).routines.size(); };
   try {
     SmallerSystems smaller = made_by(request);
     // Where Newton's matrix is too large the larger system is left without it.
-    if (request.solver.empty() && routines(smaller.first.program) > routines(stages.program)) {
+    if (request.solver.empty() &&
+        smaller.first.program.routines.size() > stages.program.routines.size()) {
       Request without_matrix = request;
       without_matrix.solver = "fixed-point";
       smaller = made_by(without_matrix);
@@ -103,11 +104,11 @@ Proof prove(const SourceText& source, const Request& request, const Stages& stag
   const std::optional<SmallerSystems> smaller = smaller_systems(source, request, stages);
   // Then nothing of it need be written out.
   const bool inherits = smaller && mechanics.invariants.empty() &&
-                        !why_not_inherited(mechanics, step_code(stages.program), *smaller);
+                        !why_not_inherited(mechanics, stages.program, *smaller);
   std::optional<Expression> hamiltonian;
   if (!inherits) hamiltonian = written_out_hamiltonian(stages);
-  Proof proof =
-      verify(mechanics, stages.equations.scheme, stages.program, hamiltonian, around, smaller);
+  Proof proof = verify(mechanics, stages.equations.scheme, stages.plan, stages.program, hamiltonian,
+                       around, smaller);
   proof.push_back(inherits ? read_at_smaller_sizes(*smaller) : prove_front_end(stages, around));
   if (request.scene && is_something_left_out(stages))
     proof.push_back(

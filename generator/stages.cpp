@@ -7,11 +7,12 @@
 
 #include "generator/base/budget.hpp"
 #include "generator/choose_scheme.hpp"
-#include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/scalar.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"
+#include "generator/program/build_program.hpp"
+#include "generator/program/without_tangent.hpp"
 #include "generator/read_request.hpp"
 
 namespace hamgen {
@@ -47,8 +48,8 @@ Specialised make_system(const Model& model, const std::optional<SceneFacts>& sce
 // nothing.
 long operations(const Specialised& system, const Request& request) {
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
-  return operations_per_step(build_program(
-      plan_solve(discretise(system.mechanics, system.scheme, hessian), request.solver)));
+  return operations_per_step(
+      plan_solve(discretise(system.mechanics, system.scheme, hessian), request.solver));
 }
 
 // The system in the variables in which a step has fewer operations.
@@ -125,15 +126,14 @@ Stages stages_of(Model model, const Request& request) {
   if (unchecked)
     plan.left_out.emplace_back(
         "a look at every step: H is a polynomial, explicit steps leave no domain");
-  Program program = build_program(plan);
-  program.unchecked = unchecked;
-  program.plain_sums = request.plain_sums;
-  if (request.tangent && !without_tangent(program)) program = with_tangent(std::move(program));
-  if (request.watch_modified > 0) require_solved_step(request);
+  StepWishes wishes{.tangent = request.tangent && !without_tangent(plan),
+                    .plain_sums = request.plain_sums,
+                    .unchecked = unchecked};
   if (request.watch_modified > 0) {
-    watch_modified(program,
-                   modified_terms(system.mechanics, system.scheme, request.watch_modified));
+    require_solved_step(request);
+    wishes.modified_terms = modified_terms(system.mechanics, system.scheme, request.watch_modified);
   }
+  Program program = build_program(plan, wishes);
   return {std::move(model),     std::move(folded), std::move(system),
           std::move(equations), std::move(plan),   std::move(program)};
 }

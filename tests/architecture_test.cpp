@@ -91,7 +91,7 @@ const std::vector<Rule>& rules() {
        {fmt, gmp, quadmath}},
       // Only the names they are given: they are copied into emitted files.
       {"generator/numerics/", {}, {}},
-      // Expressions are what a Program's instructions hold; functions know their C++ names.
+      // Expressions are what a LoweredStep's instructions hold; functions know their C++ names.
       {"generator/formats/",
        {"generator/formats/", "generator/program/", "generator/algebra/expression.hpp",
         "generator/algebra/exact.hpp", "generator/algebra/functions.hpp", "generator/base/"},

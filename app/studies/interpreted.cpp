@@ -15,7 +15,7 @@ namespace {
 // The functions of the interface have no place for what they belong to: it is here.
 template <class Real>
 struct Interpreted {
-  StepCode code;
+  Program code;
   std::string description, solver;
   hamgen_plugin table = {};
   std::size_t parameters = 0;
@@ -167,7 +167,7 @@ void gradient(const double* parameters, const double* state, double* values) {
 }
 
 template <class Real>
-runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits) {
+runtime::LoadedPlugin load(Program code, const PluginSource& plugin, int digits) {
   if (Interpreted<Real>::now != nullptr) internal_error("two integrators are interpreted at once");
   auto all = std::make_shared<Interpreted<Real>>();
   all->code = std::move(code);
@@ -202,7 +202,7 @@ runtime::LoadedPlugin load(StepCode code, const PluginSource& plugin, int digits
 
 runtime::LoadedPlugin interpreted_integrator(const SourceText& source, const Request& request,
                                              const PluginSource& plugin) {
-  StepCode code = make_step_code(source, request);
+  Program code = make_program(source, request);
   const int digits = find_scalar(request.scalar).digits;
   switch (digits) {
     case 24:

@@ -55,7 +55,7 @@ void require_c(const EmitContext& context) {
     refuse(
         fmt::format("'{}' is a parameter of the method", context.method_parameters.fields[0].name));
   }
-  for (const Routine& routine : context.code.routines) {
+  for (const Routine& routine : context.program.routines) {
     if (!context.needs(routine.name)) continue;
     const std::string found = missing(routine.body);
     if (!found.empty()) refuse("there are no " + found + " in C");
@@ -113,7 +113,7 @@ void write_pi(CodeWriter& out, const CDialect& dialect) {
 std::string system_text(EmitContext& context, const CDialect& dialect) {
   CodeWriter out;
   write_c_record(out, context.system_parameters, dialect);
-  write_c_record(out, *context.code.record("State"), dialect);
+  write_c_record(out, *context.program.record("State"), dialect);
   const std::string type = dialect.record("Parameters");
   out.open(fmt::format("static inline {} {}(void)", type, dialect.named("default_parameters")));
   std::string values;
@@ -134,16 +134,16 @@ std::string system_text(EmitContext& context, const CDialect& dialect) {
 
 std::string method_text(EmitContext& context, const CDialect& dialect) {
   CodeWriter out;
-  if (context.code.unknowns > 0) {
-    out.lines(block_text("c/history", dialect, context.code.unknowns));
+  if (context.program.unknowns > 0) {
+    out.lines(block_text("c/history", dialect, context.program.unknowns));
     out.line();
   }
   context.write_routine(out, "modified_energies");
-  if (const Record* record = context.code.record("Coefficients")) {
+  if (const Record* record = context.program.record("Coefficients")) {
     write_c_record(out, *record, dialect);
     context.write_with_callees(out, "prepare");
   }
-  if (const Record* record = context.code.record("Start")) write_c_record(out, *record, dialect);
+  if (const Record* record = context.program.record("Start")) write_c_record(out, *record, dialect);
   context.write_with_callees(out, "solve");
   write_c_propagator(out, context, dialect);
   return out.text();
@@ -191,7 +191,7 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, const std::string& t
 }  // namespace
 
 OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
-  if (!program.events.results.empty()) {
+  if (!program.events.empty()) {
     throw UsageError(
         "--events with --format c-header: C has no functions to be called for an event\n"
         "help: a cpp-header has them; invariant NAME = EXPR in the model is a value in C, too");

@@ -11,7 +11,7 @@ class CStepWriter {
   CStepWriter(CodeWriter& out, const EmitContext& context, const CDialect& dialect)
       : out_(out),
         context_(context),
-        code_(context.code),
+        code_(context.program),
         c_(dialect),
         self_(dialect.named("Propagator")),
         report_(dialect.block("StepReport")),
@@ -233,7 +233,7 @@ class CStepWriter {
   }
 
   void write_functions() {
-    const std::string t = context_.mechanics.has_time
+    const std::string t = context_.program.facts.has_time
                               ? "self->z." + context_.state_field(context_.n() - 1)
                               : "(" + c_.real() + ")self->steps * self->h";
     out_.line("// Since the first state, or t where the model has it.");
@@ -253,7 +253,7 @@ class CStepWriter {
 
   CodeWriter& out_;
   const EmitContext& context_;
-  const StepCode& code_;
+  const Program& code_;
   const CDialect& c_;
   std::string self_, report_;
   bool coefficients_, start_, history_, carry_;

@@ -10,7 +10,7 @@ namespace hamgen {
 OutputFiles cmake_package(const Program& program, const EmitOptions& options) {
   const std::string target = identifier(options.file_name);
   std::string links;
-  if (needs_eigen(program))
+  if (program.facts.needs_eigen)
     links += fmt::format(
         "find_package(Eigen3 REQUIRED)\ntarget_link_libraries({} INTERFACE Eigen3::Eigen)\n",
         target);

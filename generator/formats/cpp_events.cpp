@@ -79,7 +79,7 @@ void read() {
 class EventWriter {
  public:
   EventWriter(CodeWriter& out, EmitContext& context)
-      : out_(out), context_(context), count_(context.code.events.size()) {}
+      : out_(out), context_(context), count_(context.program.events.size()) {}
 
   void write() {
     context_.write_with_callees(out_, "events");
@@ -115,7 +115,7 @@ class EventWriter {
   [[nodiscard]] std::string list_of(
       const std::function<std::string(const EventName&)>& text) const {
     std::string list;
-    for (const EventName& each : context_.code.events)
+    for (const EventName& each : context_.program.events)
       list += (list.empty() ? "" : ", ") + text(each);
     return list;
   }
@@ -123,7 +123,7 @@ class EventWriter {
   void write_types() {
     out_.line("// In the order of their values.");
     out_.open("enum class Event");
-    for (const EventName& each : context_.code.events) out_.line(each.name + ",");
+    for (const EventName& each : context_.program.events) out_.line(each.name + ",");
     out_.close(";");
     out_.line();
     out_.lines(R"(// Where the value of an event is zero: after a part theta, in (0, 1], of a step.
@@ -229,7 +229,7 @@ for (int k = 0; k < list.count && !ended_; ++k) {{
 }  // namespace
 
 void write_events(CodeWriter& out, EmitContext& context) {
-  if (!context.code.events.empty()) EventWriter(out, context).write();
+  if (!context.program.events.empty()) EventWriter(out, context).write();
 }
 
 }  // namespace hamgen

@@ -19,7 +19,7 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 }
 
 void write_modified_energies(CodeWriter& out, EmitContext& context) {
-  const std::vector<int>& powers = context.program.modified_powers;
+  const std::vector<int>& powers = context.program.facts.modified_powers;
   if (powers.empty()) return;
   context.write_routine(out, "modified_energies");
   out.line(fmt::format("// Cut off after h^{}.", powers.back()));

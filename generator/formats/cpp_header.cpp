@@ -15,7 +15,6 @@
 #include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_step.hpp"
-#include "generator/formats/cpp_tangent.hpp"
 #include "generator/formats/emit_context.hpp"
 #include "generator/formats/lanes_dialect.hpp"
 #include "generator/formats/lanes_step.hpp"
@@ -57,9 +56,8 @@ void write_includes(CodeWriter& out, const EmitContext& context, const Support& 
     out.line("#include <cmath>");
   }
   if (support.uses_eigen()) {
-    const std::optional<ArrayPlan>& arrays = context.program.plan.arrays;
-    const bool sparse =
-        arrays && arrays->matrix && arrays->matrix->kind == MatrixKind::eigen_sparse;
+    const std::optional<ArrayMatrix>& matrix = context.program.matrix;
+    const bool sparse = matrix && matrix->kind == MatrixKind::eigen_sparse;
     if (sparse) out.line("#include <algorithm>");
     if (sparse) out.line("#include <vector>");
     out.line();
@@ -68,7 +66,7 @@ void write_includes(CodeWriter& out, const EmitContext& context, const Support& 
   if (!shared) return;
   out.line();
   out.line(fmt::format("#include \"{}\"",
-                       shared_file_name(context.scalar, !context.code.events.empty())));
+                       shared_file_name(context.scalar, !context.program.events.empty())));
 }
 
 void write_pi(CodeWriter& out, const EmitContext& context) {
@@ -93,12 +91,12 @@ std::string system_text(EmitContext& context) {
     out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", context.n()));
   }
   if (!out.text().empty()) out.line();
-  for (const Record* record : std::initializer_list<const Record*>{&context.system_parameters,
-                                                                   context.code.record("State")}) {
+  for (const Record* record : std::initializer_list<const Record*>{
+           &context.system_parameters, context.program.record("State")}) {
     write_record(out, *record, context.scalar);
     out.line();
   }
-  const std::vector<Quantity>& constants = context.mechanics.constants;
+  const std::vector<Quantity>& constants = context.program.facts.constants;
   if (!constants.empty()) {
     out.line("// Parameters whose values are part of the code: to be read, not to be changed.");
     write_record(out, layout("Folded", constants, Defaults::values).record, context.scalar);
@@ -161,8 +159,7 @@ void write_section(CodeWriter& out, std::string_view kind, const std::string& na
 
 std::unique_ptr<Dialect> dialect_of(const Program& program, const EmitOptions& options) {
   const ScalarType& scalar = find_scalar(options.scalar);
-  const bool arrays = program.plan.arrays.has_value();
-  const int n = arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0;
+  const int n = program.environment.arrays ? program.environment.degrees_of_freedom : 0;
   if (options.lanes > 0) {
     return std::make_unique<LanesDialect>(scalar, n, options.library_functions);
   }
@@ -182,7 +179,7 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
   const std::string system = system_text(context);
   const std::string method = method_text(context);
   const bool in_lanes = options.lanes > 0;
-  Support support(context.scalar, options.builtins, !context.code.events.empty(), options.lanes);
+  Support support(context.scalar, options.builtins, !context.program.events.empty(), options.lanes);
   support.require_for(in_lanes ? system + method : method);
   CodeWriter out;
   write_preamble(out, context);
@@ -211,9 +208,11 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
 
 std::string cpp_header(const Program& program, const EmitOptions& options) {
   const std::unique_ptr<Dialect> dialect = dialect_of(program, options);
-  EmitContext context(program, options, *dialect);
-  if (options.lanes > 0) use_lanes(context);
-  return file_text(context, "#pragma once");
+  const auto text = [&](const Program& written) {
+    EmitContext context(written, options, *dialect);
+    return file_text(context, "#pragma once");
+  };
+  return options.lanes > 0 ? text(in_lanes(program, options)) : text(program);
 }
 
 std::string cpp_plugin(const Program& program, const EmitOptions& options) {
@@ -230,7 +229,7 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
 OutputFiles cpp_header_files(const Program& program, const EmitOptions& options) {
   OutputFiles files = {{options.file_name + ".hpp", cpp_header(program, options)}};
   if (options.shared_support)
-    files.push_back(shared_file(find_scalar(options.scalar), !program.events.results.empty()));
+    files.push_back(shared_file(find_scalar(options.scalar), !program.events.empty()));
   return files;
 }
 
@@ -239,20 +238,13 @@ OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options)
   if (options.shared_support) {
     throw UsageError("--support shared: a plugin is one translation unit\nhelp: drop --support");
   }
-  if (!program.events.results.empty()) {
+  if (!program.events.empty()) {
     throw UsageError(
         "--events with --format cpp-plugin: a plugin's interface has no events\n"
         "help: a cpp-header has them; hamgen run --events FILE finds them");
   }
   return {{options.file_name + ".plugin.cpp", cpp_plugin(program, options)},
           {"plugin.h", std::string(plugin_header()), OutputFile::Role::beside}};
-}
-
-bool needs_eigen(const Program& program) {
-  if (program.plan.arrays) return uses_eigen(*program.plan.arrays);
-  return std::ranges::any_of(program.stages, [](const Stage& stage) {
-    return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
-  });
 }
 
 }  // namespace hamgen

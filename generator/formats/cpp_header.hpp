@@ -19,6 +19,4 @@ namespace hamgen {
 [[nodiscard]] OutputFiles cpp_header_files(const Program& program, const EmitOptions& options);
 [[nodiscard]] OutputFiles cpp_plugin_files(const Program& program, const EmitOptions& options);
 
-[[nodiscard]] bool needs_eigen(const Program& program);
-
 }  // namespace hamgen

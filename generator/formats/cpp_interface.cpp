@@ -78,7 +78,7 @@ void write_tangent_interface(CodeWriter& out, const EmitContext& context) {
 
 void write_interface(CodeWriter& out, const EmitContext& context) {
   const std::string description =
-      cpp_string(fmt::format("{}, {}", context.mechanics.name, context.equations.scheme.name));
+      cpp_string(fmt::format("{}, {}", context.program.facts.system, context.program.facts.scheme));
   out.line();
   out.line("// The interface of plugin.h.");
   const std::string method = context.options.spaces.of_method();
@@ -160,7 +160,7 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
     }
   }
 )");
-  if (context.code.unchecked) {
+  if (context.program.unchecked) {
     out.indent();
     out.line("// No step fails, but where numbers end.");
     out.line("const bool ends = !run->propagator.advance(0).converged;");
@@ -190,8 +190,8 @@ void advance(hamgen_run* run, long long steps, int watch_energy, hamgen_report* 
   out.line();
   out.open("void get_carry(const hamgen_run* run, double* carry, double* carry_lo)");
   out.line("const State& z = run->propagator.state();");
-  out.line(context.code.has_carry() ? "const State& c = run->propagator.carry();"
-                                    : "const State c;  // sums are plain");
+  out.line(context.program.has_carry() ? "const State& c = run->propagator.carry();"
+                                       : "const State c;  // sums are plain");
   if (context.arrays()) {
     out.open("for (int i = 0; i < n; ++i)");
     out.line("carry[i] = high_part(carried(z.q[i], c.q[i]), carry_lo + i);");
@@ -240,9 +240,9 @@ int restore_run(hamgen_run* run, const void* bytes, long long size) {
   };
   const std::string arguments = "read_parameters(parameters, parameters_lo), ";
   const std::string state = "read_state(state, state_lo)";
-  const std::size_t invariants = context.mechanics.invariants.size();
   const auto size = static_cast<std::size_t>(2 * context.n());
-  const std::size_t modified = context.program.modified_powers.size();
+  const std::size_t modified = context.program.facts.modified_powers.size();
+  const std::size_t invariants = context.program.facts.invariants.size() - modified;
   out.open(invariants + modified == 0
                ? "void invariants_of(const double*, const double*, const double*, const double*, "
                  "double*, double*)"
@@ -274,8 +274,8 @@ int restore_run(hamgen_run* run, const void* bytes, long long size) {
                   "gradient_of, {}, save_run, restore_run, variable_list, parameter_list, "
                   "invariant_list, default_parameters, get_time, get_h, get_parameters, set_state, "
                   "set_h, set_parameters}};",
-                  context.n(), context.environment.parameters.size(), invariants + modified,
-                  context.scalar.digits, description, cpp_string(context.program.plan.solver),
+                  context.n(), context.program.environment.parameters.size(), invariants + modified,
+                  context.scalar.digits, description, cpp_string(context.program.facts.solver),
                   context.options.tangent ? "tangent_of" : "nullptr"));
   out.line();
   out.line("}  // namespace");

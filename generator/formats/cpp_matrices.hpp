@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/formats/code_writer.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 

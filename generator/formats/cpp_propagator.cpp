@@ -21,14 +21,14 @@ class StepWriter {
   StepWriter(CodeWriter& out, const EmitContext& context)
       : out_(out),
         context_(context),
-        code_(context.code),
+        code_(context.program),
         coefficients_(code_.record("Coefficients") != nullptr),
         start_(code_.record("Start") != nullptr),
         rest_(code_.has_rest()),
         carry_(code_.has_carry()),
         composed_(code_.substeps.size() > 1),
         large_(context.arrays()),
-        has_time_(context.mechanics.has_time) {}
+        has_time_(context.program.facts.has_time) {}
 
   void write() {
     const bool by_propagator = composed_ || large_;
@@ -389,7 +389,7 @@ StepReport advance(long long steps) {
 
   CodeWriter& out_;
   const EmitContext& context_;
-  const StepCode& code_;
+  const Program& code_;
   bool coefficients_, start_, rest_, carry_, composed_, large_, has_time_;
 };
 

@@ -41,13 +41,13 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
 }
 
 void write_solver(CodeWriter& out, EmitContext& context) {
-  if (context.code.matrix) write_matrix(out, *context.code.matrix);
-  if (const Record* coefficients = context.code.record("Coefficients")) {
+  if (context.program.matrix) write_matrix(out, *context.program.matrix);
+  if (const Record* coefficients = context.program.record("Coefficients")) {
     write_record(out, *coefficients, context.scalar);
     out.line();
     context.write_with_callees(out, "prepare");
   }
-  if (const Record* start = context.code.record("Start")) {
+  if (const Record* start = context.program.record("Start")) {
     write_record(out, *start, context.scalar);
     out.line();
   }

@@ -34,15 +34,11 @@ EmitContext::EmitContext(const Program& the_program, const EmitOptions& the_opti
       options(the_options),
       dialect(the_dialect),
       scalar(the_dialect.scalar),
-      equations(program.plan.equations),
-      mechanics(equations.mechanics),
-      environment(environment_of(equations, arrays())),
-      code(step_code(program)),
-      parameter_fields(texts(environment.parameter_layout)),
-      state_fields(texts(environment.state_layout)) {
-  for (const char* name : {"prepare", "solve"}) needed_.merge(callees(code, name));
-  if (options.tangent) needed_.merge(callees(code, "tangent"));
-  needed_.merge(callees(code, "events"));
+      parameter_fields(texts(program.environment.parameter_layout)),
+      state_fields(texts(program.environment.state_layout)) {
+  for (const char* name : {"prepare", "solve"}) needed_.merge(callees(program, name));
+  if (options.tangent) needed_.merge(callees(program, "tangent"));
+  needed_.merge(callees(program, "events"));
   split_parameters();
 }
 
@@ -50,12 +46,12 @@ void EmitContext::split_parameters() {
   std::set<std::string> of_system;
   std::set<std::string> of_method;
   for (const char* name : {"energy", "gradient", "invariants"}) {
-    for (const std::string& called : callees(code, name)) {
-      collect_parameters(*code.routine(called), of_system);
+    for (const std::string& called : callees(program, name)) {
+      collect_parameters(*program.routine(called), of_system);
     }
   }
-  for (const std::string& called : needed_) collect_parameters(*code.routine(called), of_method);
-  system_parameters = *code.record("Parameters");
+  for (const std::string& called : needed_) collect_parameters(*program.routine(called), of_method);
+  system_parameters = *program.record("Parameters");
   method_parameters = {.name = "Parameters",
                        .fields = {},
                        .remark = {"Those of the system, and what the method takes besides."}};
@@ -74,14 +70,14 @@ std::string sizes_text(const Field& field) {
 }
 
 void EmitContext::write_routine(CodeWriter& out, std::string_view name) {
-  const Routine* routine = code.routine(name);
+  const Routine* routine = program.routine(name);
   if (routine == nullptr || !written_.emplace(name).second) return;
   print(out, *routine, dialect, used);
 }
 
 void EmitContext::write_with_callees(CodeWriter& out, std::string_view name) {
-  const std::set<std::string> wanted = callees(code, std::string(name));
-  for (const Routine& routine : code.routines) {
+  const std::set<std::string> wanted = callees(program, std::string(name));
+  for (const Routine& routine : program.routines) {
     if (wanted.contains(routine.name)) write_routine(out, routine.name);
   }
 }

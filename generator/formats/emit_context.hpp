@@ -10,9 +10,8 @@
 #include "generator/formats/emit_options.hpp"
 #include "generator/formats/print_code.hpp"
 #include "generator/formats/print_expression.hpp"
-#include "generator/program/environment.hpp"
 #include "generator/program/names.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -26,10 +25,6 @@ class EmitContext {
   const EmitOptions& options;
   const Dialect& dialect;
   const ScalarType& scalar;
-  const StepEquations& equations;
-  const Mechanics& mechanics;
-  Environment environment;
-  StepCode code;
   std::vector<std::string> parameter_fields;
   std::vector<std::string> state_fields;  // "q" or "q[2]": of z_1..z_2n in State
   Used used;                              // so far
@@ -37,8 +32,8 @@ class EmitContext {
   Record system_parameters;
   Record method_parameters;
 
-  [[nodiscard]] int n() const { return mechanics.degrees_of_freedom; }
-  [[nodiscard]] bool arrays() const { return program.plan.arrays.has_value(); }
+  [[nodiscard]] int n() const { return program.environment.degrees_of_freedom; }
+  [[nodiscard]] bool arrays() const { return program.environment.arrays; }
   [[nodiscard]] bool quad() const { return scalar.digits == 113; }
   [[nodiscard]] const std::string& state_field(int i) const {
     return state_fields[static_cast<std::size_t>(i)];

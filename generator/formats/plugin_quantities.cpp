@@ -49,14 +49,9 @@ void write_quantity_list(CodeWriter& out, const std::string& name,
 }  // namespace
 
 void write_quantity_lists(CodeWriter& out, const EmitContext& context) {
-  std::vector<Quantity> invariants;
-  for (const NamedExpression& each : context.mechanics.invariants)
-    invariants.push_back({each.name, "", each.comment, 0});
-  for (const int power : context.program.modified_powers)
-    invariants.push_back({fmt::format("modified_energy_{}", power), "", "", 0});
-  write_quantity_list(out, "variable_list", context.environment.variables);
-  write_quantity_list(out, "parameter_list", context.environment.parameters);
-  write_quantity_list(out, "invariant_list", invariants);
+  write_quantity_list(out, "variable_list", context.program.environment.variables);
+  write_quantity_list(out, "parameter_list", context.program.environment.parameters);
+  write_quantity_list(out, "invariant_list", context.program.facts.invariants);
 }
 
 void write_setters(CodeWriter& out, const EmitContext& context) {

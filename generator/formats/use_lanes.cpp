@@ -39,32 +39,34 @@ void refuse_lanes(const EmitOptions& options, std::string_view what) {
       fmt::format("--batch: {} has no lanes\nhelp: --format cpp-header or cmake-package", what));
 }
 
-void use_lanes(EmitContext& context) {
-  if (context.scalar.digits != 53) {
+Program in_lanes(Program program, const EmitOptions& options) {
+  if (find_scalar(options.scalar).digits != 53) {
     throw UsageError("--batch: lanes are of double numbers\nhelp: drop --scalar");
   }
-  if (context.options.shared_support) {
+  if (options.shared_support) {
     throw UsageError("--batch: its fixed parts are in the header itself\nhelp: drop --support");
   }
-  if (context.options.tangent) {
+  if (options.tangent) {
     throw UsageError("--batch: there is no tangent map in lanes\nhelp: drop --tangent");
   }
-  for (const Routine& routine : context.code.routines) {
-    if (!context.needs(routine.name)) continue;
-    const std::string found = without_lanes(routine.body);
+  std::set<std::string> needed = callees(program, "prepare");
+  needed.merge(callees(program, "solve"));
+  for (const std::string& name : needed) {
+    const std::string found = without_lanes(program.routine(name)->body);
     if (found.empty()) continue;
     throw UsageError(
         fmt::format("--batch: {0} has {1} in its step, and there is none in lanes\n"
                     "help: what there is are explicit steps, as --scheme stormer-verlet, and "
                     "Newton's iteration "
                     "of members and their compositions for small systems: --solver newton",
-                    context.equations.scheme.name, found));
+                    program.facts.scheme, found));
   }
-  const auto start = std::ranges::find(context.code.records, "Start", &Record::name);
-  if (start == context.code.records.end() || context.code.unknowns == 0) return;
+  const auto start = std::ranges::find(program.records, "Start", &Record::name);
+  if (start == program.records.end() || program.unknowns == 0) return program;
   for (Field& field : start->fields) {
     if (field.type == "bool") field.type = "Mask";
   }
+  return program;
 }
 
 }  // namespace hamgen

@@ -19,9 +19,9 @@ bool is_finite(const std::vector<Real>& numbers) {
 }  // namespace
 
 template <class Real>
-Interpreter<Real>::Interpreter(StepCode code, std::vector<Real> parameters, Real h,
+Interpreter<Real>::Interpreter(Program code, std::vector<Real> parameters, Real h,
                                const std::vector<Real>& state)
-    : code_(std::make_unique<const StepCode>(std::move(code))) {
+    : code_(std::make_unique<const Program>(std::move(code))) {
   for (const Routine& routine : code_->routines) {
     machines_[routine.name] = std::make_unique<Machine<Real>>(routine, *code_, machines_);
   }

@@ -15,7 +15,7 @@ template <class Real>
 class Interpreter {
  public:
   // parameters in the order of the record Parameters; state: 2n numbers, q then p.
-  Interpreter(StepCode code, std::vector<Real> parameters, Real h, const std::vector<Real>& state);
+  Interpreter(Program code, std::vector<Real> parameters, Real h, const std::vector<Real>& state);
 
   struct Report {
     bool converged = false;
@@ -58,7 +58,7 @@ class Interpreter {
     return {object.numbers.data(), &object};
   }
 
-  std::unique_ptr<const StepCode> code_;  // the machines point into it
+  std::unique_ptr<const Program> code_;  // the machines point into it
   typename Machine<Real>::Others machines_;
   Object<Real> parameters_, z_, carry_;
   Real h_ = 0;

@@ -5,7 +5,7 @@
 namespace hamgen {
 
 template <class Real>
-Machine<Real>::Machine(const Routine& routine, const StepCode& code, const Others& others) {
+Machine<Real>::Machine(const Routine& routine, const Program& code, const Others& others) {
   const auto compiler = std::make_shared<MachineCompiler<Real>>(state_, routine, code, others);
   steps_ = compiler->compile();
   compiler_ = compiler;

@@ -9,7 +9,7 @@
 
 #include "generator/interpreter/compiled_expression.hpp"
 #include "generator/interpreter/object.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -56,7 +56,7 @@ class Machine {
  public:
   // The routines it calls stay with `others`, which outlives it.
   using Others = std::map<std::string, std::unique_ptr<Machine>>;
-  Machine(const Routine& routine, const StepCode& code, const Others& others);
+  Machine(const Routine& routine, const Program& code, const Others& others);
   Machine(const Machine&) = delete;  // its functions point into it
   Machine& operator=(const Machine&) = delete;
   ~Machine();

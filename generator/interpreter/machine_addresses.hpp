@@ -15,7 +15,7 @@ namespace hamgen {
 template <class Real>
 class MachineAddresses {
  protected:
-  MachineAddresses(MachineState<Real>& state, const Routine& routine, const StepCode& code)
+  MachineAddresses(MachineState<Real>& state, const Routine& routine, const Program& code)
       : m_(state), routine_(routine), code_(code) {}
 
   struct Compiled {
@@ -183,7 +183,7 @@ class MachineAddresses {
 
   MachineState<Real>& m_;
   const Routine& routine_;
-  const StepCode& code_;
+  const Program& code_;
 };
 
 }  // namespace hamgen

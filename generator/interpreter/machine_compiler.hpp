@@ -42,7 +42,7 @@ class MachineCompiler : public MachineIterations<Real> {
 
  public:
   using Others = typename Machine<Real>::Others;
-  MachineCompiler(MachineState<Real>& state, const Routine& routine, const StepCode& code,
+  MachineCompiler(MachineState<Real>& state, const Routine& routine, const Program& code,
                   const Others& others)
       : Base(state, routine, code), others_(others) {}
 

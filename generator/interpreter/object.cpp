@@ -30,7 +30,7 @@ std::vector<int> template_arguments(const std::string& type) {
 }
 
 template <class Real>
-void add_block(Object<Real>& object, const Field& field, const StepCode& code) {
+void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
     object.matrices[field.name] = make_matrix<Real>(code.matrix->size);
@@ -79,7 +79,7 @@ long offset_of(const Record& record, const std::string& field) {
 }
 
 template <class Real>
-Object<Real> make_object(const Record& record, const StepCode& code) {
+Object<Real> make_object(const Record& record, const Program& code) {
   Object<Real> object;
   for (const Field& field : numeric_fields(record)) {
     const auto size = static_cast<std::size_t>(product(field.sizes));
@@ -98,9 +98,9 @@ Object<Real> make_object(const Record& record, const StepCode& code) {
   return object;
 }
 
-template Object<float> make_object(const Record&, const StepCode&);
-template Object<double> make_object(const Record&, const StepCode&);
-template Object<long double> make_object(const Record&, const StepCode&);
-template Object<numerics_of_quad::Real> make_object(const Record&, const StepCode&);
+template Object<float> make_object(const Record&, const Program&);
+template Object<double> make_object(const Record&, const Program&);
+template Object<long double> make_object(const Record&, const Program&);
+template Object<numerics_of_quad::Real> make_object(const Record&, const Program&);
 
 }  // namespace hamgen

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/interpreter/numerics.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -25,7 +25,7 @@ struct Object {
 };
 // With the values its fields begin with.  A field "Matrix" has the size of the code's.
 template <class Real>
-[[nodiscard]] Object<Real> make_object(const Record& record, const StepCode& code);
+[[nodiscard]] Object<Real> make_object(const Record& record, const Program& code);
 // The fields that are numbers, a Refinement's slope and change among them.
 [[nodiscard]] std::vector<Field> numeric_fields(const Record& record);
 // Where the numbers of a field begin.

@@ -1,110 +1,361 @@
-#include "generator/program/lower.hpp"
-#include "generator/program/program.hpp"
-#include "generator/program/step_builder.hpp"
-#include "generator/solvers/array_matrix.hpp"
+#include "generator/program/build_program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "generator/program/coefficients.hpp"
+#include "generator/program/describe_step.hpp"
+#include "generator/program/function_routines.hpp"
+#include "generator/program/kernel_routines.hpp"
+#include "generator/program/loop_member.hpp"
+#include "generator/program/method_tangents.hpp"
+#include "generator/program/names.hpp"
+#include "generator/program/origins.hpp"
+#include "generator/program/plain_sums.hpp"
+#include "generator/program/runge_kutta_routine.hpp"
+#include "generator/program/solve_routine.hpp"
+#include "generator/program/splitting_routine.hpp"
+#include "generator/program/stage_routines.hpp"
+#include "generator/program/tangent_routine.hpp"
 
 namespace hamgen {
 
-Evaluation evaluate_together(const std::vector<Expression>& values) {
-  Lowering lowering({Section{}});
-  std::set<std::string> free;
-  for (const Expression& value : values) collect_symbols(value, free);
-  for (const std::string& symbol : free) lowering.declare(symbol, 0);
-  std::vector<std::size_t> handles;
-  for (const Expression& value : values) handles.push_back(lowering.want(value, 0));
-  lowering.run();
-  Evaluation evaluation{.statements = lowering.statements(0)};
-  for (const std::size_t handle : handles) evaluation.results.push_back(lowering.wanted(handle));
-  return evaluation;
-}
-
 namespace {
 
-// dV/dq and dT/dp share no variable, so one pass lowers both; what depends on parameters alone is
-// computed once per run.
-void build_splitting(Program& program, const Mechanics& mechanics) {
-  Lowering lowering({Section{}, Section{}, Section{}});
-  const int n = mechanics.degrees_of_freedom;
-  for (const Quantity& parameter : mechanics.parameters) lowering.declare(parameter.name, 0);
-  std::vector<std::size_t> handles;
-  for (int i = 0; i < 2 * n; ++i) {
-    lowering.declare(mechanics.variable(i).name(), i < n ? 1 : 2);
-    handles.push_back(
-        lowering.want(mechanics.gradient[static_cast<std::size_t>(i)], i < n ? 1 : 2));
+Routine with_remark(Routine routine, std::string remark) {
+  routine.remark = {std::move(remark)};
+  return routine;
+}
+
+Routine modified_energies(const Environment& environment, const LoweredStep& lowered) {
+  Routine routine = values_routine(environment, "modified_energies", lowered.modified_energies);
+  routine.arguments.insert(routine.arguments.begin() + 1, {.name = "h"});
+  const std::vector<int>& powers = lowered.modified_powers;
+  std::string list;
+  for (const int power : powers) list += fmt::format("{}h^{}", list.empty() ? "" : ", ", power);
+  routine.remark = {fmt::format("The modified Hamiltonian H + h^{} (...) + ..., which steps of "
+                                "size h conserve as a formal",
+                                powers.front()),
+                    fmt::format("series, cut off after {}.", list)};
+  return routine;
+}
+
+Routine invariants(const Environment& environment, const LoweredStep& lowered) {
+  std::string list;
+  for (const NamedExpression& i : lowered.plan.equations.mechanics.invariants) {
+    if (!i.is_event()) list += (list.empty() ? "" : ", ") + i.name;
   }
-  lowering.run();
-  program.coefficients = lowering.statements(0);
-  program.potential_gradient.statements = lowering.statements(1);
-  program.kinetic_gradient.statements = lowering.statements(2);
-  for (int i = 0; i < 2 * n; ++i) {
-    (i < n ? program.potential_gradient : program.kinetic_gradient)
-        .results.push_back(lowering.wanted(handles[static_cast<std::size_t>(i)]));
+  return with_remark(values_routine(environment, "invariants", lowered.invariants),
+                     "The model's invariants: " + list + ".");
+}
+
+void add_events(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  std::string list;
+  for (const NamedExpression& each : lowered.plan.equations.mechanics.invariants) {
+    if (!each.is_event()) continue;
+    const char* direction = each.rising && each.falling ? "" : each.rising ? " rising" : " falling";
+    list += (list.empty() ? "" : ", ") + each.name + direction;
+    code.events.push_back({member_identifier(each.name), each.rising, each.falling});
+  }
+  if (code.events.empty()) return;
+  code.routines.push_back(with_remark(values_routine(environment, "events", lowered.events),
+                                      "Values whose zeros are the events: " + list + "."));
+}
+
+// What is remembered from step to step.
+Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
+  Record start{
+      .name = "Start",
+      .fields = {{.name = "value", .sizes = {unknowns}},
+                 {.name = "known",
+                  .remark = "else the state itself is the start",
+                  .values = {0},
+                  .type = "bool"}},
+      .remark = {
+          "Start values of the implicit equations and what is remembered of their solution."}};
+  for (std::size_t s = 0; s < solves.size(); ++s) {
+    if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
+    start.fields.push_back({.name = fmt::format("rule_{}", s),
+                            .type = solves[s]->simplified ? "NewtonRule<1>" : "NewtonRule<2>"});
+  }
+  return start;
+}
+
+// The functions of the state of a system in loops.
+void add_kernel_functions(Program& code, const Environment& environment,
+                          const LoweredStep& lowered) {
+  const SolvePlan& plan = lowered.plan;
+  const Mechanics& mechanics = plan.equations.mechanics;
+  const ArrayPlan& arrays = *plan.arrays;
+  code.routines.push_back(kernel_energy(environment, mechanics));
+  if (mechanics.is_separable()) {
+    code.routines.push_back(
+        kernel_gradient(environment, mechanics, "potential_gradient", Part::potential));
+    code.routines.push_back(
+        kernel_gradient(environment, mechanics, "kinetic_gradient", Part::kinetic));
+    code.routines.push_back(both_gradients(environment));
+  } else {
+    code.routines.push_back(kernel_gradient(environment, mechanics, "gradient", Part::all));
+  }
+  if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
+    code.routines.push_back(array_vector_field(environment));
+    code.routines.push_back(array_hessian(environment, mechanics));
+  }
+  if (arrays.reduced && !arrays.mass)
+    code.routines.push_back(kernel_masses(environment, mechanics));
+}
+
+// The functions of the state of a system that is written out.
+void add_functions(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  const Mechanics& mechanics = lowered.plan.equations.mechanics;
+  const bool array = std::holds_alternative<RungeKutta>(lowered.plan.equations.scheme.method);
+  code.routines.push_back(with_remark(
+      number_routine(environment, "energy", lowered.energy),
+      mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
+                         : "H(q, p)."));
+  if (!lowered.modified_powers.empty()) {
+    code.routines.push_back(modified_energies(environment, lowered));
+  }
+  code.routines.push_back(with_remark(values_routine(environment, "gradient", lowered.gradient),
+                                      "grad H, the derivatives by q first."));
+  if (array) {
+    code.routines.push_back(with_remark(
+        values_routine(environment, "vector_field", lowered.vector_field, StateForm::array),
+        "J grad H at a state (q, p)."));
+  }
+  if (lowered.plan.equations.scheme.has_member() && !lowered.plan.sweeps) return;
+  code.routines.push_back(
+      with_remark(hessian_routine(environment, lowered.hessian, lowered.hessian_places,
+                                  array ? StateForm::array : StateForm::record),
+                  "The second derivatives of H at z."));
+}
+
+// The rules that the iterations of solve go by.
+std::vector<RuleOfNewton> rules_of(const Routine& solve) {
+  std::vector<RuleOfNewton> rules;
+  for (const Instruction& instruction : solve.body) {
+    const auto* iterate = std::get_if<Iterate>(&instruction.value);
+    if (iterate == nullptr || iterate->rule != Rule::newton) continue;
+    rules.push_back({iterate->name, iterate->unknowns.front().memory,
+                     static_cast<int>(iterate->unknowns.size())});
+  }
+  return rules;
+}
+
+void add_member(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  const Coefficients coefficients = coefficients_of(environment, lowered);
+  std::vector<const Solve*> solves;
+  SolveParts parts{.coefficients = !coefficients.empty()};
+  for (const Stage& stage : lowered.stages) {
+    solves.push_back(stage.solve ? &*stage.solve : nullptr);
+    if (!stage.solve) continue;
+    parts.inverse = parts.inverse || is_inverted(*stage.solve);
+    if (stage.solve->sweeps) continue;
+    code.unknowns += static_cast<int>(stage.solve->variables.size());
+  }
+  parts.start = code.unknowns > 0;
+  if (parts.coefficients) {
+    code.records.push_back(coefficients.record);
+    code.routines.push_back(coefficients.prepare);
+  }
+  if (parts.start) code.records.push_back(start_record(solves, code.unknowns));
+  code.routines.push_back(solve_routine(environment, lowered, parts, coefficients.places));
+  code.rules = rules_of(code.routines.back());
+  code.retries = code.unknowns > 0;
+}
+
+// The tangent map of the whole step.
+void add_tangent(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  const SolvePlan& plan = lowered.plan;
+  const Method& method = plan.equations.scheme.method;
+  const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
+  if (plan.arrays) add(curvature_routine(environment, plan.equations.mechanics));
+  if (std::holds_alternative<Splitting>(method))
+    return add(splitting_tangent(environment, lowered));
+  if (std::holds_alternative<RungeKutta>(method)) {
+    return add(plan.stage_solver ? stages_tangent(environment, lowered, code)
+                                 : explicit_runge_kutta_tangent(environment, lowered));
+  }
+  const bool composed = !lowered.sequence.substeps.empty();
+  const char* name = composed ? "substep_tangent" : "tangent";
+  if (plan.sweeps) {
+    add(sweeps_tangent(environment, lowered, name));
+  } else if (plan.arrays) {
+    add(loop_member_tangent(environment, lowered, code, name));
+  } else {
+    const bool large = std::ranges::any_of(lowered.stages, [](const Stage& stage) {
+      return stage.solve && stage.solve->linear_solver == LinearSolver::eigen_dense;
+    });
+    add(tangent_routine(environment, name, *lowered.linearisation, large));
+  }
+  if (composed) add(composition_tangent(environment, lowered, code));
+}
+
+// Of a composition.
+void add_substeps(Program& code, const LoweredStep& lowered) {
+  if (lowered.sequence.substeps.empty()) return;
+  code.substeps.clear();
+  for (const Substep& substep : lowered.sequence.substeps) {
+    code.substeps.push_back(numeric_value(substep.length));
   }
 }
 
-// J grad H from grad H = (H_q, H_p).
-Evaluation rotated(const Evaluation& gradient) {
-  Evaluation field{.statements = gradient.statements};
-  const auto middle = gradient.results.begin() + std::ssize(gradient.results) / 2;
-  field.results.assign(middle, gradient.results.end());
-  for (auto it = gradient.results.begin(); it != middle; ++it) field.results.push_back(-*it);
-  return field;
+void add_splitting(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  const Sequence& sequence = lowered.sequence;
+  const Coefficients coefficients =
+      coefficients_of(environment, lowered, splitting_lengths(sequence));
+  code.records.push_back(coefficients.record);
+  code.routines.push_back(coefficients.prepare);
+  if (is_closed(sequence)) {
+    const bool kick = sequence.substeps.front().kind == SubstepKind::kick;
+    code.records.push_back(
+        {.name = "Start",
+         .fields = {{.name = "value", .sizes = {environment.degrees_of_freedom}},
+                    {.name = "known", .values = {0}, .type = "bool"}},
+         .remark = {fmt::format("The {} a step ends with is the one the next begins with.",
+                                kick ? "dV/dq" : "dT/dp")}});
+  }
+  for (Routine& routine : splitting_routines(environment, lowered, coefficients)) {
+    code.routines.push_back(std::move(routine));
+  }
 }
 
-void build_hessian(Program& program, const Mechanics& mechanics) {
-  std::vector<Expression> values;
-  for (const auto& [place, value] : mechanics.hessian) {
-    program.hessian_places.push_back(place);
-    values.push_back(value);
+// The fields of State that the places in `dz` of a routine are.
+void find_changed(Program& code, const Environment& environment) {
+  const Routine* solve = code.routine("solve");
+  for (int i = 0; solve != nullptr && i < 2 * environment.degrees_of_freedom; ++i) {
+    const Place place = environment.place("dz", i);
+    const bool changes = std::ranges::any_of(solve->places, [&](const auto& entry) {
+      return entry.second.object == "dz" && entry.second.field == place.field &&
+             (entry.second == place || !entry.second.indices.front().factors.empty());
+    });
+    if (changes) code.changed.push_back(environment.place("", i));
   }
-  program.hessian = evaluate_together(values);
+}
+
+// An explicit step of a polynomial has a value everywhere.
+void leave_unchecked(Program& code) {
+  const auto solve = std::ranges::find(code.routines, "solve", &Routine::name);
+  for (Instruction& instruction : solve->body) {
+    auto* end = std::get_if<Return>(&instruction.value);
+    if (end == nullptr || !end->success) continue;
+    end->finite.clear();
+    end->ranges.clear();
+    code.unchecked = true;
+  }
 }
 
 }  // namespace
 
-Program with_tangent(Program program) {
-  program.tangent = true;
-  const StepEquations& equations = program.plan.equations;
-  const bool solved = equations.scheme.has_member() && !program.plan.sweeps;
-  if (program.plan.arrays) {
-    // Of a fixed point, too, the linearised equations are solved by elimination.
-    ArrayPlan& arrays = *program.plan.arrays;
-    if (iterates(arrays) && !arrays.matrix) {
-      const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
-      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced);
-    }
-  } else if (solved) {
-    program.linearisation = linearise(program.plan);
-  } else if (program.hessian_places.empty()) {
-    build_hessian(program, equations.mechanics);
-  }
-  return program;
+bool Program::solve_takes(std::string_view argument) const {
+  const Routine* solve = routine("solve");
+  return solve != nullptr &&
+         std::ranges::find(solve->arguments, argument, &Argument::name) != solve->arguments.end();
 }
 
-Program build_program(const SolvePlan& plan) {
-  const Mechanics& mechanics = plan.equations.mechanics;
-  Program program{.plan = plan};
-  if (!plan.arrays) {
-    if (plan.equations.scheme.has_member()) program = StepBuilder(plan).build();
-    if (std::holds_alternative<Splitting>(plan.equations.scheme.method)) {
-      build_splitting(program, mechanics);
-    }
-    if (plan.stage_solver) build_hessian(program, mechanics);
-    program.energy = evaluate_together({mechanics.energy});
-    program.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
-                                                                 : mechanics.gradient);
-    if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
-      program.vector_field = rotated(program.gradient);
-    }
+const Record* Program::record(std::string_view name) const {
+  const auto it = std::ranges::find(records, name, &Record::name);
+  return it == records.end() ? nullptr : &*it;
+}
+
+const Routine* Program::routine(std::string_view name) const {
+  const auto it = std::ranges::find(routines, name, &Routine::name);
+  return it == routines.end() ? nullptr : &*it;
+}
+
+std::set<std::string> callees(const Program& code, const std::string& name) {
+  const Routine* routine = code.routine(name);
+  if (routine == nullptr) return {};
+  std::set<std::string> found = {name};
+  for (const std::string& called : called_routines(routine->body)) {
+    found.merge(callees(code, called));
   }
-  program.sequence = sequence_of(plan.equations.scheme);
-  std::vector<Expression> invariants;
-  std::vector<Expression> events;
-  for (const NamedExpression& each : mechanics.invariants)
-    (each.is_event() ? events : invariants).push_back(each.value);
-  program.invariants = evaluate_together(invariants);
-  program.events = evaluate_together(events);
-  return program;
+  return found;
+}
+
+Program build_program(const LoweredStep& lowered) {
+  const StepEquations& equations = lowered.plan.equations;
+  const Scheme& scheme = equations.scheme;
+  const bool arrays = lowered.plan.arrays.has_value();
+  const Environment environment = environment_of(equations, arrays);
+  Program code{.records = {environment.parameter_layout.record, environment.state_layout.record},
+               .routines = {},
+               .changed = {},
+               .parameters = {},
+               .environment = environment};
+  for (const Quantity& parameter : environment.parameters) {
+    code.parameters.push_back(parameter.name);
+  }
+  if (arrays) {
+    add_kernel_functions(code, environment, lowered);
+  } else {
+    add_functions(code, environment, lowered);
+  }
+  if (!lowered.invariants.results.empty()) {
+    code.routines.push_back(invariants(environment, lowered));
+  }
+  add_events(code, environment, lowered);
+  if (std::holds_alternative<Splitting>(scheme.method)) {
+    add_splitting(code, environment, lowered);
+  } else if (scheme.has_member()) {
+    if (arrays) {
+      add_loop_member(code, environment, lowered);
+    } else {
+      add_member(code, environment, lowered);
+    }
+    add_substeps(code, lowered);
+  } else if (lowered.plan.stage_solver) {
+    add_stages(code, environment, lowered);
+    code.retries = true;
+  } else {
+    code.routines.push_back(explicit_runge_kutta_routine(environment, lowered.sequence.stages));
+  }
+  if (lowered.unchecked) leave_unchecked(code);
+  if (lowered.plain_sums) use_plain_sums(code);
+  if (lowered.tangent) add_tangent(code, environment, lowered);
+  find_changed(code, environment);
+  trace_origins(code, environment, equations);
+  code.facts = describe_step(lowered, code);
+  return code;
+}
+
+Program build_program(const SolvePlan& plan, const StepWishes& wishes) {
+  return build_program(lower_step(plan, wishes));
+}
+
+namespace {
+
+template <class Text>
+std::string routines_as_text(const Program& code, const Text& text_of) {
+  std::string text;
+  for (const Record& record : code.records) text += to_text(record);
+  std::set<std::string> wanted;
+  for (const char* name : {"energy", "invariants", "events", "prepare", "solve", "tangent"}) {
+    wanted.merge(callees(code, name));
+  }
+  for (const Routine& routine : code.routines) {
+    if (wanted.contains(routine.name)) text += text_of(routine);
+  }
+  if (code.substeps.size() < 2) return text;
+  text += "substeps of h times:\n";
+  for (const Rational& length : code.substeps) text += fmt::format("  {}\n", length.get_d());
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Program& code) {
+  return routines_as_text(code, [](const Routine& routine) { return to_text(routine); });
+}
+
+std::string text_with_origins(const Program& code, const std::vector<EnergyTerm>& terms) {
+  std::string text = "H is the sum of the terms\n";
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    text += fmt::format("  {}  line {}: {}\n", t + 1, terms[t].line, terms[t].text);
+  }
+  return text +
+         routines_as_text(code, [](const Routine& routine) { return text_with_origins(routine); });
 }
 
 }  // namespace hamgen

@@ -65,7 +65,7 @@ struct Matrix {
   std::string name;
   int size = 0;
   bool large = false;
-  bool patterned = false;  // of the type that StepCode::matrix describes
+  bool patterned = false;  // of the type that Program::matrix describes
 };
 // to = from, both records of one type; `declares` a local of it.  Without `from` zeros.
 struct Copy {

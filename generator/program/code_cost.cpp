@@ -6,7 +6,7 @@ namespace {
 
 class CodeCost {
  public:
-  explicit CodeCost(const StepCode& code) : code_(code) {}
+  explicit CodeCost(const Program& code) : code_(code) {}
 
   // Of the routine, the bodies of iterations by themselves.
   void run(const std::string& name) {
@@ -110,7 +110,7 @@ class CodeCost {
     return {code_.matrix->size, band ? code_.matrix->bandwidth : code_.matrix->size / 2};
   }
 
-  const StepCode& code_;
+  const Program& code_;
   std::vector<KernelRange> ranges_;
   long instances_ = 1;  // of the innermost loop
   long calls_ = 1;      // of the routine
@@ -119,13 +119,13 @@ class CodeCost {
 
 }  // namespace
 
-StepCost step_cost(const StepCode& code) {
+StepCost step_cost(const Program& code) {
   CodeCost count(code);
   count.run("solve");
   return {count.iterated, count.once};
 }
 
-Cost routine_cost(const StepCode& code, const std::string& name) {
+Cost routine_cost(const Program& code, const std::string& name) {
   CodeCost count(code);
   count.run(name);
   return count.once;

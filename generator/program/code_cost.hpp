@@ -1,8 +1,8 @@
 // What routines cost, their loops counted out.
 #pragma once
 
+#include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -11,8 +11,8 @@ struct StepCost {
   Cost besides;    // and once a step
 };
 // Elimination within a band, or of a full matrix, is counted too, that by Eigen is not.
-[[nodiscard]] StepCost step_cost(const StepCode& code);
+[[nodiscard]] StepCost step_cost(const Program& code);
 // Of a call of the routine of this name, nothing if there is none.
-[[nodiscard]] Cost routine_cost(const StepCode& code, const std::string& name);
+[[nodiscard]] Cost routine_cost(const Program& code, const std::string& name);
 
 }  // namespace hamgen

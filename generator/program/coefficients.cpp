@@ -26,7 +26,7 @@ void put_matrix(Body& body, const std::string& name, const Solve& solve) {
   put_matrix(body, name, solve.matrix, solve.linear_solver == LinearSolver::eigen_dense);
 }
 
-Coefficients coefficients_of(const Environment& environment, const Program& program,
+Coefficients coefficients_of(const Environment& environment, const LoweredStep& lowered,
                              const std::vector<ScaledNumbers>& scaled) {
   Coefficients result{.record = {.name = "Coefficients",
                                  .fields = {},
@@ -38,7 +38,7 @@ Coefficients coefficients_of(const Environment& environment, const Program& prog
   std::vector<Field>& fields = result.record.fields;
   Routine& prepare = result.prepare;
   Substitution meaning;
-  for (const Statement& s : program.coefficients) {
+  for (const Statement& s : lowered.coefficients) {
     const std::string field = fmt::format("c{}", fields.size() + 1);
     const Expression full = substitute(s.value, meaning);
     meaning[s.name] = full;
@@ -49,8 +49,8 @@ Coefficients coefficients_of(const Environment& environment, const Program& prog
     prepare.body.push_back({Assign{s.name, s.value}});
   }
   bool inverted = false;
-  for (std::size_t s = 0; s < program.stages.size(); ++s) {
-    const auto& solve = program.stages[s].solve;
+  for (std::size_t s = 0; s < lowered.stages.size(); ++s) {
+    const auto& solve = lowered.stages[s].solve;
     if (!solve || !is_inverted(*solve)) continue;
     inverted = true;
     const auto size = static_cast<int>(solve->matrix.size());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/program/environment.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 
@@ -27,7 +27,8 @@ struct ScaledNumbers {
   std::vector<Expression> values;
 };
 
-[[nodiscard]] Coefficients coefficients_of(const Environment& environment, const Program& program,
+[[nodiscard]] Coefficients coefficients_of(const Environment& environment,
+                                           const LoweredStep& lowered,
                                            const std::vector<ScaledNumbers>& scaled = {});
 
 // The field of k with the inverse of the constant matrix of a stage.

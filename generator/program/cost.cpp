@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "generator/program/arithmetic.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 
@@ -74,10 +74,10 @@ long operations_of(const Solve& solve) {
   return operations_of(solve.body) + size * size * size / 3 + 2 * size * size;
 }
 
-long operations_of_member(const Program& program) {
+long operations_of_member(const LoweredStep& lowered) {
   constexpr long iterations = 2;
   long total = 0;
-  for (const Stage& stage : program.stages) {
+  for (const Stage& stage : lowered.stages) {
     total += operations_of(stage.before) + operations_of(stage.after);
     if (stage.solve) total += iterations * operations_of(*stage.solve);
   }
@@ -86,22 +86,23 @@ long operations_of_member(const Program& program) {
 
 }  // namespace
 
-long operations_per_step(const Program& program) {
-  const Scheme& scheme = program.plan.equations.scheme;
-  const auto variables = static_cast<long>(program.increments.size());
+long operations_per_step(const SolvePlan& plan) {
+  const LoweredStep lowered = lower_step(plan);
+  const Scheme& scheme = lowered.plan.equations.scheme;
+  const auto variables = static_cast<long>(lowered.increments.size());
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
     const auto parts = static_cast<long>(splitting->kicks.size());
-    return parts * (operations_of(program.potential_gradient.statements) +
-                    operations_of(program.kinetic_gradient.statements) +
-                    4L * program.plan.equations.mechanics.degrees_of_freedom);
+    return parts * (operations_of(lowered.potential_gradient.statements) +
+                    operations_of(lowered.kinetic_gradient.statements) +
+                    4L * lowered.plan.equations.mechanics.degrees_of_freedom);
   }
   if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
     const auto stages = static_cast<long>(tableau->b.size());
-    return stages * (operations_of(program.vector_field.statements) +
-                     stages * 2L * program.plan.equations.mechanics.degrees_of_freedom);
+    return stages * (operations_of(lowered.vector_field.statements) +
+                     stages * 2L * lowered.plan.equations.mechanics.degrees_of_freedom);
   }
-  const auto substeps = std::max<long>(1, static_cast<long>(program.sequence.substeps.size()));
-  return substeps * (operations_of_member(program) + 6 * variables);
+  const auto substeps = std::max<long>(1, static_cast<long>(lowered.sequence.substeps.size()));
+  return substeps * (operations_of_member(lowered) + 6 * variables);
 }
 
 std::string to_text(const Cost& cost) {

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "generator/equations/step_equations.hpp"
+
 namespace hamgen {
 
 Environment environment_of(const StepEquations& equations, bool arrays) {
   const Mechanics& mechanics = equations.mechanics;
   Environment result{.degrees_of_freedom = mechanics.degrees_of_freedom,
+                     .arrays = arrays,
                      .parameters = mechanics.parameters,
                      .variables = mechanics.variables,
                      .parameter_layout = {},

@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "generator/equations/step_equations.hpp"
 #include "generator/program/code.hpp"
 #include "generator/program/records.hpp"
 #include "generator/program/statement.hpp"
 
 namespace hamgen {
 
+struct StepEquations;
+
 struct Environment {
   int degrees_of_freedom = 0;
+  bool arrays = false;               // q and p are two arrays
   std::vector<Quantity> parameters;  // E0 last, if the step uses it
   std::vector<Quantity> variables;   // 2n
   Layout parameter_layout;           // of record Parameters

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "generator/program/environment.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 

@@ -8,8 +8,8 @@
 
 #include "generator/program/gathered_kernel.hpp"
 #include "generator/program/lower.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/program/names.hpp"
-#include "generator/program/program.hpp"
 
 namespace hamgen {
 

@@ -33,14 +33,14 @@ constexpr int kStepsOfNewton = 32;
 
 class LoopMember {
  public:
-  LoopMember(StepCode& code, const Environment& environment, const Program& program)
+  LoopMember(Program& code, const Environment& environment, const LoweredStep& lowered)
       : code_(code),
         environment_(environment),
-        mechanics_(program.plan.equations.mechanics),
-        plan_(program.plan),
-        arrays_(*program.plan.arrays),
+        mechanics_(lowered.plan.equations.mechanics),
+        plan_(lowered.plan),
+        arrays_(*lowered.plan.arrays),
         n_(environment.degrees_of_freedom),
-        tangent_(program.tangent),
+        tangent_(lowered.tangent),
         weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
 
   void add() {
@@ -564,7 +564,7 @@ class LoopMember {
     b.body().push_back({std::move(end)});
   }
 
-  StepCode& code_;
+  Program& code_;
   const Environment& environment_;
   const Mechanics& mechanics_;
   const SolvePlan& plan_;
@@ -577,8 +577,8 @@ class LoopMember {
 
 }  // namespace
 
-void add_loop_member(StepCode& code, const Environment& environment, const Program& program) {
-  LoopMember(code, environment, program).add();
+void add_loop_member(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  LoopMember(code, environment, lowered).add();
 }
 
 }  // namespace hamgen

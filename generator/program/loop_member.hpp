@@ -2,8 +2,8 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -12,6 +12,6 @@ namespace hamgen {
 //   start.value   the stage, q first; q alone where the momenta are torn out: those are
 //                 start.momentum
 //   start.slope   grad H there, dH/dq first
-void add_loop_member(StepCode& code, const Environment& environment, const Program& program);
+void add_loop_member(Program& code, const Environment& environment, const LoweredStep& lowered);
 
 }  // namespace hamgen

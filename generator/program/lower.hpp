@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 

@@ -12,9 +12,9 @@ namespace {
 
 class SplittingTangent {
  public:
-  SplittingTangent(const Environment& environment, const Program& program)
-      : sequence_(program.sequence),
-        b_(environment, program, "tangent",
+  SplittingTangent(const Environment& environment, const LoweredStep& lowered)
+      : sequence_(lowered.sequence),
+        b_(environment, lowered, "tangent",
            {"M = dZ/dz, the product over the substeps: a kick adds -b h V'' of its rows of",
             "coordinates to those of momenta, a drift a h T'' of these to those."}) {}
 
@@ -72,13 +72,13 @@ class SplittingTangent {
 
 }  // namespace
 
-Routine splitting_tangent(const Environment& environment, const Program& program) {
-  return SplittingTangent(environment, program).build();
+Routine splitting_tangent(const Environment& environment, const LoweredStep& lowered) {
+  return SplittingTangent(environment, lowered).build();
 }
 
-Routine composition_tangent(const Environment& environment, const Program& program,
-                            const StepCode& code) {
-  TangentBuilder b(environment, program, "tangent", {"M = dZ/dz, the product over the substeps."});
+Routine composition_tangent(const Environment& environment, const LoweredStep& lowered,
+                            const Program& code) {
+  TangentBuilder b(environment, lowered, "tangent", {"M = dZ/dz, the product over the substeps."});
   const int size = 2 * b.n();
   std::vector<Expression> lengths;
   for (const Rational& length : code.substeps) lengths.emplace_back(length);
@@ -108,9 +108,9 @@ Routine composition_tangent(const Environment& environment, const Program& progr
   return b.take();
 }
 
-Routine explicit_runge_kutta_tangent(const Environment& environment, const Program& program) {
-  const StageTable& table = program.sequence.stages;
-  TangentBuilder b(environment, program, "tangent",
+Routine explicit_runge_kutta_tangent(const Environment& environment, const LoweredStep& lowered) {
+  const StageTable& table = lowered.sequence.stages;
+  TangentBuilder b(environment, lowered, "tangent",
                    {"M = dZ/dz = 1 + h sum b_i K_i with K_i = J H''(Y_i) (1 + h sum a_ij K_j)."});
   const int n = b.n();
   const int size = 2 * n;
@@ -197,9 +197,10 @@ void add_flow(TangentBuilder& b, const std::string& derivative) {
 
 }  // namespace
 
-Routine sweeps_tangent(const Environment& environment, const Program& program, std::string name) {
-  const Member& member = program.plan.equations.scheme.member();
-  TangentBuilder b(environment, program, std::move(name),
+Routine sweeps_tangent(const Environment& environment, const LoweredStep& lowered,
+                       std::string name) {
+  const Member& member = lowered.plan.equations.scheme.member();
+  TangentBuilder b(environment, lowered, std::move(name),
                    {"M = dZ/dz of the sweeps themselves, each linearised: g and its derivative dg "
                     "along z are carried",
                     "through zbar = z + h (I/2 + C) J g and g = grad H(zbar)."});
@@ -244,7 +245,7 @@ Routine sweeps_tangent(const Environment& environment, const Program& program, s
   sweep.push_back(for_each(counting("column", size), std::move(columns)));
   b.add_gradient(sweep, {{"bar"}}, "g");
   b.multiply_hessian(sweep, {{"bar"}}, "moved", "dg");
-  b.body().push_back(for_each(counting("sweep", *program.plan.sweeps), std::move(sweep)));
+  b.body().push_back(for_each(counting("sweep", *lowered.plan.sweeps), std::move(sweep)));
   add_flow(b, "dg");
   b.finish();
   return b.take();

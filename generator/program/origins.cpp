@@ -5,6 +5,8 @@
 #include <map>
 #include <ranges>
 
+#include "generator/equations/step_equations.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -49,7 +51,7 @@ bool repeats(const Instruction& instruction) {
 }
 
 // A routine that is called from both is the iteration's.
-void set_section(StepCode& code, Body& body, When when) {
+void set_section(Program& code, Body& body, When when) {
   for (Instruction& instruction : body) {
     instruction.origin.when = std::max(instruction.origin.when, when);
     std::set<std::string> called;
@@ -188,7 +190,7 @@ class TermTracer {
 
 }  // namespace
 
-void trace_origins(StepCode& code, const Environment& environment, const StepEquations& equations) {
+void trace_origins(Program& code, const Environment& environment, const StepEquations& equations) {
   for (Routine& routine : code.routines) {
     if (routine.name == "prepare") set_sections_of_coefficients(routine);
     if (routine.name == "solve") set_section(code, routine.body, When::step);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -17,6 +17,6 @@ namespace hamgen {
 // cheap as a name, p of p^2/2, is written where it is used and names none there.  Loops have the
 // terms of their kernels.  At a higher order, where K stands in for H, every term is in everything,
 // and none is named.
-void trace_origins(StepCode& code, const Environment& environment, const StepEquations& equations);
+void trace_origins(Program& code, const Environment& environment, const StepEquations& equations);
 
 }  // namespace hamgen

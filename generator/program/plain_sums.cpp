@@ -114,7 +114,7 @@ class PlainSums {
 
 }  // namespace
 
-void use_plain_sums(StepCode& code) {
+void use_plain_sums(Program& code) {
   for (Routine& routine : code.routines) PlainSums(routine).run();
   for (Record& record : code.records)
     std::erase_if(record.fields, [&](const Field& field) {

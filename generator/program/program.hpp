@@ -1,105 +1,75 @@
-// The step as straight-line single-assignment code and one loop per implicit block: what a format
-// writes out.  Symbols are still mathematical ("bar(q)", "H(q)"); a format gives them its names.
+// The step as a value, which is written, interpreted and proved: records, routines, how a step uses
+// them, and what is said of it.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "generator/program/linearisation.hpp"
-#include "generator/program/sequence.hpp"
-#include "generator/program/statement.hpp"
-#include "generator/solvers/solve_plan.hpp"
+#include "generator/program/code.hpp"
+#include "generator/program/environment.hpp"
+#include "generator/program/step_facts.hpp"
+#include "generator/solvers/matrix_storage.hpp"
 
 namespace hamgen {
 
-// A variable of a solver's loop.
-struct LoopVariable {
-  std::string name;       // "bar(q)", or "H(q)" for sweeps
-  Expression cold;        // its start value when nothing is known from earlier steps
-  Expression next;        // fixed point and sweeps: the new value
-  Expression correction;  // Newton, size <= 3: what is added
+// A rule of start, and the unknowns it stops: it watches how these move from step to step.
+struct RuleOfNewton {
+  std::string name;
+  int first = 0;
+  int count = 0;
 };
 
-// A loop.
-struct Solve {
-  BlockKind kind = BlockKind::newton;
-  LinearSolver linear_solver = LinearSolver::written_out;
-  std::optional<int> sweeps;     // a fixed number of sweeps instead of a stopping rule
-  bool constant_matrix = false;  // inverted once per run
-  bool simplified = false;       // Newton with an approximate matrix: linear convergence
-  std::vector<LoopVariable> variables;
-  std::vector<Statement> body;       // evaluated once per iteration
-  std::vector<Expression> residual;  // of a linear system that is not written out: size m
-  std::vector<std::vector<Expression>> matrix;  // m x m
-  std::vector<std::string> corrections;         // symbols of the solution -matrix^-1 residual
-  // Of a fixed point: components of the gradient, and the symbols of what they lack of their values
-  // at the exact solution, for the unknowns are rounded.
-  std::vector<Expression> gradient;
-  std::vector<std::string> changes;
+// An event of the model, which is where its value crosses zero in a direction that counts.
+struct EventName {
+  std::string name;  // free in C++
+  bool rising = true, falling = true;
 };
 
-struct Stage {
-  std::vector<Statement> before;  // straight-line
-  std::optional<Solve> solve;
-  std::vector<Statement> after;
-};
-
-// A function of the state alone.
-struct Evaluation {
-  std::vector<Statement> statements;
-  std::vector<Expression> results;
-};
-
-struct Cost {
-  long additions = 0;  // + and -
-  long multiplications = 0;
-  long divisions = 0;
-  long functions = 0;  // sqrt, sin, pow, ...
-  bool operator==(const Cost&) const = default;
-};
-
+// A step is
+//
+//   for each substep i:  dz = solve(par, k_i, h_i, z, carry, start_i),  z + carry += dz
+//
+// (dz + rest where solve has a place for the rest of it; without the carry where sums are plain),
+// with k_i = prepare(par, h_i), and start_i what substep i remembers of the step before.
 struct Program {
-  SolvePlan plan;
-  std::vector<Statement> coefficients;  // of h and parameters: once per run
-  std::vector<Stage> stages;
-  std::vector<Expression> increments;  // Z_i - z_i, 2n; zero where nothing changes
-  // What is added to the increments without rounding, 2n, or none: then these are all of it.
-  std::vector<Expression> rests = {};
-  Evaluation energy;    // one result
-  Evaluation gradient;  // 2n results
-  Evaluation invariants;
-  Evaluation events = {};  // the values whose zeros they are
-  // The modified Hamiltonian, functions of h too: H + ... cut off after each of these powers of h.
-  Evaluation modified_energies = {};
-  std::vector<int> modified_powers = {};
-  // Of a splitting: n results each, dV/dq and dT/dp.
-  Evaluation potential_gradient = {};
-  Evaluation kinetic_gradient = {};
-  // Of a Runge-Kutta method: J grad H, 2n results.
-  Evaluation vector_field = {};
-  // What stands around the instructions.
-  Sequence sequence = {};
-  bool tangent = false;     // is the tangent map wanted?
-  bool plain_sums = false;  // what rounding takes from the state is lost
-  bool unchecked = false;   // no step fails, but where numbers end
-  // For that of a member that is solved.
-  std::optional<Linearisation> linearisation = {};
-  // Of an implicit Runge-Kutta method, and for the tangent maps of others: the entries of the
-  // Hessian at `hessian_places`, i <= j.
-  Evaluation hessian = {};
-  std::vector<std::pair<int, int>> hessian_places = {};
+  std::vector<Record> records;           // Parameters, State; Coefficients, Start where they are
+  std::vector<Routine> routines;         // in the order in which they use each other
+  std::vector<Rational> substeps = {1};  // h_i/h
+  int unknowns =
+      0;  // of the implicit equations, whose solutions are extrapolated from step to step
+  std::vector<RuleOfNewton> rules = {};
+  bool unchecked = false;  // no step fails: whether the state is finite is looked at by who steps
+  bool retries = false;    // is a step that failed tried again without what start remembers?
+  std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
+  std::vector<Place> changed;              // fields of State that a step may change
+  std::vector<std::string>
+      parameters;                      // in the order of their record; E0 last, if the step uses it
+  std::vector<EventName> events = {};  // in the order of the values of the routine "events"
+  Environment environment = {};        // where parameters and state stand
+  StepFacts facts = {};
+
+  // Does solve leave what is small of an increment in `rest`?
+  [[nodiscard]] bool has_rest() const { return solve_takes("rest"); }
+  // Is what rounding takes from the state carried along?
+  [[nodiscard]] bool has_carry() const { return solve_takes("carry"); }
+  // Null if there is none of this name.
+  [[nodiscard]] const Record* record(std::string_view name) const;
+  [[nodiscard]] const Routine* routine(std::string_view name) const;
+
+ private:
+  [[nodiscard]] bool solve_takes(std::string_view argument) const;
 };
 
-// Values of free symbols, computed together: what they share is computed once.
-[[nodiscard]] Evaluation evaluate_together(const std::vector<Expression>& values);
-// With what the tangent map takes besides.
-[[nodiscard]] Program with_tangent(Program program);
-[[nodiscard]] Program build_program(const SolvePlan& plan);
-[[nodiscard]] Cost cost(const std::vector<Statement>& statements);
-[[nodiscard]] std::string to_text(const Cost& cost);
-// Of a step that is written out, with two iterations where there are any; a function counts as 10,
-// and so does a division.
-[[nodiscard]] long operations_per_step(const Program& program);
+// The routine of this name, if there is one, and those that it calls.
+[[nodiscard]] std::set<std::string> callees(const Program& code, const std::string& routine);
+
+// The records and routines that a step needs: what `hamgen show --stage program` prints.
+[[nodiscard]] std::string to_text(const Program& code);
+// The same, and before each line how often it is done and of which terms of H it comes.
+[[nodiscard]] std::string text_with_origins(const Program& code,
+                                            const std::vector<EnergyTerm>& terms);
 
 }  // namespace hamgen

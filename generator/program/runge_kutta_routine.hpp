@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 

@@ -1,5 +1,5 @@
 // What a splitting, a composition or a Runge-Kutta method puts around the instructions of a
-// Program: the numbers a format writes, and no others.
+// LoweredStep: the numbers a format writes, and no others.
 #pragma once
 
 #include <vector>

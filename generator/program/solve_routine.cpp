@@ -12,12 +12,12 @@ namespace {
 
 class SolveRoutine {
  public:
-  SolveRoutine(const Environment& environment, const Program& program)
-      : environment_(environment), program_(program) {}
+  SolveRoutine(const Environment& environment, const LoweredStep& lowered)
+      : environment_(environment), lowered_(lowered) {}
 
   Routine build(const SolveParts& parts, const CoefficientPlaces& coefficients) {
     routine_ = {.name = "solve",
-                .remark = {program_.rests.empty()
+                .remark = {lowered_.rests.empty()
                                ? "dz = Z - z for one step from z + carry."
                                : "dz + rest = Z - z for one step from z + carry; rest is small."},
                 .result = {.type = "StepReport", .object = "report"},
@@ -29,14 +29,14 @@ class SolveRoutine {
                                        environment_.place("carry", i));
     }
     std::set<std::string> used;
-    for (const Stage& stage : program_.stages) collect(stage, used);
-    for (const Expression& e : program_.increments) collect_symbols(e, used);
+    for (const Stage& stage : lowered_.stages) collect(stage, used);
+    for (const Expression& e : lowered_.increments) collect_symbols(e, used);
     if (parts.inverse) {
       Body fail{{Return{.success = false}}};
       routine_.body.push_back({If{{"k", "regular"}, false, std::move(fail)}});
     }
     environment_.load_state(routine_, routine_.body, used);
-    for (std::size_t s = 0; s < program_.stages.size(); ++s) add_stage(s);
+    for (std::size_t s = 0; s < lowered_.stages.size(); ++s) add_stage(s);
     add_increments();
     return std::move(routine_);
   }
@@ -56,7 +56,7 @@ class SolveRoutine {
     list.push_back(state_argument("carry"));
     if (parts.start) list.push_back({.name = "start", .record = "Start", .changes = true});
     list.push_back(state_argument("dz", true));
-    if (!program_.rests.empty()) list.push_back(state_argument("rest", true));
+    if (!lowered_.rests.empty()) list.push_back(state_argument("rest", true));
   }
 
   // The symbols a stage reads.
@@ -79,12 +79,12 @@ class SolveRoutine {
   // What is computed in stage s and read after its iteration.
   [[nodiscard]] std::vector<std::string> kept(std::size_t s) const {
     std::set<std::string> later;
-    const Solve& solve = *program_.stages[s].solve;
+    const Solve& solve = *lowered_.stages[s].solve;
     for (const LoopVariable& v : solve.variables) collect_symbols(v.correction, later);
-    for (const Statement& st : program_.stages[s].after) collect_symbols(st.value, later);
-    for (std::size_t t = s + 1; t < program_.stages.size(); ++t) collect(program_.stages[t], later);
-    for (const Expression& e : program_.increments) collect_symbols(e, later);
-    for (const Expression& e : program_.rests) collect_symbols(e, later);
+    for (const Statement& st : lowered_.stages[s].after) collect_symbols(st.value, later);
+    for (std::size_t t = s + 1; t < lowered_.stages.size(); ++t) collect(lowered_.stages[t], later);
+    for (const Expression& e : lowered_.increments) collect_symbols(e, later);
+    for (const Expression& e : lowered_.rests) collect_symbols(e, later);
     std::vector<std::string> result;
     for (const Statement& st : solve.body) {
       if (later.contains(st.name)) result.push_back(st.name);
@@ -93,7 +93,7 @@ class SolveRoutine {
   }
 
   void add_stage(std::size_t s) {
-    const Stage& stage = program_.stages[s];
+    const Stage& stage = lowered_.stages[s];
     append(routine_.body, stage.before);
     if (stage.solve) add_solve(s, *stage.solve);
     const std::size_t first = routine_.body.size();
@@ -207,21 +207,21 @@ class SolveRoutine {
   void add_increments() {
     Return end;
     for (int i = 0; i < size(); ++i) {
-      const Expression& increment = program_.increments[static_cast<std::size_t>(i)];
+      const Expression& increment = lowered_.increments[static_cast<std::size_t>(i)];
       if (increment.is_zero()) continue;
       const Expression target = environment_.bind_state(routine_, "dz", i);
       routine_.body.push_back({Assign{target.name(), increment}});
       end.finite.push_back(target.name());
-      if (program_.rests.empty()) continue;
+      if (lowered_.rests.empty()) continue;
       const Expression rest = environment_.bind_state(routine_, "rest", i);
-      routine_.body.push_back({Assign{rest.name(), program_.rests[static_cast<std::size_t>(i)]}});
+      routine_.body.push_back({Assign{rest.name(), lowered_.rests[static_cast<std::size_t>(i)]}});
       end.finite.push_back(rest.name());
     }
     routine_.body.push_back({std::move(end)});
   }
 
   const Environment& environment_;
-  const Program& program_;
+  const LoweredStep& lowered_;
   Routine routine_;
   Refine refinement_;
   int memory_ = 0;  // elements of start.value in use
@@ -229,9 +229,9 @@ class SolveRoutine {
 
 }  // namespace
 
-Routine solve_routine(const Environment& environment, const Program& program,
+Routine solve_routine(const Environment& environment, const LoweredStep& lowered,
                       const SolveParts& parts, const CoefficientPlaces& coefficients) {
-  return SolveRoutine(environment, program).build(parts, coefficients);
+  return SolveRoutine(environment, lowered).build(parts, coefficients);
 }
 
 }  // namespace hamgen

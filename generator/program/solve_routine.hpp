@@ -12,7 +12,7 @@ struct SolveParts {
   bool start = false;         // are there start values?
 };
 
-[[nodiscard]] Routine solve_routine(const Environment& environment, const Program& program,
+[[nodiscard]] Routine solve_routine(const Environment& environment, const LoweredStep& lowered,
                                     const SolveParts& parts, const CoefficientPlaces& coefficients);
 
 }  // namespace hamgen

@@ -6,14 +6,14 @@
 
 namespace hamgen {
 
-Routine stages_tangent(const Environment& environment, const Program& program,
-                       const StepCode& code) {
-  TangentBuilder b(environment, program, "tangent",
+Routine stages_tangent(const Environment& environment, const LoweredStep& lowered,
+                       const Program& code) {
+  TangentBuilder b(environment, lowered, "tangent",
                    {"M = dZ/dz of one step: the matrix of Newton's iteration with the Hessian of "
                     "every stage."});
   const int n = b.n();
   const int size = 2 * n;
-  const auto stages = static_cast<int>(program.sequence.stages.weight.size());
+  const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
   add_step(b.body(), code, "h", "z");
   // second[i] = h b_i J H''(Y_i)
   b.body().push_back({Array{"second", {stages, size, size}}});
@@ -76,12 +76,12 @@ namespace {
 // dzbar = u + h (I/2 + C) J H'' dzbar, and Z by u + h J H'' dzbar.
 class LoopMemberTangent {
  public:
-  LoopMemberTangent(const Environment& environment, const Program& program, const StepCode& code,
+  LoopMemberTangent(const Environment& environment, const LoweredStep& lowered, const Program& code,
                     std::string name)
-      : arrays_(*program.plan.arrays),
+      : arrays_(*lowered.plan.arrays),
         code_(code),
-        weights_(*uniform_parameters(program.plan.equations.scheme.member())),
-        b_(environment, program, std::move(name), {}),
+        weights_(*uniform_parameters(lowered.plan.equations.scheme.member())),
+        b_(environment, lowered, std::move(name), {}),
         n_(b_.n()) {}
 
   Routine build() {
@@ -206,7 +206,7 @@ class LoopMemberTangent {
   }
 
   const ArrayPlan& arrays_;
-  const StepCode& code_;
+  const Program& code_;
   StepWeights weights_;
   TangentBuilder b_;
   int n_;
@@ -214,9 +214,9 @@ class LoopMemberTangent {
 
 }  // namespace
 
-Routine loop_member_tangent(const Environment& environment, const Program& program,
-                            const StepCode& code, std::string name) {
-  return LoopMemberTangent(environment, program, code, std::move(name)).build();
+Routine loop_member_tangent(const Environment& environment, const LoweredStep& lowered,
+                            const Program& code, std::string name) {
+  return LoopMemberTangent(environment, lowered, code, std::move(name)).build();
 }
 
 }  // namespace hamgen

@@ -37,13 +37,13 @@ struct HalfStep {
 // w = 1.3 the form of an oscillator drifts by 1e-3 units of rounding a step with sbab-3.
 class SplittingRoutine {
  public:
-  SplittingRoutine(const Environment& environment, const Program& program)
+  SplittingRoutine(const Environment& environment, const LoweredStep& lowered)
       : environment_(environment),
-        program_(program),
+        lowered_(lowered),
         n_(environment.degrees_of_freedom),
-        arrays_(program.plan.arrays.has_value()),
-        closed_(is_closed(program.sequence)) {
-    const std::vector<Substep>& substeps = program.sequence.substeps;
+        arrays_(lowered.plan.arrays.has_value()),
+        closed_(is_closed(lowered.sequence)) {
+    const std::vector<Substep>& substeps = lowered.sequence.substeps;
     for (std::size_t i = 1; i < substeps.size(); ++i) {
       if (substeps[i].kind == substeps[i - 1].kind)
         internal_error("substeps that do not alternate");
@@ -90,7 +90,7 @@ class SplittingRoutine {
 
  private:
   void add_pairs(Body& body) {
-    const auto substeps = static_cast<int>(program_.sequence.substeps.size());
+    const auto substeps = static_cast<int>(lowered_.sequence.substeps.size());
     const int pairs = substeps / 2;
     if (pairs == 1) {
       add_pair(body, {0, {}});
@@ -141,7 +141,7 @@ class SplittingRoutine {
   // The components of a kind that change: of a written-out system those with a slope.
   [[nodiscard]] std::vector<AffineIndex> components(bool kick) const {
     if (arrays_) return {{0, {{"j", 1}}}};
-    const Evaluation& gradient = kick ? program_.potential_gradient : program_.kinetic_gradient;
+    const Evaluation& gradient = kick ? lowered_.potential_gradient : lowered_.kinetic_gradient;
     std::vector<AffineIndex> result;
     for (int i = 0; i < n_; ++i) {
       if (!gradient.results[static_cast<std::size_t>(i)].is_zero()) result.push_back({i, {}});
@@ -176,7 +176,7 @@ class SplittingRoutine {
   }
 
   const Environment& environment_;
-  const Program& program_;
+  const LoweredStep& lowered_;
   int n_;
   bool arrays_, closed_;
   HalfStep first_, second_;  // that comes first, and the other
@@ -194,18 +194,18 @@ bool is_closed(const Sequence& sequence) {
   return sequence.substeps.front().kind == sequence.substeps.back().kind;
 }
 
-std::vector<Routine> splitting_routines(const Environment& environment, const Program& program,
+std::vector<Routine> splitting_routines(const Environment& environment, const LoweredStep& lowered,
                                         const Coefficients& coefficients) {
   std::vector<Routine> routines;
-  if (!program.plan.arrays) {
+  if (!lowered.plan.arrays) {
     routines.push_back(
-        half_gradient(environment, coefficients, "potential_gradient", program.potential_gradient));
+        half_gradient(environment, coefficients, "potential_gradient", lowered.potential_gradient));
     routines.back().remark = {"dV/dq at z."};
     routines.push_back(
-        half_gradient(environment, coefficients, "kinetic_gradient", program.kinetic_gradient));
+        half_gradient(environment, coefficients, "kinetic_gradient", lowered.kinetic_gradient));
     routines.back().remark = {"dT/dp at z."};
   }
-  routines.push_back(SplittingRoutine(environment, program).build());
+  routines.push_back(SplittingRoutine(environment, lowered).build());
   return routines;
 }
 

@@ -16,7 +16,7 @@ namespace hamgen {
 [[nodiscard]] bool is_closed(const Sequence& sequence);
 
 [[nodiscard]] std::vector<Routine> splitting_routines(const Environment& environment,
-                                                      const Program& program,
+                                                      const LoweredStep& lowered,
                                                       const Coefficients& coefficients);
 
 }  // namespace hamgen

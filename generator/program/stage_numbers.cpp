@@ -57,9 +57,9 @@ Rows extrapolation(const Row& b, const Row& c) {
 
 class StageNumbers {
  public:
-  explicit StageNumbers(const Program& program)
-      : table_(program.sequence.stages),
-        nodes_(std::get<RungeKutta>(program.plan.equations.scheme.method).c),
+  explicit StageNumbers(const LoweredStep& lowered)
+      : table_(lowered.sequence.stages),
+        nodes_(std::get<RungeKutta>(lowered.plan.equations.scheme.method).c),
         stages_(static_cast<int>(table_.weight.size())),
         b_({.name = "prepare",
             .result = {.type = "Coefficients", .object = "k"},
@@ -147,6 +147,8 @@ class StageNumbers {
 
 }  // namespace
 
-Coefficients stage_coefficients(const Program& program) { return StageNumbers(program).build(); }
+Coefficients stage_coefficients(const LoweredStep& lowered) {
+  return StageNumbers(lowered).build();
+}
 
 }  // namespace hamgen

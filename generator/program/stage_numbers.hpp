@@ -2,7 +2,7 @@
 #pragma once
 
 #include "generator/program/coefficients.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 
@@ -10,6 +10,6 @@ namespace hamgen {
 //   k.ahead[i][j]    from the L_j of one step to the increments Y_i - z of the next, on the same
 //                    polynomial
 //   k.scaled[i]      h b_i
-[[nodiscard]] Coefficients stage_coefficients(const Program& program);
+[[nodiscard]] Coefficients stage_coefficients(const LoweredStep& lowered);
 
 }  // namespace hamgen

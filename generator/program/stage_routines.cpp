@@ -11,17 +11,17 @@ namespace {
 
 class StageRoutines {
  public:
-  StageRoutines(StepCode& code, const Environment& environment, const Program& program)
+  StageRoutines(Program& code, const Environment& environment, const LoweredStep& lowered)
       : code_(code),
         environment_(environment),
-        program_(program),
-        solver_(*program.plan.stage_solver),
-        stages_(static_cast<int>(program.sequence.stages.weight.size())),
+        lowered_(lowered),
+        solver_(*lowered.plan.stage_solver),
+        stages_(static_cast<int>(lowered.sequence.stages.weight.size())),
         n_(environment.degrees_of_freedom),
         dimension_(2 * n_) {}
 
   void add() {
-    Coefficients coefficients = stage_coefficients(program_);
+    Coefficients coefficients = stage_coefficients(lowered_);
     code_.records.push_back(std::move(coefficients.record));
     code_.routines.push_back(std::move(coefficients.prepare));
     code_.records.push_back(start());
@@ -349,11 +349,11 @@ class StageRoutines {
     b.body().push_back({std::move(end)});
   }
 
-  [[nodiscard]] bool is_array() const { return program_.plan.arrays.has_value(); }
+  [[nodiscard]] bool is_array() const { return lowered_.plan.arrays.has_value(); }
 
-  StepCode& code_;
+  Program& code_;
   const Environment& environment_;
-  const Program& program_;
+  const LoweredStep& lowered_;
   StageSolver solver_;
   int stages_, n_, dimension_;
 };
@@ -378,8 +378,8 @@ void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
   }
 }
 
-void add_stages(StepCode& code, const Environment& environment, const Program& program) {
-  StageRoutines(code, environment, program).add();
+void add_stages(Program& code, const Environment& environment, const LoweredStep& lowered) {
+  StageRoutines(code, environment, lowered).add();
 }
 
 }  // namespace hamgen

@@ -5,15 +5,15 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/routine_builder.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
 // Adds the records Coefficients and Start, and solve with what it calls.  There are vector_field
 // and, where Newton is among the solvers, hessian for the state as one array.
-void add_stages(StepCode& code, const Environment& environment, const Program& program);
+void add_stages(Program& code, const Environment& environment, const LoweredStep& lowered);
 
 // The array `name` of 2n numbers is the state.
 void read_state(RoutineBuilder& b, Body& body, const Environment& environment,

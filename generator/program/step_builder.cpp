@@ -55,7 +55,7 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   correction_.resize(index(2 * n_));
 }
 
-Program StepBuilder::build() {
+LoweredStep StepBuilder::build() {
   if (plan_.sweeps) {
     add_sweeps();
   } else {
@@ -72,20 +72,20 @@ Program StepBuilder::build() {
   }
   lowering_.run();
 
-  Program program{.plan = plan_};
-  program.coefficients = lowering_.statements(kCoefficients);
+  LoweredStep lowered{.plan = plan_};
+  lowered.coefficients = lowering_.statements(kCoefficients);
   for (int s = 0; s <= stage_; ++s) {
     Stage stage{.before = lowering_.statements(before(s)), .after = lowering_.statements(after(s))};
     for (PendingSolve& pending : solves_) {
       if (pending.stage == s) stage.solve = finished(pending);
     }
-    program.stages.push_back(std::move(stage));
+    lowered.stages.push_back(std::move(stage));
   }
   for (const std::size_t handle : increments) {
-    program.increments.push_back(lowering_.wanted(handle));
+    lowered.increments.push_back(lowering_.wanted(handle));
   }
-  for (const std::size_t handle : rests) program.rests.push_back(lowering_.wanted(handle));
-  return program;
+  for (const std::size_t handle : rests) lowered.rests.push_back(lowering_.wanted(handle));
+  return lowered;
 }
 
 int StepBuilder::straight() const { return solving_done_ ? after(stage_) : before(stage_); }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "generator/program/lower.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
 
@@ -48,7 +48,7 @@ struct NewtonBlock {
 class StepBuilder {
  public:
   explicit StepBuilder(const SolvePlan& plan);
-  Program build();
+  LoweredStep build();
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -5,12 +5,12 @@
 
 namespace hamgen {
 
-TangentBuilder::TangentBuilder(const Environment& environment, const Program& program,
+TangentBuilder::TangentBuilder(const Environment& environment, const LoweredStep& lowered,
                                std::string name, std::vector<std::string> remark)
     : RoutineBuilder({.name = std::move(name), .remark = std::move(remark)}),
       environment_(environment),
       n_(environment.degrees_of_freedom),
-      arrays_(program.plan.arrays.has_value()) {
+      arrays_(lowered.plan.arrays.has_value()) {
   routine().result = {.type = "bool"};
   routine().arguments = {parameters_argument(),
                          {.name = "h"},
@@ -129,7 +129,7 @@ Instruction prepared(Place h) {
                .object = "k"}};
 }
 
-void add_step(Body& body, const StepCode& code, const std::string& h, const std::string& state) {
+void add_step(Body& body, const Program& code, const std::string& h, const std::string& state) {
   const Routine& solve = *code.routine("solve");
   if (code.record("Coefficients") != nullptr) body.push_back(prepared({h}));
   Call step{.routine = "solve", .arguments = {}, .record = "StepReport", .must_succeed = true};

@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/routine_builder.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -20,7 +20,7 @@ struct TangentPoint {
 class TangentBuilder : public RoutineBuilder {
  public:
   // tangent(par, h, z, dz, m), to be given its body: m = dZ/dz of the step that moves z by dz.
-  TangentBuilder(const Environment& environment, const Program& program, std::string name,
+  TangentBuilder(const Environment& environment, const LoweredStep& lowered, std::string name,
                  std::vector<std::string> remark);
 
   [[nodiscard]] int n() const { return n_; }
@@ -65,7 +65,7 @@ class TangentBuilder : public RoutineBuilder {
 [[nodiscard]] Instruction prepared(Place h);
 // A step of length h (a number of this name) from the state, which must succeed: moved, rest and
 // start are locals of it.
-void add_step(Body& body, const StepCode& code, const std::string& h, const std::string& state);
+void add_step(Body& body, const Program& code, const std::string& h, const std::string& state);
 
 // Of a system in loops: curvature(par, q, p, u, y), y = H'' u.
 [[nodiscard]] Routine curvature_routine(const Environment& environment, const Mechanics& mechanics);

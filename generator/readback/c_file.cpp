@@ -275,7 +275,7 @@ class CFileReader {
   TokenCursor cursor_;
   const Precision& precision_;
   const ShellFacts& facts_;
-  const StepCode& code_;
+  const Program& code_;
   ReadBack& found_;
   CNames names_;
   std::map<std::string, Pattern> shell_;

@@ -30,7 +30,7 @@ bool begins_with_zeros(const Record& record) {
 
 class AddressReader {
  public:
-  AddressReader(const CppFunction& written, const StepCode& code)
+  AddressReader(const CppFunction& written, const Program& code)
       : function_(written), code_(code) {}
 
   CppFunction run() {
@@ -267,13 +267,13 @@ class AddressReader {
   }
 
   CppFunction function_;
-  const StepCode& code_;
+  const Program& code_;
   std::set<std::string> records_, arrays_;  // arguments that are addresses
 };
 
 }  // namespace
 
-CppFunction without_addresses(const CppFunction& written, const StepCode& code) {
+CppFunction without_addresses(const CppFunction& written, const Program& code) {
   return AddressReader(written, code).run();
 }
 

@@ -206,7 +206,7 @@ class CPropagatorText {
   }
 
   const ShellFacts& facts_;
-  const StepCode& code_;
+  const Program& code_;
   std::size_t parts_;
   bool rest_, carry_, coefficients_, start_, extrapolates_;
 };

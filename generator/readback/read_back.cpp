@@ -6,7 +6,6 @@
 #include <set>
 
 #include "generator/base/numerics_text.hpp"
-#include "generator/program/environment.hpp"
 #include "generator/readback/c_file.hpp"
 #include "generator/readback/event_shell.hpp"
 #include "generator/readback/findings.hpp"
@@ -27,11 +26,9 @@ struct Section {
 };
 
 std::string time_field(const Program& program) {
-  const StepEquations& equations = program.plan.equations;
-  if (!equations.mechanics.has_time) return {};
-  const Environment environment = environment_of(equations, program.plan.arrays.has_value());
-  const auto last = static_cast<std::size_t>(equations.mechanics.degrees_of_freedom - 1);
-  return to_text(environment.state_layout.places[last]).substr(1);
+  if (!program.facts.has_time) return {};
+  const auto last = static_cast<std::size_t>(program.environment.degrees_of_freedom - 1);
+  return to_text(program.environment.state_layout.places[last]).substr(1);
 }
 
 constexpr std::string_view kPluginGuard = "#ifndef HAMGEN_PLUGIN_H";
@@ -42,17 +39,10 @@ TextKind kind_of(std::span<const CppToken> tokens) {
   return in_c ? TextKind::c_header : TextKind::header;
 }
 
-InterfaceLists named_values(const Program& program, const Environment& environment) {
-  InterfaceLists lists;
-  for (const Quantity& each : environment.variables)
-    lists.variables.push_back({each.name, each.unit, each.comment});
-  for (const Quantity& each : environment.parameters)
-    lists.parameters.push_back({each.name, each.unit, each.comment});
-  for (const NamedExpression& each : program.plan.equations.mechanics.invariants)
-    lists.invariants.push_back({each.name, {}, each.comment});
-  for (const int power : program.modified_powers)
-    lists.invariants.push_back({fmt::format("modified_energy_{}", power), {}, {}});
-  return lists;
+std::vector<InterfaceQuantity> names_of(const std::vector<Quantity>& quantities) {
+  std::vector<InterfaceQuantity> names;
+  for (const Quantity& each : quantities) names.push_back({each.name, each.unit, each.comment});
+  return names;
 }
 
 // "q", "q[2]": places in a record.
@@ -62,24 +52,22 @@ std::vector<std::string> place_texts(const std::vector<Place>& places) {
   return texts;
 }
 
-ShellFacts facts_of(const Program& program, const StepCode& code) {
-  const bool arrays = program.plan.arrays.has_value();
-  const Environment environment = environment_of(program.plan.equations, arrays);
-  return {code, arrays, time_field(program), static_cast<int>(program.modified_powers.size()),
-          place_texts(environment.state_layout.places)};
+ShellFacts facts_of(const Program& program) {
+  return {program, program.environment.arrays, time_field(program),
+          static_cast<int>(program.facts.modified_powers.size()),
+          place_texts(program.environment.state_layout.places)};
 }
 
 // A header or a plugin.
 class FileReader {
  public:
-  FileReader(const EmittedFile& file, const Program& program, const StepCode& code,
-             std::span<const CppToken> tokens, ReadBack& found)
+  FileReader(const EmittedFile& file, const Program& program, std::span<const CppToken> tokens,
+             ReadBack& found)
       : file_(file),
         program_(program),
-        code_(code),
         precision_(precision_of(file.scalar)),
-        facts_(facts_of(program, code)),
-        n_(facts_.arrays ? program.plan.equations.mechanics.degrees_of_freedom : 0),
+        facts_(facts_of(program)),
+        n_(facts_.arrays ? program.environment.degrees_of_freedom : 0),
         found_(found),
         cursor_(tokens) {}
 
@@ -133,23 +121,23 @@ class FileReader {
   }
 
   void read_interface() {
-    const StepEquations& equations = program_.plan.equations;
-    const Mechanics& mechanics = equations.mechanics;
-    const Environment environment = environment_of(equations, facts_.arrays);
+    const StepFacts& said = program_.facts;
+    const Environment& environment = program_.environment;
     const InterfaceFacts facts{
         .shell = facts_,
         .precision = precision_,
         .system = system_,
         .space = method_,
-        .degrees_of_freedom = mechanics.degrees_of_freedom,
+        .degrees_of_freedom = environment.degrees_of_freedom,
         .parameters = place_texts(environment.parameter_layout.places),
         .state = facts_.state,
-        .invariants = static_cast<int>(mechanics.invariants.size()),
-        .named = named_values(program_, environment),
+        .invariants = static_cast<int>(said.invariants.size() - said.modified_powers.size()),
+        .named = {names_of(environment.variables), names_of(environment.parameters),
+                  names_of(said.invariants)},
         .tangent = seen_.contains("tangent"),
         .watched_step = file_.watched_step,
-        .description = fmt::format("{}, {}", mechanics.name, equations.scheme.name),
-        .solver = program_.plan.solver};
+        .description = fmt::format("{}, {}", said.system, said.scheme),
+        .solver = said.solver};
     for (const InterfacePiece& piece : plugin_interface(facts))
       expect_pattern(cursor_, piece.pattern, precision_, piece.name);
     found_.places = static_cast<int>(facts.parameters.size() + facts.state.size());
@@ -208,7 +196,7 @@ class FileReader {
     read_routine();
   }
 
-  [[nodiscard]] bool has_events() const { return !code_.events.empty(); }
+  [[nodiscard]] bool has_events() const { return !program_.events.empty(); }
 
   void read_class() {
     if (has_events() && cursor_.peek(1).is("WatchedPropagator"))
@@ -227,8 +215,8 @@ class FileReader {
   }
 
   void read_matrix() {
-    if (!code_.matrix) throw TextDifference(cursor_.line(), "a matrix that the step has not");
-    once("Matrix", matrix_pattern(*code_.matrix));
+    if (!program_.matrix) throw TextDifference(cursor_.line(), "a matrix that the step has not");
+    once("Matrix", matrix_pattern(*program_.matrix));
   }
 
   void read_constant() {
@@ -245,10 +233,10 @@ class FileReader {
     if (name == "Crossing" && has_events()) return once("Crossing", crossing_pattern());
     if (name == "Parameters") return read_parameters(section);
     if (name == "Folded") {
-      const std::vector<Quantity>& constants = program_.plan.equations.mechanics.constants;
+      const std::vector<Quantity>& constants = program_.facts.constants;
       return once_record(layout("Folded", constants, Defaults::values).record);
     }
-    const Record* record = code_.record(name);
+    const Record* record = program_.record(name);
     if (record == nullptr) throw TextDifference(line, "a record that the step has not: " + name);
     once_record(*record);
   }
@@ -268,7 +256,7 @@ class FileReader {
            "the parameters");
     if (of_method != (section.kind == "method"))
       throw TextDifference(line, "parameters that are declared twice");
-    for (const Field& field : code_.record("Parameters")->fields) {
+    for (const Field& field : program_.record("Parameters")->fields) {
       const bool here = cursor_.peek(1).is(field.name);
       if (!here) continue;
       Pattern pattern = record_pattern({.name = "", .fields = {field}});
@@ -289,7 +277,7 @@ class FileReader {
       return once("modified_energy", modified_energy_pattern(facts_));
     const bool again = name == "gradient" && facts_.arrays && seen_.contains("gradient");
     if (again) return once("gradient of a state", gradient_pattern());
-    const Routine* routine = code_.routine(name);
+    const Routine* routine = program_.routine(name);
     if (routine == nullptr)
       throw TextDifference(line, fmt::format("'{}' is nothing that the step has", name));
     if (!seen_.insert(name).second) throw TextDifference(line, name + " is there twice");
@@ -314,17 +302,17 @@ class FileReader {
   void require_all() {
     std::set<std::string> wanted = {"Real", "Parameters", "State", "Propagator", "step"};
     for (const char* name : {"Coefficients", "Start"}) {
-      if (code_.record(name) != nullptr) wanted.insert(name);
+      if (program_.record(name) != nullptr) wanted.insert(name);
     }
     for (const char* name :
          {"energy", "gradient", "invariants", "events", "modified_energies", "prepare", "solve"})
-      wanted.merge(callees(code_, name));
+      wanted.merge(callees(program_, name));
     if (has_events()) wanted.insert({"Event", "Crossing", "WatchedPropagator"});
-    if (seen_.contains("tangent")) wanted.merge(callees(code_, "tangent"));
+    if (seen_.contains("tangent")) wanted.merge(callees(program_, "tangent"));
     if (facts_.arrays) wanted.insert({"n", "gradient of a state"});
     if (facts_.modified > 0) wanted.insert("modified_energy");
-    if (code_.matrix) wanted.insert("Matrix");
-    for (const Field& field : code_.record("Parameters")->fields)
+    if (program_.matrix) wanted.insert("Matrix");
+    for (const Field& field : program_.record("Parameters")->fields)
       wanted.insert("parameter " + field.name);
     for (const std::string& name : wanted) {
       if (!seen_.contains(name)) throw TextDifference(cursor_.line(), name + " is missing");
@@ -333,7 +321,6 @@ class FileReader {
 
   const EmittedFile& file_;
   const Program& program_;
-  const StepCode& code_;
   const Precision& precision_;
   ShellFacts facts_;
   int n_;
@@ -346,15 +333,15 @@ class FileReader {
 
 }  // namespace
 
-ReadBack read_back(const EmittedFile& file, const Program& program, const StepCode& code) {
+ReadBack read_back(const EmittedFile& file, const Program& program) {
   ReadBack found;
   try {
     const std::vector<CppToken> tokens = tokens_of(file.text);
     found.kind = kind_of(tokens);
     if (found.kind == TextKind::c_header) {
-      read_c_file(tokens, precision_of(file.scalar), facts_of(program, code), found);
+      read_c_file(tokens, precision_of(file.scalar), facts_of(program), found);
     } else {
-      FileReader(file, program, code, tokens, found).run();
+      FileReader(file, program, tokens, found).run();
     }
     found.outcome = ReadBack::Outcome::same;
   } catch (const TextDifference& difference) {

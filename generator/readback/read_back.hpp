@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "generator/program/program.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -39,7 +38,6 @@ struct ReadBack {
   int places = 0;  // of a plugin's arrays of parameters and of the state
 };
 
-[[nodiscard]] ReadBack read_back(const EmittedFile& file, const Program& program,
-                                 const StepCode& code);
+[[nodiscard]] ReadBack read_back(const EmittedFile& file, const Program& program);
 
 }  // namespace hamgen

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 #include "generator/readback/text_scope.hpp"
 
 namespace hamgen {

@@ -11,7 +11,7 @@ struct PartNames {
   std::string par, k, h, z, carry, start, history, dz, rest;
 };
 
-std::string solve_call(const StepCode& code, const PartNames& names) {
+std::string solve_call(const Program& code, const PartNames& names) {
   const std::map<std::string, std::string> given = {
       {"par", names.par},     {"k", names.k},         {"h", names.h},   {"z", names.z},
       {"carry", names.carry}, {"start", names.start}, {"dz", names.dz}, {"rest", names.rest}};
@@ -257,7 +257,7 @@ class PropagatorText {
   }
 
   const ShellFacts& facts_;
-  const StepCode& code_;
+  const Program& code_;
   bool rest_, carry_, composed_, coefficients_, start_, extrapolates_;
   std::string text_;
 };

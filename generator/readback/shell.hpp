@@ -2,13 +2,13 @@
 // the class that takes steps, the functions that call routines.
 #pragma once
 
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 #include "generator/readback/pattern.hpp"
 
 namespace hamgen {
 
 struct ShellFacts {
-  const StepCode& code;
+  const Program& code;
   bool arrays = false;                  // is the state two arrays of n?
   std::string time;                     // the field of State that is the time; empty: there is none
   int modified = 0;                     // how many modified energies there are

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/equations/step_equations.hpp"
+#include "generator/solvers/matrix_storage.hpp"
 
 namespace hamgen {
 
@@ -31,25 +32,6 @@ struct Block {
 
 // How the linear systems are solved.
 enum class LinearSolver { written_out, elimination, eigen_dense };
-
-// The matrix of a system in loops.
-enum class MatrixKind {
-  band,         // elimination within the band
-  dense,        // elimination of all of it
-  eigen_dense,  // the same by Eigen where it is large
-  eigen_sparse
-};
-struct ArrayMatrix {
-  MatrixKind kind = MatrixKind::eigen_sparse;
-  int size = 0;
-  // A band has entries only this near to its diagonal, with the unknowns in this order: of `arrays`
-  // arrays of equal length first the first elements, then the second ones; of a ring folded flat
-  // the first, the last, the second, the last but one, ...
-  int bandwidth = 0;
-  int arrays = 1;
-  bool folded = false;
-  [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
-};
 
 // The step of a system whose sums stay loops; alpha, beta, gamma are the same for all degrees of
 // freedom.

@@ -18,7 +18,7 @@ bool meet(const Place& a, const Place& b) {
 
 class Outline {
  public:
-  explicit Outline(const StepCode* code = nullptr) : code_(code) {}
+  explicit Outline(const Program* code = nullptr) : code_(code) {}
   std::vector<CodeEvent> take() { return std::move(events_); }
 
   void word(std::string text, std::vector<long> numbers = {}) {
@@ -265,7 +265,7 @@ class Outline {
     for (const Unknown& unknown : unknowns) read(unknown.correction);
   }
 
-  const StepCode* code_;
+  const Program* code_;
   std::vector<CodeEvent> events_;
   const Routine* routine_ = nullptr;
   std::map<std::string, std::size_t> locals_;
@@ -273,7 +273,7 @@ class Outline {
 
 }  // namespace
 
-std::vector<CodeEvent> outline(const StepCode& code, const std::set<std::string>& left_out) {
+std::vector<CodeEvent> outline(const Program& code, const std::set<std::string>& left_out) {
   Outline lines(&code);
   for (const Record& record : code.records) {
     lines.word("record " + record.name);

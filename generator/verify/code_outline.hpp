@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -33,7 +33,7 @@ struct CodeEvent {
 };
 
 // All but `left_out`.
-[[nodiscard]] std::vector<CodeEvent> outline(const StepCode& code,
+[[nodiscard]] std::vector<CodeEvent> outline(const Program& code,
                                              const std::set<std::string>& left_out);
 [[nodiscard]] std::vector<CodeEvent> outline(const std::vector<Kernel>& kernels);
 

@@ -111,7 +111,7 @@ class Functions {
 };
 
 // What was read.
-std::string scope(const Scheme& scheme, const StepCode& code, bool loops) {
+std::string scope(const Scheme& scheme, const Program& code, bool loops) {
   std::string text;
   if (std::holds_alternative<Composition>(scheme.method)) {
     text = fmt::format("the step that is composed and its {} substeps", code.substeps.size());
@@ -154,7 +154,7 @@ std::vector<Identities> invariant_identities(const StepUnderProof& step) {
   return parts;
 }
 
-std::vector<Identities> all_identities(const StepUnderProof& step, const Program& program,
+std::vector<Identities> all_identities(const StepUnderProof& step, const SolvePlan& plan,
                                        const Derivatives& derivatives,
                                        const Expression& hamiltonian) {
   const Scheme& scheme = step.scheme;
@@ -164,20 +164,20 @@ std::vector<Identities> all_identities(const StepUnderProof& step, const Program
     std::ranges::move(more, std::back_inserter(parts));
   };
   if (scheme.has_member() && loops) {
-    add(loop_member_identities(step, derivatives, scheme.member(), program.plan.sweeps));
+    add(loop_member_identities(step, derivatives, scheme.member(), plan.sweeps));
   } else if (scheme.has_member()) {
     const Derivatives of_step =
-        is_raised(scheme) ? Derivatives(*program.plan.equations.function) : derivatives;
-    parts.push_back(member_identities(step, of_step, scheme.member(), program.plan.sweeps));
-    if (program.linearisation) {
+        is_raised(scheme) ? Derivatives(*plan.equations.function) : derivatives;
+    parts.push_back(member_identities(step, of_step, scheme.member(), plan.sweeps));
+    if (!plan.sweeps && step.code.routine("tangent") != nullptr) {
       parts.push_back(tangent_identities(step, of_step, scheme.member()));
     }
   }
   add(method_identities(step, derivatives));
-  if (!program.modified_powers.empty()) {
+  if (!step.code.facts.modified_powers.empty()) {
     parts.push_back(values_identities(
         step, "modified_energies", "values", "modified energy",
-        modified_energies(step.mechanics, scheme.member(), program.modified_powers)));
+        modified_energies(step.mechanics, scheme.member(), step.code.facts.modified_powers)));
   }
   add(invariant_identities(step));
   return parts;
@@ -207,7 +207,7 @@ Decision decide_all(const std::vector<Identities>& parts, const Surroundings& ar
 
 }  // namespace
 
-std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const StepCode& code,
+std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const Program& code,
                                              const SmallerSystems& smaller) {
   const auto& [constant, size, first, second] = smaller;
   std::optional<std::string> why =
@@ -216,8 +216,8 @@ std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const S
                        {size, outline(mechanics.kernels)}}});
   if (why) return why;
   const std::set<std::string> whole = {"invariants", "events"};
-  return why_not_longer({{{first.size, outline(step_code(first.program), whole)},
-                          {second.size, outline(step_code(second.program), whole)},
+  return why_not_longer({{{first.size, outline(first.program, whole)},
+                          {second.size, outline(second.program, whole)},
                           {size, outline(code, whole)}}});
 }
 
@@ -238,12 +238,10 @@ Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>
                 "routines are not looked at, with so many elements and no size to make smaller"};
   }
   for (const SizedSystem* system : {&smaller->first, &smaller->second}) {
-    const StepCode code = step_code(system->program);
-    const StepUnderProof small(system->mechanics, system->scheme, system->program.plan.equations,
-                               code);
+    const StepUnderProof small(system->mechanics, system->scheme, system->program);
     const Derivatives derivatives(system->mechanics, system->hamiltonian);
-    const Decision decision = decide_all(
-        all_identities(small, system->program, derivatives, system->hamiltonian), around);
+    const Decision decision =
+        decide_all(all_identities(small, system->plan, derivatives, system->hamiltonian), around);
     if (!holds(decision.verdict)) {
       return {property, decision.verdict,
               fmt::format("at {} = {}: {}", smaller->constant, system->size, decision.witness)};
@@ -263,21 +261,20 @@ Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>
 
 }  // namespace
 
-Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                      const StepCode& code, const std::optional<Expression>& hamiltonian,
+Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
+                      const Program& program, const std::optional<Expression>& hamiltonian,
                       const Surroundings& around, std::optional<Decision> of_k,
                       const std::optional<SmallerSystems>& smaller) {
   const std::string property = kProgram;
-  const StepUnderProof step(mechanics, scheme, program.plan.equations, code);
+  const StepUnderProof step(mechanics, scheme, program);
   if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostLookedAt)
     return prove_longer(step, hamiltonian, around, smaller);
   const Derivatives derivatives(mechanics, *hamiltonian);
-  const Decision total =
-      decide_all(all_identities(step, program, derivatives, *hamiltonian), around);
+  const Decision total = decide_all(all_identities(step, plan, derivatives, *hamiltonian), around);
   if (!holds(total.verdict)) return {property, total.verdict, total.witness};
-  const std::string detail = to_text(total) + scope(scheme, code, mechanics.keeps_sums());
+  const std::string detail = to_text(total) + scope(scheme, program, mechanics.keeps_sums());
   if (!is_raised(scheme)) return {property, total.verdict, detail};
-  const GeneratingFunction& function = *program.plan.equations.function;
+  const GeneratingFunction& function = *plan.equations.function;
   if (!of_k) of_k = decide_function(mechanics, derivatives, scheme.member(), function, around);
   if (!holds(of_k->verdict)) return {property, of_k->verdict, of_k->witness};
   return {property, both(total.verdict, of_k->verdict),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/mechanics/mechanics.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/verify/derivatives.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/step_under_proof.hpp"

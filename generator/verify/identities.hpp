@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "generator/algebra/expression.hpp"
-#include "generator/program/program.hpp"
+#include "generator/program/lowered_step.hpp"
 #include "generator/verify/corners.hpp"
 #include "generator/verify/sample_points.hpp"
 #include "generator/verify/verdict.hpp"

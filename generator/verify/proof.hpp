@@ -7,8 +7,8 @@
 
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/program/program.hpp"
-#include "generator/program/step_code.hpp"
 #include "generator/schemes/scheme.hpp"
+#include "generator/solvers/solve_plan.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/sample_points.hpp"
 #include "generator/verify/verdict.hpp"
@@ -20,6 +20,7 @@ struct SizedSystem {
   long size = 0;
   Mechanics mechanics;
   Scheme scheme;
+  SolvePlan plan;
   Program program;
   Expression hamiltonian;  // written out
   Finding read = {};       // what is known of the model's text at this size
@@ -37,13 +38,13 @@ inline constexpr int kMostLookedAt = 32;
 // program that computes it.  `hamiltonian` is H with its sums written out; it may be left out where
 // the claims about the smaller systems are inherited and there are no invariants.
 // Claims are tried `around` the places where the model is used.
-[[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-                           const std::optional<Expression>& hamiltonian,
+[[nodiscard]] Proof verify(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
+                           const Program& program, const std::optional<Expression>& hamiltonian,
                            const Surroundings& around = {},
                            const std::optional<SmallerSystems>& smaller = {});
 // Why the claims about the smaller systems are not those about this one; empty if they are.
 [[nodiscard]] std::optional<std::string> why_not_inherited(const Mechanics& mechanics,
-                                                           const StepCode& code,
+                                                           const Program& program,
                                                            const SmallerSystems& smaller);
 
 inline constexpr const char* kGauge = "gauge in sp(2n)";
@@ -82,7 +83,7 @@ inline constexpr const char* kPlugin = "plugin";
 // stands in for H, which is asked here if it is left out.  Of a system in loops of more than
 // kMostLookedAt degrees of freedom the claims are made about the `smaller` ones.
 [[nodiscard]] Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme,
-                                    const Program& program, const StepCode& code,
+                                    const SolvePlan& plan, const Program& program,
                                     const std::optional<Expression>& hamiltonian,
                                     const Surroundings& around = {},
                                     std::optional<Decision> of_k = {},

@@ -2,23 +2,19 @@
 #pragma once
 
 #include "generator/program/environment.hpp"
-#include "generator/program/step_code.hpp"
+#include "generator/program/program.hpp"
 #include "generator/verify/symbolic_machine.hpp"
 
 namespace hamgen {
 
 struct StepUnderProof {
-  StepUnderProof(const Mechanics& of, const Scheme& by, const StepEquations& equations,
-                 const StepCode& routines)
-      : mechanics(of),
-        scheme(by),
-        code(routines),
-        environment(environment_of(equations, of.keeps_sums())) {}
+  StepUnderProof(const Mechanics& of, const Scheme& by, const Program& routines)
+      : mechanics(of), scheme(by), code(routines), environment(routines.environment) {}
 
   const Mechanics& mechanics;
   const Scheme& scheme;
-  const StepCode& code;
-  Environment environment;
+  const Program& code;
+  const Environment& environment;
 
   [[nodiscard]] int size() const { return 2 * mechanics.degrees_of_freedom; }
   [[nodiscard]] const std::string& name(int i) const {

@@ -34,7 +34,7 @@ long count_of(const std::vector<int>& sizes) {
 
 }  // namespace
 
-SymbolicMachine::SymbolicMachine(const StepCode& code, std::set<std::string> opaque)
+SymbolicMachine::SymbolicMachine(const Program& code, std::set<std::string> opaque)
     : code_(code), opaque_(std::move(opaque)) {}
 
 SymbolicMachine::Frame SymbolicMachine::frame_of(const std::string& routine,

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "generator/program/program.hpp"
 #include "generator/program/statement.hpp"
-#include "generator/program/step_code.hpp"
 
 namespace hamgen {
 
@@ -57,7 +57,7 @@ struct CallTrace {
 class SymbolicMachine {
  public:
   // Routines of the names in `opaque` are not run: what they change becomes free symbols.
-  explicit SymbolicMachine(const StepCode& code, std::set<std::string> opaque = {});
+  explicit SymbolicMachine(const Program& code, std::set<std::string> opaque = {});
 
   // Calls of this routine are left out: of claims that do not look at what it changes.
   void skip(const std::string& routine) { skipped_.insert(routine); }
@@ -137,7 +137,7 @@ class SymbolicMachine {
   // The cells of an array or of the fields of a record.
   [[nodiscard]] std::vector<std::string> cells_of(const Reference& reference) const;
 
-  const StepCode& code_;
+  const Program& code_;
   std::set<std::string> opaque_;
   std::set<std::string> skipped_;
   std::map<std::string, Expression> cells_;

@@ -12,9 +12,9 @@ namespace hamgen {
 namespace {
 
 // K stands in for H.
-const GeneratingFunction* raised_function(const Scheme& scheme, const Program& program) {
+const GeneratingFunction* raised_function(const Scheme& scheme, const SolvePlan& plan) {
   if (!scheme.is_member() || scheme.member().generating_order == 0) return nullptr;
-  return &*program.plan.equations.function;
+  return &*plan.equations.function;
 }
 
 // The step back takes K(zbar, -h): it is the adjoint's only if K is even in h.
@@ -30,18 +30,18 @@ Decision decide_even(const GeneratingFunction& function, const Surroundings& aro
   return all;
 }
 
-Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
                    const Surroundings& around, const std::optional<Decision>& of_k) {
   const Member& member = scheme.member();
   Proof proof{prove_gauge(member, around)};
-  if (program.plan.sweeps) {
-    std::ranges::move(prove_swept(mechanics, member, *program.plan.sweeps, around),
+  if (plan.sweeps) {
+    std::ranges::move(prove_swept(mechanics, member, *plan.sweeps, around),
                       std::back_inserter(proof));
     return proof;
   }
   proof.push_back(prove_step_symplectic(member, around));
   Finding symmetric = prove_symmetric(member, around);
-  const GeneratingFunction* function = raised_function(scheme, program);
+  const GeneratingFunction* function = raised_function(scheme, plan);
   if (function == nullptr) {
     proof.push_back(std::move(symmetric));
     proof.push_back(prove_order(member, around));
@@ -60,7 +60,7 @@ Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const Progr
   return proof;
 }
 
-Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
+Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
                    const Surroundings& around, const std::optional<Decision>& of_k) {
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
     const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
@@ -72,7 +72,7 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Progr
   if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
     return prove_composition(*composition, scheme.order, around);
   }
-  return prove_member(mechanics, scheme, program, around, of_k);
+  return prove_member(mechanics, scheme, plan, around, of_k);
 }
 
 Verdict verdict_of(const Proof& proof, const std::string& property) {
@@ -80,21 +80,21 @@ Verdict verdict_of(const Proof& proof, const std::string& property) {
   return found == proof.end() ? Verdict::not_decided : found->verdict;
 }
 
-bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const Program& program) {
-  if (!program.plan.sweeps) return true;
+bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan) {
+  if (!plan.sweeps) return true;
   return !mechanics.keeps_sums() &&
-         sweeps_solve(mechanics, Derivatives(mechanics), scheme.member(), *program.plan.sweeps);
+         sweeps_solve(mechanics, Derivatives(mechanics), scheme.member(), *plan.sweeps);
 }
 
 }  // namespace
 
-Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-             const std::optional<Expression>& hamiltonian, const Surroundings& around,
-             const std::optional<SmallerSystems>& smaller) {
+Proof verify(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
+             const Program& program, const std::optional<Expression>& hamiltonian,
+             const Surroundings& around, const std::optional<SmallerSystems>& smaller) {
   std::optional<Decision> of_k;
-  if (const GeneratingFunction* function = raised_function(scheme, program))
+  if (const GeneratingFunction* function = raised_function(scheme, plan))
     of_k = decide_function(mechanics, Derivatives(mechanics), scheme.member(), *function, around);
-  Proof proof = prove_method(mechanics, scheme, program, around, of_k);
+  Proof proof = prove_method(mechanics, scheme, plan, around, of_k);
   // A step is what it is proved to be where H has the derivatives it is made of.
   const std::vector<Corner> corners_of_h = corners_of_hamiltonian(mechanics);
   if (!corners_of_h.empty()) {
@@ -105,12 +105,12 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const Program& pr
   }
   if (hamiltonian) {
     std::ranges::move(
-        prove_invariants(mechanics, *hamiltonian, scheme, is_solved(mechanics, scheme, program),
+        prove_invariants(mechanics, *hamiltonian, scheme, is_solved(mechanics, scheme, plan),
                          verdict_of(proof, "symplectic"), around),
         std::back_inserter(proof));
   }
-  proof.push_back(prove_emitted(mechanics, scheme, program, step_code(program), hamiltonian, around,
-                                of_k, smaller));
+  proof.push_back(
+      prove_emitted(mechanics, scheme, plan, program, hamiltonian, around, of_k, smaller));
   return proof;
 }
 

@@ -7,6 +7,7 @@
 #include "generator/choose_scheme.hpp"
 #include "generator/interpreter/interpreter.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "generator/program/build_program.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen::contract {
@@ -61,7 +62,7 @@ struct InterpretedSubstep {
 // Steps of any length, each from a state of which nothing is remembered.
 class InterpretedExact {
  public:
-  InterpretedExact(StepCode code, std::vector<Quad> parameters)
+  InterpretedExact(Program code, std::vector<Quad> parameters)
       : code_(std::move(code)), parameters_(std::move(parameters)) {
     code_.substeps = {1};
   }
@@ -77,19 +78,19 @@ class InterpretedExact {
   }
 
  private:
-  StepCode code_;
+  Program code_;
   std::vector<Quad> parameters_;
   std::map<Quad, std::unique_ptr<Interpreter<Quad>>> runs_;
 };
 
-StepCode code_of(const StepEquations& equations, const std::string& solver) {
-  return step_code(build_program(plan_solve(equations, solver)));
+Program code_of(const StepEquations& equations, const std::string& solver) {
+  return build_program(plan_solve(equations, solver));
 }
 
 // A slow fixed point has not the iterations for the digits of quad; Newton has.
 struct Codes {
   StepEquations equations;
-  StepCode measured, exact;
+  Program measured, exact;
 };
 
 template <class Real>

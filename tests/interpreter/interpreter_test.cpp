@@ -27,7 +27,7 @@ struct Start {
 };
 
 // A scene with the parameters that the step uses.
-Start start_of(const Model& model, const Scene& scene, const StepCode& code) {
+Start start_of(const Model& model, const Scene& scene, const Program& code) {
   const SceneValues values = scene_values(model, {.scene = scene.name});
   Start start{.h = to_double(values.h.value_or(Rational(1, 100)))};
   for (const Rational& value : values.q) start.state.push_back(to_double(value));
@@ -55,7 +55,7 @@ class Compiled : public testing::TestWithParam<Case> {};
 
 TEST_P(Compiled, HasTheBitsThatAreInterpreted) {
   const SourceText source = shipped(GetParam().model);
-  const StepCode code = make_step_code(source, GetParam().request);
+  const Program code = make_program(source, GetParam().request);
   const Model model = read_request(source, GetParam().request);
   const Start start = start_of(model, model.scenes.front(), code);
   Interpreter<double> interpreted(code, start.parameters, start.h, start.state);
@@ -104,7 +104,7 @@ TEST(Names, OfVariablesAreNotThoseOfObjects) {
     }
     text += fmt::format("H = (p0^2 + p1^2 + p2^2)/2 + {0}^4/4 + {1}^2/2 + {2}^2/3 + {0}*{1}*{2}\n",
                         q[0], q[1], q[2]);
-    const StepCode code = make_step_code(make_source("m.ham", text), {});
+    const Program code = make_program(make_source("m.ham", text), {});
     Interpreter<double> run(code, {}, 0.1, {1, 0.5, 0.25, 0, 0, 0});
     for (int step = 0; step < 20; ++step) EXPECT_TRUE(run.step().converged);
     return run.state();

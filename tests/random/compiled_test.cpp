@@ -21,7 +21,7 @@ struct Run {
   double h = 0;
 };
 
-Run run_of(const Model& model, const StepCode& code) {
+Run run_of(const Model& model, const Program& code) {
   const SceneValues scene = scene_values(model, {});
   Run run{.h = to_double(*scene.h)};
   for (const auto* values : {&scene.q, &scene.p}) {
@@ -56,7 +56,7 @@ void add(Unit& unit, int seed) {
   RandomCase c = random_case(static_cast<std::uint64_t>(seed));
   c.request.name_space = fmt::format("chance_{}", seed);
   const SourceText source = make_source("chance.ham", c.text);
-  const StepCode code = make_step_code(source, c.request);
+  const Program code = make_program(source, c.request);
   const Run run = run_of(read_request(source, c.request), code);
   Interpreter<double> interpreted(code, run.parameters, run.h, run.state);
   bool converged = true;

@@ -9,6 +9,7 @@
 #include "generator/interpreter/interpreter.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "generator/program/build_program.hpp"
 #include "generator/solvers/solve_plan.hpp"
 #include "tests/random/direct_step.hpp"
 #include "tests/random/random_model.hpp"
@@ -59,7 +60,7 @@ Differences measure(const RandomCase& c, const std::string& judge) {
   const Model model = read_request(make_source("chance.ham", c.text), c.request);
   const Mechanics mechanics = derive(model, true);
   const StepEquations equations = discretise(mechanics, choose_scheme(model, mechanics, c.request));
-  const StepCode code = step_code(build_program(plan_solve(equations, c.request.solver)));
+  const Program code = build_program(plan_solve(equations, c.request.solver));
 
   const SceneValues scene = scene_values(model, {});
   const Model judging = read_request(make_source("judge.ham", judge), {});

@@ -38,7 +38,7 @@ struct Emitted {
   [[nodiscard]] ReadBack read(const std::string& changed) const {
     return read_back(
         {.text = changed, .scalar = scalar, .beside = {}, .watched_step = watched_step},
-        stages.program, step_code(stages.program));
+        stages.program);
   }
 };
 

@@ -39,7 +39,7 @@ Rational value_of(const std::string& name, const PluginSource& plugin, const Sce
 }
 
 template <class Real>
-std::vector<Real> parameters_of(const StepCode& code, const PluginSource& plugin,
+std::vector<Real> parameters_of(const Program& code, const PluginSource& plugin,
                                 const SceneValues& scene) {
   std::vector<Real> values;
   for (const std::string& name : code.parameters)
@@ -67,8 +67,8 @@ double worst_step(const SourceText& source, const Request& whole, const Request&
                   const SceneValues& scene, int steps) {
   const PluginSource plugin = generate_plugin(source, special);
   const StateMap& map = plugin.state;
-  const StepCode code = make_step_code(source, special);
-  const StepCode all = make_step_code(source, whole);
+  const Program code = make_program(source, special);
+  const Program all = make_program(source, whole);
   std::vector<double> start;
   for (const StateMap::Sum& sum : map.step) start.push_back(to_double(at_start(sum, scene)));
   const double h = to_double(*scene.h);

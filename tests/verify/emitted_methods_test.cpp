@@ -25,12 +25,12 @@ const std::string kKepler =
     "y^2)\n";
 const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
 
-Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-              const StepCode& code) {
-  return prove_emitted(mechanics, scheme, program, code, mechanics.energy);
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const LoweredStep& lowered,
+              const Program& code) {
+  return prove_emitted(mechanics, scheme, lowered.plan, code, mechanics.energy);
 }
-Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program) {
-  return prove(mechanics, scheme, program, step_code(program));
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const LoweredStep& lowered) {
+  return prove(mechanics, scheme, lowered, build_program(lowered));
 }
 
 Expression number(long over, long under) { return Expression(Rational(over, under)); }
@@ -89,8 +89,8 @@ TEST(EmittedMethods, AreTheMathematics) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const Program program = program_of(mechanics, scheme, c.solver);
-    const Finding finding = prove(mechanics, scheme, program);
+    const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver);
+    const Finding finding = prove(mechanics, scheme, lowered);
     EXPECT_EQ(finding.verdict, expected_verdict(c)) << c.name << ": " << finding.detail;
     if (c.order > 0) {
       EXPECT_NE(finding.detail.find("at 200 points to 1e-30"), std::string::npos) << finding.detail;
@@ -106,8 +106,8 @@ TEST(EmittedMethods, EveryMutationIsRefuted) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const Program original = program_of(mechanics, scheme, c.solver);
-    const StepCode code = step_code(original);
+    const LoweredStep original = lowered_of(mechanics, scheme, c.solver);
+    const Program code = build_program(original);
     std::vector<Mutant> mutants = mutants_of(code, {5, first});
     for (Mutant& mutant : mutants_of_structure(code, {5, first++}))
       mutants.push_back(std::move(mutant));
@@ -140,7 +140,7 @@ TEST(EmittedModifiedEnergies, AreTheSeriesAndEveryMutationIsRefuted) {
                         Case{"implicit-midpoint", kHenonHeiles}}) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    Program original = program_of(mechanics, scheme, c.solver);
+    LoweredStep original = lowered_of(mechanics, scheme, c.solver);
     const std::vector<Expression> terms =
         modified_hamiltonian(mechanics, scheme.member().c, 0, scheme.symmetric ? 5 : 3);
     std::vector<Expression> sums;
@@ -155,7 +155,7 @@ TEST(EmittedModifiedEnergies, AreTheSeriesAndEveryMutationIsRefuted) {
     original.modified_energies = evaluate_together(sums);
     EXPECT_EQ(prove(mechanics, scheme, original).verdict, Verdict::proved);
     // The step itself has its own test.
-    const StepCode code = step_code(original);
+    const Program code = build_program(original);
     for (const Mutant& mutant : mutants_of(code, {2, 0}, {"modified_energies"})) {
       if (computes_the_same(code, mutant.code)) continue;
       EXPECT_EQ(prove(mechanics, scheme, original, mutant.code).verdict, Verdict::refuted)
@@ -183,14 +183,14 @@ TEST(EmittedTangent, IsTheMathematicsAndEveryMutationIsRefuted) {
   for (const Case& c : tangent_cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const Program without = program_of(mechanics, scheme, c.solver);
+    const LoweredStep without = lowered_of(mechanics, scheme, c.solver);
     if (!without.plan.equations.has_exact_hessian()) continue;
-    const Program original = with_tangent(without);
+    const LoweredStep original = with_tangent(without);
     const Finding finding = prove(mechanics, scheme, original);
     EXPECT_LE(finding.verdict, Verdict::tested) << c.name << ": " << finding.detail;
     int of_case = 0;
     // The step itself has its own test.
-    const StepCode code = step_code(original);
+    const Program code = build_program(original);
     for (const Mutant& mutant : mutants_of(code, {5, first++}, {"tangent", "substep_tangent"})) {
       if (computes_the_same(code, mutant.code)) continue;
       const Finding found = prove(mechanics, scheme, original, mutant.code);
@@ -206,7 +206,7 @@ TEST(EmittedTangent, IsTheMathematicsAndEveryMutationIsRefuted) {
   EXPECT_GE(total, 35);
 }
 
-// The program is built from the wrong K and agrees with it: only the flow can tell.
+// The lowered is built from the wrong K and agrees with it: only the flow can tell.
 TEST(EmittedMethods, AWrongGeneratingFunctionIsRefuted) {
   const Expression h = Expression::symbol("h", kRankOfStep);
   for (const Case& c : cases()) {
@@ -219,8 +219,8 @@ TEST(EmittedMethods, AWrongGeneratingFunctionIsRefuted) {
       alter(*wrong.function);
       wrong.mechanics.gradient = wrong.function->gradient;
       wrong.mechanics.hessian = wrong.function->hessian;
-      const Program program = build_program(plan_solve(wrong, ""));
-      const Finding finding = prove(mechanics, scheme, program);
+      const LoweredStep lowered = lower_step(plan_solve(wrong, ""));
+      const Finding finding = prove(mechanics, scheme, lowered);
       EXPECT_EQ(finding.verdict, Verdict::refuted) << c.name << ", " << what;
       return finding.detail;
     };

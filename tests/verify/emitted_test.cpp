@@ -19,9 +19,9 @@ namespace hamgen {
 namespace {
 
 using verify_test::computes_the_same;
+using verify_test::lowered_of;
 using verify_test::mutants_of;
 using verify_test::mutants_of_structure;
-using verify_test::program_of;
 
 struct Case {
   std::string name;
@@ -58,12 +58,12 @@ const std::string kRing =
     "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
 
-Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program,
-              const StepCode& code) {
-  return prove_emitted(mechanics, scheme, program, code, mechanics.energy);
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const LoweredStep& lowered,
+              const Program& code) {
+  return prove_emitted(mechanics, scheme, lowered.plan, code, mechanics.energy);
 }
-Finding prove(const Mechanics& mechanics, const Scheme& scheme, const Program& program) {
-  return prove(mechanics, scheme, program, step_code(program));
+Finding prove(const Mechanics& mechanics, const Scheme& scheme, const LoweredStep& lowered) {
+  return prove(mechanics, scheme, lowered, build_program(lowered));
 }
 
 std::vector<Case> cases() {
@@ -91,8 +91,8 @@ TEST(EmittedCode, IsTheMathematicsForEverySolver) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
     const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
-    const Program program = program_of(mechanics, scheme, c.solver);
-    const Finding finding = prove(mechanics, scheme, program);
+    const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver);
+    const Finding finding = prove(mechanics, scheme, lowered);
     EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << finding.detail;
   }
 }
@@ -107,8 +107,8 @@ TEST(EmittedCode, MayHoldAProductBothRoundedAndExact) {
                Expression(0)};
   const Mechanics mechanics = mechanics_of(c);
   const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
-  const Program program = program_of(mechanics, scheme, c.solver);
-  const Finding finding = prove(mechanics, scheme, program);
+  const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver);
+  const Finding finding = prove(mechanics, scheme, lowered);
   EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
 }
 
@@ -123,9 +123,9 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
     const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
-    const Program original = program_of(mechanics, scheme, c.solver);
+    const LoweredStep original = lowered_of(mechanics, scheme, c.solver);
     int of_case = 0;
-    const StepCode code = step_code(original);
+    const Program code = build_program(original);
     std::vector<verify_test::Mutant> list = mutants_of(code, {3, first});
     std::ranges::move(mutants_of_structure(code, {3, first++}), std::back_inserter(list));
     for (const verify_test::Mutant& mutant : list) {
@@ -161,9 +161,9 @@ TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
     const Case straight{c.name, c.text, c.solver, number(1, 3), number(1, 5), number(1, 7)};
     Case swapped = straight;
     std::swap(swapped.beta, swapped.gamma);
-    const Program program = program_of(mechanics, scheme_of(swapped, n), c.solver);
-    EXPECT_EQ(prove(mechanics, scheme_of(swapped, n), program).verdict, Verdict::proved) << c.name;
-    EXPECT_EQ(prove(mechanics, scheme_of(straight, n), program).verdict, Verdict::refuted)
+    const LoweredStep lowered = lowered_of(mechanics, scheme_of(swapped, n), c.solver);
+    EXPECT_EQ(prove(mechanics, scheme_of(swapped, n), lowered).verdict, Verdict::proved) << c.name;
+    EXPECT_EQ(prove(mechanics, scheme_of(straight, n), lowered).verdict, Verdict::refuted)
         << c.name;
   }
 }
@@ -174,13 +174,13 @@ TEST(EmittedCode, WrongDerivativesOfTheMechanicsAreRefuted) {
     Mechanics wrong = mechanics_of(c);
     wrong.gradient[0] = wrong.gradient[0] * Expression(2);
     const Scheme scheme = scheme_of(c, wrong.degrees_of_freedom);
-    const Program first = program_of(wrong, scheme, c.solver);
+    const LoweredStep first = lowered_of(wrong, scheme, c.solver);
     EXPECT_EQ(prove(wrong, scheme, first).verdict, Verdict::refuted) << c.name;
     if (c.solver != "" || c.alpha.is_zero() || c.alpha.is_one()) continue;  // no Hessian in them
     wrong = mechanics_of(c);
     Expression& entry = wrong.hessian.begin()->second;
     entry = entry * Expression(2);
-    const Program second = program_of(wrong, scheme, c.solver);
+    const LoweredStep second = lowered_of(wrong, scheme, c.solver);
     EXPECT_EQ(prove(wrong, scheme, second).verdict, Verdict::refuted) << c.name;
   }
 }
@@ -239,9 +239,9 @@ TEST(EmittedLoops, AreTheMathematics) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     ASSERT_TRUE(mechanics.keeps_sums());
     for (const Loops& c : loops(mechanics)) {
-      const Program program = program_of(mechanics, *c.scheme, c.solver);
+      const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
       const Finding finding =
-          prove_emitted(mechanics, *c.scheme, program, step_code(program), hamiltonian);
+          prove_emitted(mechanics, *c.scheme, lowered.plan, build_program(lowered), hamiltonian);
       EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << finding.detail;
     }
   }
@@ -253,15 +253,15 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
   for (const std::string& text : {kChain, kCoupledRing}) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     for (const Loops& c : loops(mechanics)) {
-      const Program program = program_of(mechanics, *c.scheme, c.solver);
-      const StepCode code = step_code(program);
+      const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
+      const Program code = build_program(lowered);
       // Some of each, for a proof takes long here.
       std::vector<verify_test::Mutant> list = mutants_of_structure(code, {13, first});
       std::ranges::move(mutants_of(code, {47, first++}), std::back_inserter(list));
       for (const verify_test::Mutant& mutant : list) {
         if (computes_the_same(code, mutant.code)) continue;
         const Finding finding =
-            prove_emitted(mechanics, *c.scheme, program, mutant.code, hamiltonian);
+            prove_emitted(mechanics, *c.scheme, lowered.plan, mutant.code, hamiltonian);
         EXPECT_EQ(finding.verdict, Verdict::refuted)
             << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
             << finding.detail;
@@ -277,14 +277,14 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
 TEST(EmittedLoops, AGradientThatNoStepCallsIsProvedToo) {
   const auto [mechanics, hamiltonian] = loops_of(kChain);
   for (const Loops& c : loops(mechanics)) {
-    const Program program = program_of(mechanics, *c.scheme, c.solver);
+    const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
     for (const std::size_t dropped : {0, 1}) {
-      StepCode code = step_code(program);
+      Program code = build_program(lowered);
       const auto gradient = std::ranges::find(code.routines, "gradient", &Routine::name);
       ASSERT_NE(gradient, code.routines.end()) << c.name;
       ASSERT_EQ(gradient->body.size(), 2u) << c.name;
       gradient->body.erase(gradient->body.begin() + static_cast<std::ptrdiff_t>(dropped));
-      EXPECT_EQ(prove_emitted(mechanics, *c.scheme, program, code, hamiltonian).verdict,
+      EXPECT_EQ(prove_emitted(mechanics, *c.scheme, lowered.plan, code, hamiltonian).verdict,
                 Verdict::refuted)
           << c.name << ", without call " << dropped;
     }
@@ -296,8 +296,8 @@ TEST(EmittedLoops, WrongKernelsAreRefuted) {
   const auto [mechanics, hamiltonian] = loops_of(kChain);
   const Scheme scheme = uniform(mechanics.degrees_of_freedom, half(), Expression(0), Expression(0));
   const auto verdict = [&](const Mechanics& wrong) {
-    const Program program = program_of(wrong, scheme, "");
-    return prove_emitted(wrong, scheme, program, step_code(program), hamiltonian).verdict;
+    const LoweredStep lowered = lowered_of(wrong, scheme, "");
+    return prove_emitted(wrong, scheme, lowered.plan, build_program(lowered), hamiltonian).verdict;
   };
   Mechanics slope = mechanics;
   slope.kernels.back().gradient.front() += Expression(1);

@@ -17,7 +17,7 @@ namespace {
 // solves.
 class Evaluator {
  public:
-  explicit Evaluator(const StepCode& code) : code_(code) {}
+  explicit Evaluator(const Program& code) : code_(code) {}
 
   std::vector<double> operator()() {
     for (const Routine& routine : code_.routines) {
@@ -346,7 +346,7 @@ class Evaluator {
 
   // Of a product that comes with its error, a part: the two of them are the product.
   static constexpr double kLost = 0.1;
-  const StepCode& code_;
+  const Program& code_;
   std::map<std::string, double> cells_;
   std::set<std::string> zeroed_;
   std::map<std::string, std::map<std::pair<long, long>, double>> matrices_;
@@ -358,7 +358,7 @@ class Evaluator {
 
 }  // namespace
 
-bool computes_the_same(const StepCode& a, const StepCode& b) {
+bool computes_the_same(const Program& a, const Program& b) {
   const std::vector<double> of_a = Evaluator(a)();
   const std::vector<double> of_b = Evaluator(b)();
   if (of_a.size() != of_b.size()) return false;

@@ -17,7 +17,7 @@ namespace hamgen {
 namespace {
 
 using verify_test::computes_the_same;
-using verify_test::program_of;
+using verify_test::lowered_of;
 
 // The system of a text at a size.
 SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name) {
@@ -26,14 +26,14 @@ SizedSystem system_of(const std::string& text, long size, const std::string& sch
   Mechanics mechanics = derive(model);
   EXPECT_TRUE(mechanics.keeps_sums()) << text;
   Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
-  Program program =
-      program_of(mechanics, scheme, scheme_name == "stormer-verlet" ? "" : "fixed-point");
-  return {size, std::move(mechanics), std::move(scheme), std::move(program),
-          written_out_hamiltonian(model)};
+  const LoweredStep lowered =
+      lowered_of(mechanics, scheme, scheme_name == "stormer-verlet" ? "" : "fixed-point");
+  return {size,         std::move(mechanics),   std::move(scheme),
+          lowered.plan, build_program(lowered), written_out_hamiltonian(model)};
 }
 
 SizedOutline routines(const SizedSystem& system) {
-  return {system.size, outline(step_code(system.program), {"invariants"})};
+  return {system.size, outline(system.program, {"invariants"})};
 }
 SizedOutline kernels(const SizedSystem& system) {
   return {system.size, outline(system.mechanics.kernels)};
@@ -82,9 +82,8 @@ TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
     const SizedSystem a = system_of(kGrowingChain, 25, scheme);
     const SizedSystem b = system_of(kGrowingChain, 26, scheme);
     const SizedSystem c = system_of(kGrowingChain, 60, scheme);
-    const StepCode code = step_code(c.program);
-    const Finding finding = prove_emitted(c.mechanics, c.scheme, c.program, code, c.hamiltonian, {},
-                                          {}, SmallerSystems{"N", 60, a, b});
+    const Finding finding = prove_emitted(c.mechanics, c.scheme, c.plan, c.program, c.hamiltonian,
+                                          {}, {}, SmallerSystems{"N", 60, a, b});
     EXPECT_EQ(finding.verdict, Verdict::proved) << scheme << ": " << finding.detail;
     const SizedOutline first = routines(a);
     const SizedOutline second = routines(b);
@@ -93,13 +92,13 @@ TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
       for (const verify_test::Mutant& mutant : list) {
         const auto why =
             why_not_longer({{first, second, {60, outline(mutant.code, {"invariants"})}}});
-        EXPECT_TRUE(why || computes_the_same(code, mutant.code))
+        EXPECT_TRUE(why || computes_the_same(c.program, mutant.code))
             << scheme << ", " << mutant.kind << ": " << mutant.description;
         ++mutants;
       }
     };
-    refuse(verify_test::mutants_of(code));
-    refuse(verify_test::mutants_of_structure(code));
+    refuse(verify_test::mutants_of(c.program));
+    refuse(verify_test::mutants_of_structure(c.program));
     EXPECT_GE(mutants, 20) << scheme;
   }
 }
@@ -110,15 +109,16 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
     for (Kernel& kernel : system.mechanics.kernels) {
       kernel.gradient.front() = kernel.gradient.front() * Expression(2);
     }
-    system.program = program_of(system.mechanics, system.scheme, "fixed-point");
+    const LoweredStep lowered = lowered_of(system.mechanics, system.scheme, "fixed-point");
+    system.plan = lowered.plan;
+    system.program = build_program(lowered);
     return system;
   };
   const SizedSystem large = system_of(kGrowingChain, 60, "implicit-midpoint");
   const SmallerSystems smaller{"N", 60, wrong(system_of(kGrowingChain, 25, "implicit-midpoint")),
                                wrong(system_of(kGrowingChain, 26, "implicit-midpoint"))};
-  const Finding finding =
-      prove_emitted(large.mechanics, large.scheme, large.program, step_code(large.program),
-                    large.hamiltonian, {}, {}, smaller);
+  const Finding finding = prove_emitted(large.mechanics, large.scheme, large.plan, large.program,
+                                        large.hamiltonian, {}, {}, smaller);
   EXPECT_EQ(finding.verdict, Verdict::refuted);
   EXPECT_NE(finding.detail.find("at N = 25: "), std::string::npos) << finding.detail;
 }
@@ -126,8 +126,8 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
 // Without smaller ones it is no proof.
 TEST(Growth, ALargeSystemAloneIsTested) {
   const SizedSystem large = system_of(kGrowingChain, 60, "implicit-midpoint");
-  const Finding finding = prove_emitted(large.mechanics, large.scheme, large.program,
-                                        step_code(large.program), large.hamiltonian);
+  const Finding finding =
+      prove_emitted(large.mechanics, large.scheme, large.plan, large.program, large.hamiltonian);
   EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;
   EXPECT_NE(finding.detail.find("the routines are not looked at"), std::string::npos)
       << finding.detail;

@@ -95,10 +95,10 @@ TEST(Program, WithAMagnitudeLeftOutIsRefuted) {
       verify_test::mechanics_of("coordinate q\nmomentum p\nH = p^2/2 + q^2/2 + exp(-abs(q))*q^2\n");
   const Expression half(Rational(1, 2));
   const Scheme scheme = family_member(1, {{half}}, {{Expression(0)}}, {{Expression(0)}});
-  const Program program = verify_test::program_of(mechanics, scheme, "");
-  StepCode code = step_code(program);
+  const LoweredStep lowered = verify_test::lowered_of(mechanics, scheme, "");
+  Program code = build_program(lowered);
   const auto verdict = [&] {
-    return prove_emitted(mechanics, scheme, program, code, mechanics.energy).verdict;
+    return prove_emitted(mechanics, scheme, lowered.plan, code, mechanics.energy).verdict;
   };
   ASSERT_EQ(verdict(), Verdict::tested);
   int changed = 0;

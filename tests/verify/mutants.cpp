@@ -18,8 +18,9 @@ Mechanics mechanics_of(const std::string& text) {
   return derive(read_model(make_source("case.ham", "system case\n" + text)));
 }
 
-Program program_of(const Mechanics& mechanics, const Scheme& scheme, const std::string& solver) {
-  return build_program(plan_solve(discretise(mechanics, scheme), solver));
+LoweredStep lowered_of(const Mechanics& mechanics, const Scheme& scheme,
+                       const std::string& solver) {
+  return lower_step(plan_solve(discretise(mechanics, scheme), solver));
 }
 
 namespace {
@@ -73,7 +74,7 @@ struct Visitor {
 
 }  // namespace
 
-void for_each_expression(StepCode& code, const std::function<void(Expression&)>& visit) {
+void for_each_expression(Program& code, const std::function<void(Expression&)>& visit) {
   for (Routine& routine : code.routines) Visitor{visit}.body(routine.body);
 }
 
@@ -174,17 +175,17 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
 
 }  // namespace
 
-std::vector<Mutant> mutants_of(const StepCode& original, Some some,
+std::vector<Mutant> mutants_of(const Program& original, Some some,
                                const std::set<std::string>& routines) {
   std::vector<Mutant> mutants;
   std::set<std::string> known;
   std::vector<Expression> all;
-  const auto for_each = [&](StepCode& code, const std::function<void(Expression&)>& visit) {
+  const auto for_each = [&](Program& code, const std::function<void(Expression&)>& visit) {
     for (Routine& routine : code.routines) {
       if (routines.empty() || routines.contains(routine.name)) Visitor{visit}.body(routine.body);
     }
   };
-  StepCode copy = original;
+  Program copy = original;
   for_each(copy, [&](Expression& e) {
     collect_symbols(e, known);
     all.push_back(e);
@@ -198,7 +199,7 @@ std::vector<Mutant> mutants_of(const StepCode& original, Some some,
       const std::vector<Expression> variants = changed_somewhere(all[place], mutation.change);
       for (std::size_t v = 0; v < variants.size(); v += 1 + variants.size() / 2) {
         if (variants[v] == all[place] || some.first++ % some.every != 0) continue;
-        StepCode mutant = original;
+        Program mutant = original;
         std::size_t now = 0;
         for_each(mutant, [&](Expression& e) {
           if (now++ == place) e = variants[v];
@@ -214,7 +215,7 @@ std::vector<Mutant> mutants_of(const StepCode& original, Some some,
 namespace {
 
 // Every body, with the routine it belongs to.
-void for_each_body(StepCode& code, const std::function<void(const Routine&, Body&)>& use) {
+void for_each_body(Program& code, const std::function<void(const Routine&, Body&)>& use) {
   const std::function<void(const Routine&, Body&)> visit = [&](const Routine& routine, Body& body) {
     use(routine, body);
     for (Instruction& instruction : body) {
@@ -239,31 +240,31 @@ bool computes(const Instruction& instruction) {
 
 }  // namespace
 
-std::vector<Mutant> mutants_of_structure(const StepCode& original, Some some) {
+std::vector<Mutant> mutants_of_structure(const Program& original, Some some) {
   std::vector<Mutant> mutants;
   const auto change = [&](const std::string& kind, const auto& alter) {
     if (some.first++ % some.every != 0) return;
-    StepCode mutant = original;
+    Program mutant = original;
     const std::string what = alter(mutant);
     if (!what.empty()) mutants.push_back({kind, what, std::move(mutant)});
   };
   const std::size_t substeps = original.substeps.size();
   for (std::size_t i = 0; substeps > 1 && i < substeps; ++i) {
-    change("substep left out", [i](StepCode& code) {
+    change("substep left out", [i](Program& code) {
       code.substeps.erase(code.substeps.begin() + static_cast<std::ptrdiff_t>(i));
       return std::to_string(i);
     });
-    change("substeps exchanged", [i, substeps](StepCode& code) {
+    change("substeps exchanged", [i, substeps](Program& code) {
       std::swap(code.substeps[i], code.substeps[(i + 1) % substeps]);
       return std::to_string(i);
     });
   }
   std::size_t bodies = 0;
-  StepCode copy = original;
+  Program copy = original;
   for_each_body(copy, [&](const Routine&, Body& body) { bodies += body.size(); });
   for (std::size_t place = 0; place < bodies; place += 1 + bodies / 24) {
     const auto at_place = [&](const std::string& kind, const auto& alter) {
-      change(kind, [&](StepCode& code) {
+      change(kind, [&](Program& code) {
         std::size_t now = 0;
         std::string what;
         for_each_body(code, [&](const Routine& routine, Body& body) {

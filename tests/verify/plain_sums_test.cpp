@@ -52,7 +52,7 @@ TEST(PlainSums, AreProvedAndNameNoCarry) {
         EXPECT_EQ(found->verdict, Verdict::proved)
             << text << name_of(request) << ": " << found->detail;
       }
-      EXPECT_EQ(to_text(step_code(stages.program)).find("carry"), std::string::npos);
+      EXPECT_EQ(to_text(stages.program).find("carry"), std::string::npos);
       const std::string header = generate_plugin(source, request).header.text;
       for (const char* word : {"carry", "two_sum", "collect(", "rest."})
         EXPECT_EQ(header.find(word), std::string::npos) << name_of(request) << " " << word;
@@ -76,11 +76,11 @@ TEST(PlainSums, WithoutTheSmallPartOfAnIncrementAreRefuted) {
   const SourceText source = make_source("m.ham", kPlainPendulum);
   for (const char* solver : {"", "fixed-point"}) {
     Stages stages = run_stages(source, {.solver = solver, .plain_sums = true});
-    StepCode code = step_code(stages.program);
+    Program code = stages.program;
     const Mechanics& mechanics = stages.system.mechanics;
     const Scheme& scheme = stages.equations.scheme;
     const auto finding = [&] {
-      return prove_emitted(mechanics, scheme, stages.program, code, mechanics.energy);
+      return prove_emitted(mechanics, scheme, stages.plan, code, mechanics.energy);
     };
     EXPECT_EQ(finding().verdict, Verdict::proved);
     bool changed = false;
@@ -105,7 +105,7 @@ TEST(PlainSums, WithoutTheSmallPartOfAnIncrementAreRefuted) {
 TEST(PlainSums, LoseWhatRoundingTakes) {
   const SourceText source = make_source("m.ham", kPlainPendulum);
   const auto error_of = [&](bool plain) {
-    const StepCode code = make_step_code(source, {.plain_sums = plain});
+    const Program code = make_program(source, {.plain_sums = plain});
     Interpreter<double> run(code, {0.03}, 0.1, {1.3, 0.0});
     Interpreter<__float128> exact(code, {__float128(0.03)}, __float128(0.1), {1.3, 0});
     for (int step = 0; step < 20000; ++step) {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "generator/program/program.hpp"
+#include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
 
-// Why the tangent map of this program's step is not written, if it is not.
-[[nodiscard]] std::optional<std::string> without_tangent(const Program& program);
+// Why the tangent map of the step of this plan is not written, if it is not.
+[[nodiscard]] std::optional<std::string> without_tangent(const SolvePlan& plan);
 
 }  // namespace hamgen

@@ -1,0 +1,139 @@
+#include "generator/program/lower.hpp"
+#include "generator/program/lowered_step.hpp"
+#include "generator/program/step_builder.hpp"
+#include "generator/solvers/array_matrix.hpp"
+
+namespace hamgen {
+
+Evaluation evaluate_together(const std::vector<Expression>& values) {
+  Lowering lowering({Section{}});
+  std::set<std::string> free;
+  for (const Expression& value : values) collect_symbols(value, free);
+  for (const std::string& symbol : free) lowering.declare(symbol, 0);
+  std::vector<std::size_t> handles;
+  for (const Expression& value : values) handles.push_back(lowering.want(value, 0));
+  lowering.run();
+  Evaluation evaluation{.statements = lowering.statements(0)};
+  for (const std::size_t handle : handles) evaluation.results.push_back(lowering.wanted(handle));
+  return evaluation;
+}
+
+namespace {
+
+// dV/dq and dT/dp share no variable, so one pass lowers both; what depends on parameters alone is
+// computed once per run.
+void build_splitting(LoweredStep& lowered, const Mechanics& mechanics) {
+  Lowering lowering({Section{}, Section{}, Section{}});
+  const int n = mechanics.degrees_of_freedom;
+  for (const Quantity& parameter : mechanics.parameters) lowering.declare(parameter.name, 0);
+  std::vector<std::size_t> handles;
+  for (int i = 0; i < 2 * n; ++i) {
+    lowering.declare(mechanics.variable(i).name(), i < n ? 1 : 2);
+    handles.push_back(
+        lowering.want(mechanics.gradient[static_cast<std::size_t>(i)], i < n ? 1 : 2));
+  }
+  lowering.run();
+  lowered.coefficients = lowering.statements(0);
+  lowered.potential_gradient.statements = lowering.statements(1);
+  lowered.kinetic_gradient.statements = lowering.statements(2);
+  for (int i = 0; i < 2 * n; ++i) {
+    (i < n ? lowered.potential_gradient : lowered.kinetic_gradient)
+        .results.push_back(lowering.wanted(handles[static_cast<std::size_t>(i)]));
+  }
+}
+
+// J grad H from grad H = (H_q, H_p).
+Evaluation rotated(const Evaluation& gradient) {
+  Evaluation field{.statements = gradient.statements};
+  const auto middle = gradient.results.begin() + std::ssize(gradient.results) / 2;
+  field.results.assign(middle, gradient.results.end());
+  for (auto it = gradient.results.begin(); it != middle; ++it) field.results.push_back(-*it);
+  return field;
+}
+
+void build_hessian(LoweredStep& lowered, const Mechanics& mechanics) {
+  std::vector<Expression> values;
+  for (const auto& [place, value] : mechanics.hessian) {
+    lowered.hessian_places.push_back(place);
+    values.push_back(value);
+  }
+  lowered.hessian = evaluate_together(values);
+}
+
+}  // namespace
+
+LoweredStep with_tangent(LoweredStep lowered) {
+  lowered.tangent = true;
+  const StepEquations& equations = lowered.plan.equations;
+  const bool solved = equations.scheme.has_member() && !lowered.plan.sweeps;
+  if (lowered.plan.arrays) {
+    // Of a fixed point, too, the linearised equations are solved by elimination.
+    ArrayPlan& arrays = *lowered.plan.arrays;
+    if (iterates(arrays) && !arrays.matrix) {
+      const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
+      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced);
+    }
+  } else if (solved) {
+    lowered.linearisation = linearise(lowered.plan);
+  } else if (lowered.hessian_places.empty()) {
+    build_hessian(lowered, equations.mechanics);
+  }
+  return lowered;
+}
+
+namespace {
+
+LoweredStep lowered_step(const SolvePlan& plan) {
+  const Mechanics& mechanics = plan.equations.mechanics;
+  LoweredStep lowered{.plan = plan};
+  if (!plan.arrays) {
+    if (plan.equations.scheme.has_member()) lowered = StepBuilder(plan).build();
+    if (std::holds_alternative<Splitting>(plan.equations.scheme.method)) {
+      build_splitting(lowered, mechanics);
+    }
+    if (plan.stage_solver) build_hessian(lowered, mechanics);
+    lowered.energy = evaluate_together({mechanics.energy});
+    lowered.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
+                                                                 : mechanics.gradient);
+    if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
+      lowered.vector_field = rotated(lowered.gradient);
+    }
+  }
+  lowered.sequence = sequence_of(plan.equations.scheme);
+  std::vector<Expression> invariants;
+  std::vector<Expression> events;
+  for (const NamedExpression& each : mechanics.invariants)
+    (each.is_event() ? events : invariants).push_back(each.value);
+  lowered.invariants = evaluate_together(invariants);
+  lowered.events = evaluate_together(events);
+  return lowered;
+}
+
+// Ht, cut off after each of its terms, as functions of h and the state.
+void add_modified_energies(LoweredStep& lowered, const std::vector<Expression>& terms) {
+  const Expression h = step_size();
+  std::vector<Expression> sums;
+  Expression sum;
+  Expression power(1);
+  for (std::size_t j = 0; j < terms.size(); ++j) {
+    sum += power * terms[j];
+    power = power * h;
+    if (j == 0 || terms[j].is_zero()) continue;
+    sums.push_back(sum);
+    lowered.modified_powers.push_back(static_cast<int>(j));
+  }
+  lowered.modified_energies = evaluate_together(sums);
+}
+
+}  // namespace
+
+LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
+  LoweredStep lowered = lowered_step(plan);
+  lowered.unchecked = wishes.unchecked;
+  lowered.plain_sums = wishes.plain_sums;
+  if (wishes.tangent) lowered = with_tangent(std::move(lowered));
+  if (!wishes.modified_terms.empty()) add_modified_energies(lowered, wishes.modified_terms);
+  return lowered;
+}
+
+}  // namespace hamgen
