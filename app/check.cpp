@@ -43,7 +43,7 @@ Model check_model(const SourceText& source, const Request& request,
                   const std::function<void(const std::vector<Diagnostic>&)>& warn) {
   Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) warn(model.warnings);
-  check_scenes(model, find_scalar(request.scalar));
+  check_scenes(model, *request.scalar->type);
   check_step(source, request);
   for (const Corner& corner : corners_of_hamiltonian(source, request)) {
     warn({{.severity = Severity::warning,

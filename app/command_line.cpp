@@ -277,7 +277,7 @@ Request request_of(const MethodOptions& options, const SceneOptions& scene,
         "nothing is left out");
   Request request = request_of(options);
   if (!scene.set.empty()) request.sizes = sizes_of(scene.set, source);
-  if (request.gauge == "locally-exact") {
+  if (request.gauge->locally_exact) {
     // Where a run without further options takes it.
     const Model model = read_request(source, request);
     if (!model.scenes.empty()) take_gauge_at(scene_values(model, {}), model, request);

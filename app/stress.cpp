@@ -12,6 +12,7 @@
 #include "app/output/stress_output.hpp"
 #include "app/output/terminal.hpp"
 #include "app/stress_axes.hpp"
+#include "app/studies/initial_data.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
 

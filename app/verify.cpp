@@ -75,7 +75,7 @@ std::vector<LinearPoint> linear_part(const Setting& setting, const SceneValues& 
     proof.push_back({"linear stability", Verdict::not_decided, why});
     return std::vector<LinearPoint>{};
   };
-  if (setting.request.solver.starts_with("sweeps"))
+  if (setting.request.solver->kind == SolverWish::Kind::sweeps)
     return open("sweeps leave the step unsolved: the linear step is another");
   if (!scene.h) return open("there is no scene with a step size and no --h");
   std::vector<LinearPoint> points = linear_points(setting.source, setting.request, scene);
@@ -184,6 +184,7 @@ void write_certificate(const VerifyOptions& options, const Setting& setting,
 bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::refuted; }
 
 int verify(const VerifyOptions& options) {
+  const Requirements required = Requirements::read(options.required);
   if (!options.certificate.empty() && options.emitted.empty())
     throw UsageError(
         "--certificate: it has the digest of a header\nhelp: write one with `hamgen generate -o "
@@ -236,7 +237,7 @@ int verify(const VerifyOptions& options) {
   }
   print(options.json ? json_document(rows) : text);
   if (header) propose_command(proof, *header);
-  require(proof, options.required);
+  require(proof, required);
   if (!options.certificate.empty()) write_certificate(options, setting, *header, proof);
   return holds ? done : proof_failed;
 }

@@ -18,56 +18,32 @@ void check_gauge(const Request& request) {
     throw UsageError(
         "--reference says where --gauge locally-exact is exact, but there is no --gauge");
   }
-  const bool is_matrix = request.gauge.starts_with('[');
-  if (!is_matrix && request.gauge != "locally-exact") {
-    throw UsageError(
-        fmt::format("unknown gauge '{}'; there is locally-exact, and a matrix C is written "
-                    "'[[a, b], [c, -a]]'",
-                    request.gauge));
-  }
-  if (is_matrix && !request.reference.empty())
+  if (request.gauge->matrix && !request.reference.empty())
     throw UsageError(
         "--reference says where --gauge locally-exact is exact; a matrix has no point");
-  if (!(request.alpha + request.beta + request.gamma).empty()) {
+  if (!request.alpha.empty() || !request.beta.empty() || !request.gamma.empty()) {
     throw UsageError("give either --gauge or --alpha, --beta, --gamma");
   }
 }
 
-// THE LIST's scheme of that name.
-const Scheme& named_scheme(const std::string& name) {
-  if (const Scheme* scheme = find_scheme(name)) return *scheme;
-  std::vector<std::string> names;
-  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
-  const std::string near = nearest(name, names);
-  throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", name,
-                               near.empty() ? "" : ", did you mean '" + near + "'?"));
-}
-
 // The member of the request.
 Scheme requested_member(const Model& model, const Mechanics& mechanics, const Request& request) {
-  if (request.gauge.starts_with('[')) {
-    return read_gauge_matrix(model, request.gauge);
-  }
-  if (!request.gauge.empty()) {
+  if (request.gauge->matrix) return gauge_member(model, *request.gauge->matrix);
+  if (request.gauge->locally_exact) {
     return locally_exact_member(mechanics, read_reference(model, request.reference));
   }
-  const std::string alpha = request.alpha.empty() ? "1/2" : request.alpha;
-  const std::string beta = request.beta.empty() ? "0" : request.beta;
-  const std::string gamma = request.gamma.empty() ? "0" : request.gamma;
-  return family_member(mechanics.degrees_of_freedom, read_gauge_block(model, "alpha", alpha),
-                       read_gauge_block(model, "beta", beta),
-                       read_gauge_block(model, "gamma", gamma));
+  return family_member(mechanics.degrees_of_freedom, gauge_block(model, *request.alpha),
+                       gauge_block(model, *request.beta), gauge_block(model, *request.gamma));
 }
 
 Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const Request& request) {
   if (request.scheme.empty()) return requested_member(model, mechanics, request);
-  const Scheme& named = named_scheme(request.scheme);
-  const bool has_parameters =
-      !(request.alpha + request.beta + request.gamma + request.gauge).empty();
+  const Scheme& named = *request.scheme->scheme;
   if (std::holds_alternative<Composition>(named.method)) {
     return compose(named, requested_member(model, mechanics, request));
   }
-  if (has_parameters) throw UsageError("give either --scheme or --alpha, --beta, --gamma, --gauge");
+  if (request.names_member())
+    throw UsageError("give either --scheme or --alpha, --beta, --gamma, --gauge");
   return for_system(named, mechanics);
 }
 

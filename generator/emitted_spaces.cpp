@@ -47,7 +47,7 @@ std::string joined(const std::vector<std::string>& words) {
 std::string system_space(const std::string& system, const Request& request,
                          const std::string& scene) {
   std::vector<std::string> changes;
-  const ScalarType& scalar = find_scalar(request.scalar);
+  const ScalarType& scalar = *request.scalar->type;
   if (scalar.digits != 53) changes.emplace_back(scalar.space);
   for (const auto& [name, value] : request.sizes) {
     changes.push_back(fmt::format("{}_{}", name, value));
@@ -55,7 +55,7 @@ std::string system_space(const std::string& system, const Request& request,
   for (const std::string& name : request.fold) changes.push_back("folded_" + name);
   if (!scene.empty()) changes.push_back(scene);
   if (request.batch > 0) changes.push_back(fmt::format("batch_{}", request.batch));
-  if (request.math == "libm") changes.emplace_back("libm");
+  if (request.math->of_library) changes.emplace_back("libm");
   const std::string space = namespace_identifier(system);
   return changes.empty() ? space : space + "::" + identifier(joined(changes));
 }
@@ -66,22 +66,21 @@ std::string method_space(const Scheme& scheme, const Request& request) {
   std::vector<std::string> words = {name};
   // A name of THE LIST says all of a scheme's coefficients but for those of what it composes.
   if (name.starts_with("member") || std::holds_alternative<Composition>(scheme.method)) {
-    const std::pair<const char*, const std::string*> parts[] = {
-        {"alpha", &request.alpha}, {"beta", &request.beta}, {"gamma", &request.gamma}};
+    const std::pair<const char*, const std::string*> parts[] = {{"alpha", &request.alpha.text()},
+                                                                {"beta", &request.beta.text()},
+                                                                {"gamma", &request.gamma.text()}};
     for (const auto& [part, formula] : parts) {
       if (!formula->empty()) words.push_back(fmt::format("{}_{}", part, name_of(*formula)));
     }
   }
-  if (!request.gauge.empty() && request.gauge != "locally-exact") {
-    words.push_back(name_of(request.gauge));
-  }
+  if (request.gauge->matrix) words.push_back(name_of(request.gauge.text()));
   std::string reference;
   for (const auto& [place, value] : request.reference) {
     reference += fmt::format("{}={};", place, value);
   }
   if (!reference.empty()) words.push_back("at_" + short_digest(reference));
   if (!request.solver.empty()) {
-    std::string solver = request.solver;
+    std::string solver = request.solver.text();
     std::ranges::replace_if(
         solver, [](char c) { return c == '-' || c == ':'; }, '_');
     words.push_back(solver);

@@ -28,11 +28,11 @@ std::vector<Expression> modified_terms(const Mechanics& mechanics, const Scheme&
 
 // Sweeps leave the step unsolved, and what is not symplectic has no modified Hamiltonian.
 void require_solved_step(const Request& request) {
-  if (!request.solver.starts_with("sweeps")) return;
+  if (request.solver->kind != SolverWish::Kind::sweeps) return;
   throw UsageError(
       fmt::format("--solver {} leaves the step unsolved: it follows no modified "
                   "Hamiltonian\nhelp: drop --solver",
-                  request.solver));
+                  request.solver.text()));
 }
 
 }  // namespace hamgen

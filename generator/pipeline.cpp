@@ -30,16 +30,8 @@ std::string stem(const std::string& path) {
   return name.empty() ? "model" : name;
 }
 
-bool shares_support(const Request& request) {
-  if (request.support.empty() || request.support == "own") return false;
-  if (request.support == "shared") return true;
-  throw UsageError(fmt::format("--support {}: there are own and shared", request.support));
-}
-
 int lanes_of(const Request& request) {
   if (request.math.empty() && request.batch == 0) return 0;
-  if (!request.math.empty() && request.math != "own" && request.math != "libm")
-    throw UsageError(fmt::format("--math {}: there are own and libm", request.math));
   if (request.batch == 0)
     throw UsageError("--math: is of the elementary functions of a batch\nhelp: add --batch 8");
   constexpr int most = 256;  // beyond, compilers take minutes
@@ -62,14 +54,14 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .command = request.command,
           .model_path = source.path,
           .model_digest = request.model_digest,
-          .scalar = request.scalar,
+          .scalar = request.scalar.text(),
           .spaces = emitted_spaces(stages.equations, request,
                                    is_special ? request.scene->values.name : ""),
           .tangent = request.tangent && !without_tangent(stages.plan),
-          .shared_support = shares_support(request),
+          .shared_support = request.support->shared,
           .watched_step = request.step,
           .lanes = lanes_of(request),
-          .library_functions = request.math == "libm"};
+          .library_functions = request.math->of_library};
 }
 
 ReadBack unread_batch() {
@@ -84,7 +76,7 @@ ReadBack unread_batch() {
 ReadBack read_files(const OutputFiles& files, const Stages& stages, const Request& request) {
   if (request.batch > 0) return unread_batch();
   EmittedFile file{.text = files.front().text,
-                   .scalar = request.scalar,
+                   .scalar = request.scalar.text(),
                    .beside = {},
                    .watched_step = request.step};
   for (const OutputFile& other : files) file.beside[other.path] = other.text;
@@ -96,7 +88,7 @@ void add_proof(const SourceText& source, const Stages& stages, const Request& re
                const OutputFiles& files, EmitOptions& options) {
   Proof proof = prove(source, request, stages);
   add_emitted_code(read_files(files, stages, request), "", proof);
-  require(proof, request.require);
+  require(proof, *request.require);
   require_emitted(proof);
   options.proved = properties_with(proof, Verdict::proved);
   options.tested = properties_with(proof, Verdict::tested);
@@ -110,9 +102,7 @@ auto written(const Model& model, const Request& request, Write write) {
   try {
     return write();
   } catch (const OutOfRange& error) {
-    if (!(request.alpha + request.beta + request.gamma + request.gauge).empty() ||
-        request.watch_modified > 0)
-      throw;
+    if (request.names_member() || request.watch_modified > 0) throw;
     Diagnostic diagnostic = error.diagnostic();
     diagnostic.span = model.hamiltonian->span;
     throw ModelError({std::move(diagnostic)}, model.source);
@@ -128,7 +118,7 @@ std::string plugin_text(const Stages& stages, const EmitOptions& options, const 
 }
 
 OutputFiles files_of(const Stages& stages, const EmitOptions& options, const Request& request) {
-  const NamedFormat& format = find_format(request.format);
+  const NamedFormat& format = *request.format->format;
   return written(stages.model, request, [&] { return format.files(stages.program, options); });
 }
 
@@ -140,7 +130,7 @@ ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& 
     return read_files(files_of(stages, emit_options(source, stages, request), request), stages,
                       request);
   const EmittedFile file{.text = there->text,
-                         .scalar = request.scalar,
+                         .scalar = request.scalar.text(),
                          .beside = there->beside,
                          .watched_step = request.step};
   return read_back(file, stages.program);
@@ -214,7 +204,7 @@ Proof verify_step(const SourceText& source, const Request& request,
   if (header || read.kind != TextKind::plugin) {
     Request run = request;
     run.format = "cpp-plugin";
-    run.support.clear();
+    run.support = "";
     run.events = false;  // a plugin has none
     const std::optional<Stages> without_events =
         request.events ? std::optional(run_stages(source, run)) : std::nullopt;
@@ -317,7 +307,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   plugin.without_tangent = without_tangent(stages.plan).value_or("");
   plugin.singular_steps = singular_steps(stages.equations.scheme);
   plugin.needs_eigen = stages.program.facts.needs_eigen;
-  plugin.needs_quadmath = request.scalar == "quad";
+  plugin.needs_quadmath = request.scalar->type->digits == 113;
   plugin.model = std::move(stages.model);
   return plugin;
 }

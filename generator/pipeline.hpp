@@ -14,6 +14,7 @@
 #include "generator/language/scene.hpp"
 #include "generator/program/program.hpp"
 #include "generator/readback/read_back.hpp"
+#include "generator/request.hpp"
 #include "generator/schemes/scheme.hpp"
 #include "generator/specialise/specialisation.hpp"
 #include "generator/verify/certificate.hpp"
@@ -22,43 +23,6 @@
 #include "generator/verify/required.hpp"
 
 namespace hamgen {
-
-enum class Scalar { float32, float64, extended, quad };
-
-// What the user asks of the generator.  Texts are as on the command line; empty means default.
-struct Request {
-  std::string scheme;              // a name of `hamgen list schemes`; empty: the member below
-  std::string alpha, beta, gamma;  // number, expression in h, parameters, E0, or a list;
-                                   // by their own names: run-time parameters
-  int order = 0;                   // of a member by its generating function; 0: its own
-  std::string gauge;               // locally-exact or all of C, instead of alpha, beta, gamma
-  // Where locally-exact is exact: state (0 if not given) and parameters (the model's defaults).
-  std::vector<std::pair<std::string, std::string>> reference;
-  // Further names that alpha, beta, gamma may use: run-time parameters, 0 by default.
-  std::vector<std::string> scheme_parameters;
-  bool observe_curvature = false;     // invariants are energy_curvature instead of the model's
-  std::string solver;                 // newton, fixed-point, sweeps:K
-  std::string scalar;                 // float, double, long-double, quad
-  std::string format;                 // cpp-header, cpp-plugin, cmake-package
-  std::string name_space;             // SYSTEM::METHOD of the emitted code, or one for both
-  int batch = 0;                      // trajectories that are stepped together; 0: one alone
-  std::string math;                   // elementary functions of a batch: own (default) or libm
-  std::string support;                // of fixed blocks: own (of every header) or shared
-  std::vector<std::string> fold;      // parameters to burn in
-  bool tangent = false;               // the linearised step too, where it can be written
-  bool events = false;                // the model's events, and a way to find them along the steps
-  bool plain_sums = false;            // what rounding takes from the state is not carried along
-  std::string require;                // symplectic,symmetric,order:P,conserves:NAME,emitted-code
-  std::map<std::string, long> sizes;  // other integer constants than the file's
-  // Terms of the modified Hamiltonian, as many for a symmetric step are even powers of h: emitted
-  // as functions of h, which a plugin adds to its invariants at this step.
-  int watch_modified = 0;
-  Rational step;
-  // The scene the integrator is made for: what that does not need is left out.
-  std::optional<SceneFacts> scene;
-  std::string command;       // as the user typed it, for the header; may be empty
-  std::string model_digest;  // SHA-256 of the model's text, for the header; may be empty
-};
 
 // The model with what the request changes of it: sizes, folded parameters, and alpha, beta, gamma
 // as run-time parameters where the request uses them by name.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "generator/base/diagnostic.hpp"
@@ -14,21 +13,18 @@ namespace hamgen {
 
 namespace {
 
-// Is the name a word of the text?
-bool mentions(const std::string& text, const std::string& name) {
-  auto letter = [&](std::size_t i) {
-    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_');
-  };
-  for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-    if ((at == 0 || !letter(at - 1)) && !letter(at + name.size())) return true;
-  }
-  return false;
+// What alpha, beta and gamma are made of.
+std::set<std::string> names_of_member(const Request& request) {
+  std::set<std::string> names = request.alpha->names();
+  names.merge(request.beta->names());
+  names.merge(request.gamma->names());
+  return names;
 }
 
 // alpha, beta and gamma may stand for themselves: then they are run-time parameters of the
 // integrator, and `--beta beta --set beta=0.1` needs no compilation for another value.
 void add_scheme_parameters(Model& model, const Request& request) {
-  const std::string texts = request.alpha + "," + request.beta + "," + request.gamma;
+  const std::set<std::string> used = names_of_member(request);
   std::set<std::string> known;
   for (const Variable& variable : model.coordinates) known.insert(variable.name);
   for (const Variable& variable : model.momenta) known.insert(variable.name);
@@ -38,7 +34,7 @@ void add_scheme_parameters(Model& model, const Request& request) {
   const std::pair<const char*, Rational> names[] = {
       {"alpha", Rational(1, 2)}, {"beta", Rational(0)}, {"gamma", Rational(0)}};
   for (const auto& [name, value] : names) {
-    if (!mentions(texts, name) || known.contains(name)) continue;
+    if (!used.contains(name) || known.contains(name)) continue;
     const Span nowhere{};
     model.parameters.push_back(
         {.name = name,
@@ -70,13 +66,13 @@ void fold_parameters(Model& model, const Request& request) {
 
 // Names of the model that the scheme's options use: they have to keep their meaning there.
 std::set<std::string> named_by_scheme(const Model& model, const Request& request) {
-  const std::string texts =
-      request.alpha + "," + request.beta + "," + request.gamma + "," + request.gauge;
+  std::set<std::string> used = names_of_member(request);
+  if (request.gauge->matrix) used.merge(request.gauge->matrix->names());
   std::set<std::string> names;
   for (const Parameter& parameter : model.parameters) {
-    if (mentions(texts, parameter.name)) names.insert(parameter.name);
+    if (used.contains(parameter.name)) names.insert(parameter.name);
   }
-  if (request.gauge != "locally-exact") return names;
+  if (!request.gauge->locally_exact) return names;
   // It is exact with the parameters of its reference.
   const Values reference = read_reference(model, request.reference);
   const std::vector<std::string> elements = element_names(model.parameters);
@@ -155,8 +151,8 @@ FoldedModel fold_for_scene(const Model& model, const Request& request) {
 
 // Loops know one set of parameters for all degrees of freedom.
 bool may_keep_sums(const Request& request) {
-  return request.gauge.empty() && !request.observe_curvature &&
-         (request.alpha + request.beta + request.gamma).find(',') == std::string::npos;
+  return request.gauge.empty() && !request.observe_curvature && request.alpha->is_uniform() &&
+         request.beta->is_uniform() && request.gamma->is_uniform();
 }
 
 }  // namespace hamgen

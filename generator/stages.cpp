@@ -100,14 +100,14 @@ bool fails_nowhere(const Mechanics& mechanics, const SolvePlan& plan) {
 }
 
 Stages stages_of(Model model, const Request& request) {
-  require_defaults_in_range(model, find_scalar(request.scalar));
+  require_defaults_in_range(model, *request.scalar->type);
   FoldedModel folded = fold_for_scene(model, request);
   const std::optional<SceneFacts> scene = scene_facts(model, request);
   Specialised system = choose_variables(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);
-  if (request.scalar == "quad" && plan.arrays && uses_eigen(*plan.arrays)) {
+  if (request.scalar->type->digits == 113 && plan.arrays && uses_eigen(*plan.arrays)) {
     // Eigen does not know quad numbers: everything is written out instead.
     system = make_system(folded.model, scene, request, false);
     equations = discretise(system.mechanics, system.scheme, hessian);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "generator/formats/all_formats.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -20,16 +21,16 @@ std::string generate_command(const std::string& model, const Request& request) {
       words.push_back(value);
     }
   };
-  add("--scheme", request.scheme);
-  add("--alpha", request.alpha);
-  add("--beta", request.beta);
-  add("--gamma", request.gamma);
+  add("--scheme", request.scheme.text());
+  add("--alpha", request.alpha.text());
+  add("--beta", request.beta.text());
+  add("--gamma", request.gamma.text());
   if (request.order > 0) add("--order", std::to_string(request.order));
-  add("--gauge", request.gauge);
+  add("--gauge", request.gauge.text());
   for (const auto& [name, value] : request.reference)
     add("--reference", fmt::format("{}={}", name, value));
-  add("--solver", request.solver);
-  add("--scalar", request.scalar);
+  add("--solver", request.solver.text());
+  add("--scalar", request.scalar.text());
   if (request.plain_sums) words.emplace_back("--plain-sums");
   for (const std::string& name : request.fold) add("--fold", name);
   for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
@@ -41,12 +42,13 @@ std::string generate_command(const std::string& model, const Request& request) {
     add("--observe", scene.asked.observe.value_or(""));
     for (const std::string& name : scene.kept) add("--keep", name);
   }
-  if (request.format != "cpp-header") add("--format", request.format);  // the default
+  if (request.format->format != &all_formats().front())
+    add("--format", request.format.text());  // the default
   add("--namespace", request.name_space);
-  if (request.support != "own") add("--support", request.support);  // the default
+  if (request.support->shared) add("--support", request.support.text());  // the default
   if (request.batch > 0) add("--batch", std::to_string(request.batch));
-  add("--math", request.math);
-  add("--require", request.require);
+  add("--math", request.math.text());
+  add("--require", request.require.text());
   if (request.tangent) words.emplace_back("--tangent");
   if (request.events) words.emplace_back("--events");
   if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));

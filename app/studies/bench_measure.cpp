@@ -117,7 +117,7 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   const runtime::RunSummary summary = runtime::integrate(integrator, options);
   row.outcome = outcome_of(summary);
   row.iterations_per_step = summary.iterations_per_step();
-  const Scheme* scheme = find_scheme(method.request.scheme);
+  const Scheme* scheme = method.request.scheme->scheme;
   row.gradients_per_step =
       gradients_per_step(scheme != nullptr ? scheme->method : Member(), row.iterations_per_step);
   if (!row.ok()) return;

@@ -238,7 +238,7 @@ void require_in_range(const Model& model, const SceneValues& scene, const Scalar
 }
 
 void take_gauge_at(const SceneValues& scene, const Model& model, Request& request) {
-  if (request.gauge != "locally-exact") return;
+  if (!request.gauge->locally_exact) return;
   const Values origin = read_reference(model, {});
   const auto is_given = [&](const std::string& name) {
     return std::ranges::any_of(request.reference, [&](const auto& given) {

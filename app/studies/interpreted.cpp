@@ -203,7 +203,7 @@ runtime::LoadedPlugin load(Program code, const PluginSource& plugin, int digits)
 runtime::LoadedPlugin interpreted_integrator(const SourceText& source, const Request& request,
                                              const PluginSource& plugin) {
   Program code = make_program(source, request);
-  const int digits = find_scalar(request.scalar).digits;
+  const int digits = request.scalar->type->digits;
   switch (digits) {
     case 24:
       return load<float>(std::move(code), plugin, digits);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <map>
 
 #include "generator/base/diagnostic.hpp"
@@ -59,10 +60,14 @@ bool suits(std::string_view name, const Mechanics& mechanics) {
 
 Request request_of_spec(std::string_view spec, const Request& base) {
   Request request = base;
-  const std::map<std::string, std::string Request::*> fields = {
-      {"alpha", &Request::alpha},  {"beta", &Request::beta},     {"gamma", &Request::gamma},
-      {"gauge", &Request::gauge},  {"solver", &Request::solver}, {"scalar", &Request::scalar},
-      {"scheme", &Request::scheme}};
+  const std::map<std::string, std::function<void(const std::string&)>> fields = {
+      {"alpha", [&](const std::string& value) { request.alpha = value; }},
+      {"beta", [&](const std::string& value) { request.beta = value; }},
+      {"gamma", [&](const std::string& value) { request.gamma = value; }},
+      {"gauge", [&](const std::string& value) { request.gauge = value; }},
+      {"solver", [&](const std::string& value) { request.solver = value; }},
+      {"scalar", [&](const std::string& value) { request.scalar = value; }},
+      {"scheme", [&](const std::string& value) { request.scheme = value; }}};
   const std::vector<std::string> pieces = split_outside_parentheses(spec, ':');
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const std::size_t equals = pieces[i].find('=');
@@ -84,10 +89,10 @@ Request request_of_spec(std::string_view spec, const Request& base) {
       throw UsageError(fmt::format("--schemes {}: '{}' is none of {}, each with =VALUE", spec,
                                    pieces[i], fmt::join(keys, ", ")));
     }
-    request.*(field->second) = value;
+    field->second(value);
   }
   // The same member: a gauge is one of alpha = 1/2.
-  if (request.scheme == "implicit-midpoint" && !request.gauge.empty()) request.scheme.clear();
+  if (request.scheme == "implicit-midpoint" && !request.gauge.empty()) request.scheme = "";
   return request;
 }
 

@@ -30,7 +30,7 @@ std::optional<double> member_number(const std::string& text, double fallback,
 }  // namespace
 
 StressGrid::StressGrid(const StressRequest& asked) : setting_(asked.setting), axes_(asked.axes) {
-  if (setting_.request.gauge == "locally-exact")
+  if (setting_.request.gauge->locally_exact)
     take_gauge_at(complete_scene(setting_.model, setting_.scene), setting_.model, setting_.request);
   plugin_ = generate_plugin(setting_.source, setting_.request);
   const std::vector<std::string> known = element_names(plugin_.model.parameters);

@@ -127,7 +127,7 @@ void measure(const StepRow& row) {
   const SourceText source = source_of(row);
   const SceneValues scene = scene_of(source, row);
   std::vector<Contender> list;
-  const std::string solver = add_hamgen(row, source, scene, row.request.solver, list);
+  const std::string solver = add_hamgen(row, source, scene, row.request.solver.text(), list);
   if (row.hand) {
     list.push_back({.name = "hand-written", .seconds = [&] {
                       const Steps steps = row.hand(start_values(scene), to_double(*scene.h));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "generator/formats/emit_options.hpp"
@@ -20,5 +21,11 @@ struct NamedFormat {
 [[nodiscard]] std::span<const NamedFormat> all_formats();
 // "" is the default.  Throws UsageError for a name that is not in the list.
 [[nodiscard]] const NamedFormat& find_format(std::string_view name);
+
+// One of the list.
+struct FormatWish {
+  const NamedFormat* format = nullptr;
+  [[nodiscard]] static FormatWish read(const std::string& name) { return {&find_format(name)}; }
+};
 
 }  // namespace hamgen

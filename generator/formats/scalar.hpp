@@ -27,6 +27,12 @@ struct ScalarType {
 // Throws UsageError, naming those there are.  "" is double.
 [[nodiscard]] const ScalarType& find_scalar(std::string_view name);
 
+// One of the list.
+struct ScalarWish {
+  const ScalarType* type = nullptr;
+  [[nodiscard]] static ScalarWish read(const std::string& name) { return {&find_scalar(name)}; }
+};
+
 // Is there a finite number of the type nearest to the value, and not 0 unless the value is?
 [[nodiscard]] bool is_in_range(const Rational& value, const ScalarType& scalar);
 // "1e40, outside the range of float" and what would work.

@@ -34,15 +34,17 @@ void declare(const std::string& name, Symbols& symbols) {
 
 }  // namespace
 
-NodePtr read_expression(const std::string& what, const std::string& text,
-                        const std::vector<std::string>& names) {
+NodePtr read_grammar(const std::string& what, const std::string& text) {
+  const SourceText source = make_source(what, text);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw ModelError({{Severity::error, {}, "no expression given", "give a number"}}, source);
+  return parse_expression(source);
+}
+
+void require_names(const NodePtr& node, const std::string& what, const std::string& text,
+                   const std::vector<std::string>& names) {
   const SourceText source = make_source(what, text);
   std::vector<Diagnostic> diagnostics;
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    diagnostics.push_back({Severity::error, {}, "no expression given", "give a number"});
-    throw ModelError(diagnostics, source);
-  }
-  NodePtr node = parse_expression(source);
   Symbols symbols(source, diagnostics);
   for (const std::string& name : names) declare(name, symbols);
   Role role = parameter_role(std::nullopt);
@@ -50,6 +52,12 @@ NodePtr read_expression(const std::string& what, const std::string& text,
   role.allows = "the names that are known here";
   if (check_names(node, role, symbols)) check_values(node, {}, symbols);
   if (!diagnostics.empty()) throw ModelError(diagnostics, source);
+}
+
+NodePtr read_expression(const std::string& what, const std::string& text,
+                        const std::vector<std::string>& names) {
+  NodePtr node = read_grammar(what, text);
+  require_names(node, what, text, names);
   return node;
 }
 

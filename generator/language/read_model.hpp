@@ -16,5 +16,9 @@ namespace hamgen {
 // elements as "m[2]").  Throws ModelError against a SourceText named `what` ("--beta").
 [[nodiscard]] NodePtr read_expression(const std::string& what, const std::string& text,
                                       const std::vector<std::string>& names);
+// The two halves of it: whatever its names are, and that these are the names.
+[[nodiscard]] NodePtr read_grammar(const std::string& what, const std::string& text);
+void require_names(const NodePtr& node, const std::string& what, const std::string& text,
+                   const std::vector<std::string>& names);
 
 }  // namespace hamgen

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "generator/base/diagnostic.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -30,6 +32,16 @@ std::span<const Scheme> all_schemes() {
 const Scheme* find_scheme(std::string_view name) {
   const auto it = std::ranges::find(all_schemes(), name, &Scheme::name);
   return it == all_schemes().end() ? nullptr : &*it;
+}
+
+SchemeWish SchemeWish::read(const std::string& name) {
+  if (name.empty()) return {};
+  if (const Scheme* scheme = find_scheme(name)) return {scheme};
+  std::vector<std::string> names;
+  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
+  const std::string near = nearest(name, names);
+  throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", name,
+                               near.empty() ? "" : ", did you mean '" + near + "'?"));
 }
 
 std::vector<Scheme> members_by_option() {

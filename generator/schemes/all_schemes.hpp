@@ -13,6 +13,13 @@ namespace hamgen {
 [[nodiscard]] std::span<const Scheme> all_schemes();
 [[nodiscard]] const Scheme* find_scheme(std::string_view name);
 
+// One of the list, or none.
+struct SchemeWish {
+  const Scheme* scheme = nullptr;
+  // Throws UsageError for a name that is not in the list, with the nearest that is.
+  [[nodiscard]] static SchemeWish read(const std::string& name);
+};
+
 // Members that take an option instead of a name, because they depend on the system: rows for
 // people, without a method.
 [[nodiscard]] std::vector<Scheme> members_by_option();

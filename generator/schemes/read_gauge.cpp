@@ -7,6 +7,7 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
+#include "generator/language/check_names.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive.hpp"
@@ -15,86 +16,124 @@ namespace hamgen {
 
 namespace {
 
-class GaugeText {
- public:
-  GaugeText(const Model& model, const std::string& option) : model_(model), option_(option) {
-    names_ = {"h", "E0"};
-    for (const std::string& name : element_names(model.parameters)) names_.push_back(name);
-  }
+[[noreturn]] void fail(const std::string& option, const std::string& what) {
+  const std::string form =
+      option == "gauge"
+          ? "locally-exact, or the matrix C row by row: --gauge '[[a, b], [c, -a]]'"
+          : fmt::format(
+                "a number, a list a,b with one entry per degree of freedom, or a matrix "
+                "row by row: --{} '[[a, b], [b, c]]'",
+                option);
+  throw UsageError(fmt::format("--{}: {}\nhelp: write {}", option, what, form));
+}
 
-  // `size` is the number of rows and of columns of a matrix.
-  GaugeBlock read(const std::string& text, std::size_t size) const {
-    const std::string_view outer = without_blanks(text);
-    GaugeBlock block;
-    if (!outer.starts_with('[')) {
-      for (const std::string_view piece : outermost_pieces(outer)) add_entry(piece, block);
-      return block;
+// Counts are those of a matrix.
+void require_count(const GaugeFormula& formula, std::size_t count, const char* what,
+                   std::size_t wanted) {
+  if (count == wanted) return;
+  if (formula.option == "gauge")
+    fail(formula.option,
+         fmt::format("the matrix has {0} {1}, but C is {2} x {2}", count, what, wanted));
+  fail(formula.option, fmt::format("the matrix has {} {}, but there are {} degrees of freedom",
+                                   count, what, wanted));
+}
+
+// What stands between the brackets that enclose the text.
+std::string_view inside(const std::string& option, std::string_view text) {
+  if (!text.starts_with('[') || !text.ends_with(']'))
+    fail(option, fmt::format("'{}' is not a list in brackets", text));
+  return text.substr(1, text.size() - 2);
+}
+
+std::vector<GaugeFormula::Entry> read_entries(const std::string& option, std::string_view list) {
+  std::vector<GaugeFormula::Entry> entries;
+  for (const std::string_view piece : outermost_pieces(list)) {
+    const std::string text(piece);
+    entries.push_back({text, read_grammar("--" + option, text)});
+  }
+  return entries;
+}
+
+// `size` is the number of rows and of columns of a matrix.
+GaugeBlock read_values(const Model& model, const GaugeFormula& formula, std::size_t size) {
+  std::vector<std::string> names = {"h", "E0"};
+  for (const std::string& name : element_names(model.parameters)) names.push_back(name);
+  GaugeBlock block{.is_matrix = formula.is_matrix};
+  if (formula.is_matrix) require_count(formula, formula.rows.size(), "rows", size);
+  for (const auto& row : formula.rows) {
+    if (formula.is_matrix) require_count(formula, row.size(), "entries in a row", size);
+    for (const GaugeFormula::Entry& entry : row) {
+      require_names(entry.node, "--" + formula.option, entry.text, names);
+      block.entries.push_back(scheme_parameter(model, formula.option, entry.node));
+      block.words.push_back(to_text(entry.node));
     }
-    const std::vector<std::string_view> rows = outermost_pieces(inside(outer));
-    block.is_matrix = rows[0].starts_with('[');
-    if (block.is_matrix && rows.size() != size) refuse(rows.size(), "rows", size);
-    for (const std::string_view row : rows) {
-      if (!block.is_matrix) {
-        add_entry(row, block);
-        continue;
-      }
-      const std::vector<std::string_view> entries = outermost_pieces(inside(row));
-      if (entries.size() != size) refuse(entries.size(), "entries in a row", size);
-      for (const std::string_view piece : entries) add_entry(piece, block);
-    }
-    return block;
   }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    const std::string form =
-        option_ == "gauge"
-            ? "locally-exact, or the matrix C row by row: --gauge '[[a, b], [c, -a]]'"
-            : fmt::format(
-                  "a number, a list a,b with one entry per degree of freedom, or a matrix "
-                  "row by row: --{} '[[a, b], [b, c]]'",
-                  option_);
-    throw UsageError(fmt::format("--{}: {}\nhelp: write {}", option_, what, form));
-  }
-
-  [[noreturn]] void refuse(std::size_t count, const char* what, std::size_t wanted) const {
-    if (option_ == "gauge")
-      fail(fmt::format("the matrix has {0} {1}, but C is {2} x {2}", count, what, wanted));
-    fail(fmt::format("the matrix has {} {}, but there are {} degrees of freedom", count, what,
-                     wanted));
-  }
-
-  // What stands between the brackets that enclose the text.
-  [[nodiscard]] std::string_view inside(std::string_view text) const {
-    if (!text.starts_with('[') || !text.ends_with(']')) {
-      fail(fmt::format("'{}' is not a list in brackets", text));
-    }
-    return text.substr(1, text.size() - 2);
-  }
-
-  void add_entry(std::string_view text, GaugeBlock& block) const {
-    const NodePtr node = read_expression("--" + option_, std::string(text), names_);
-    block.entries.push_back(scheme_parameter(model_, option_, node));
-    block.words.push_back(to_text(node));
-  }
-
-  const Model& model_;
-  const std::string& option_;
-  std::vector<std::string> names_;
-};
+  return block;
+}
 
 }  // namespace
 
-GaugeBlock read_gauge_block(const Model& model, const std::string& option,
-                            const std::string& text) {
-  return GaugeText(model, option).read(text, static_cast<std::size_t>(degrees_of_freedom(model)));
+GaugeFormula GaugeFormula::read(const std::string& option, const std::string& text) {
+  GaugeFormula formula{.option = option};
+  const std::string_view outer = without_blanks(text);
+  if (!outer.starts_with('[')) {
+    formula.rows.push_back(read_entries(option, outer));
+    return formula;
+  }
+  const std::string_view list = inside(option, outer);
+  const std::vector<std::string_view> rows = outermost_pieces(list);
+  formula.is_matrix = rows[0].starts_with('[');
+  if (!formula.is_matrix) {
+    formula.rows.push_back(read_entries(option, list));
+    return formula;
+  }
+  for (const std::string_view row : rows)
+    formula.rows.push_back(read_entries(option, inside(option, row)));
+  return formula;
 }
 
-Scheme read_gauge_matrix(const Model& model, const std::string& text) {
+std::set<std::string> GaugeFormula::names() const {
+  std::set<std::string> names;
+  for (const auto& row : rows) {
+    for (const Entry& entry : row) names.merge(names_in(entry.node));
+  }
+  return names;
+}
+
+AlphaFormula AlphaFormula::read(const std::string& text) {
+  return {GaugeFormula::read("alpha", text.empty() ? "1/2" : text)};
+}
+
+BetaFormula BetaFormula::read(const std::string& text) {
+  return {GaugeFormula::read("beta", text.empty() ? "0" : text)};
+}
+
+GammaFormula GammaFormula::read(const std::string& text) {
+  return {GaugeFormula::read("gamma", text.empty() ? "0" : text)};
+}
+
+GaugeWish GaugeWish::read(const std::string& text) {
+  if (text.empty()) return {};
+  if (text == "locally-exact") return {.locally_exact = true};
+  if (!text.starts_with('[')) {
+    throw UsageError(
+        fmt::format("unknown gauge '{}'; there is locally-exact, and a matrix C is written "
+                    "'[[a, b], [c, -a]]'",
+                    text));
+  }
+  GaugeWish wish{.matrix = GaugeFormula::read("gauge", text)};
+  if (!wish.matrix->is_matrix)
+    throw UsageError("--gauge: C has rows\nhelp: write '[[a, b], [c, -a]]'");
+  return wish;
+}
+
+GaugeBlock gauge_block(const Model& model, const GaugeFormula& formula) {
+  return read_values(model, formula, static_cast<std::size_t>(degrees_of_freedom(model)));
+}
+
+Scheme gauge_member(const Model& model, const GaugeFormula& matrix) {
   const auto size = 2 * static_cast<std::size_t>(degrees_of_freedom(model));
-  const std::string option = "gauge";
-  const GaugeBlock block = GaugeText(model, option).read(text, size);
-  if (!block.is_matrix) throw UsageError("--gauge: C has rows\nhelp: write '[[a, b], [c, -a]]'");
+  const GaugeBlock block = read_values(model, matrix, size);
   SparseMatrix c;
   for (std::size_t k = 0; k < block.entries.size(); ++k)
     c[{static_cast<int>(k / size), static_cast<int>(k % size)}] = block.entries[k];

@@ -2,13 +2,30 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "generator/base/asked.hpp"
+
 namespace hamgen {
+
+// How the equations of a step are to be solved.
+struct SolverWish {
+  enum class Kind { cheapest, newton, fixed_point, sweeps };
+  Kind kind = Kind::cheapest;
+  int sweeps = 0;  // of the paper's Algorithm 1
+
+  // Throws UsageError for what is not in the list.
+  [[nodiscard]] static SolverWish read(const std::string& text);
+  bool operator==(const SolverWish&) const = default;
+};
+using SolverChoice = Asked<SolverWish>;
 
 struct NamedSolver {
   std::string_view name;         // "newton", "fixed-point", "sweeps:K"
   std::string_view description;  // one line
+  // What the name asks for; `argument` is what stands behind its colon.
+  SolverWish (*wish)(const std::string& argument);
 };
 
 [[nodiscard]] std::span<const NamedSolver> all_solvers();

@@ -124,16 +124,17 @@ bool uses_eigen(const ArrayPlan& plan) {
                          plan.matrix->kind == MatrixKind::eigen_sparse);
 }
 
-SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
-                      std::optional<int> sweeps) {
-  SolvePlan plan{.equations = equations, .sweeps = sweeps};
+SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
+  using Kind = SolverWish::Kind;
+  SolvePlan plan{.equations = equations};
+  if (wish.kind == Kind::sweeps) plan.sweeps = wish.sweeps;
   const Mechanics& mechanics = equations.mechanics;
   const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
   const bool separable = mechanics.is_separable();
   const bool plain = member.beta.is_zero() && member.gamma.is_zero();
   const int n = mechanics.degrees_of_freedom;
   ArrayPlan arrays;
-  if (sweeps) {
+  if (plan.sweeps) {
     arrays.method = ArrayMethod::sweeps;
   } else if (separable && plain && member.alpha.is_zero()) {
     arrays.method = ArrayMethod::explicit_a;
@@ -142,13 +143,13 @@ SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
   } else {
     arrays.reduced = separable && has_diagonal_kinetic_energy(mechanics);
     if (arrays.reduced) arrays.mass = uniform_mass(mechanics);
-    if (solver == "fixed-point") {
+    if (wish.kind == Kind::fixed_point) {
       arrays.method = ArrayMethod::fixed_point;
     } else {
       arrays.constant_matrix = std::ranges::all_of(mechanics.kernels, has_constant_hessian);
       arrays.matrix = choose_matrix(mechanics, member, arrays.reduced);
       arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
-      const bool either = solver.empty() && arrays.reduced && !arrays.constant_matrix;
+      const bool either = wish.kind == Kind::cheapest && arrays.reduced && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }
@@ -167,7 +168,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
       plan.left_out.push_back("masses as an array: all are " + to_text(*arrays.mass));
     }
   }
-  if (!iterates(arrays) && !sweeps) {
+  if (!iterates(arrays) && !plan.sweeps) {
     plan.left_out.emplace_back("equation solver: the step is explicit");
   }
   return plan;

@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
-#include "generator/base/diagnostic.hpp"
-#include "generator/solvers/all_solvers.hpp"
 #include "generator/solvers/blocks.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
@@ -185,17 +182,6 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   return block;
 }
 
-int parse_sweeps(const std::string& solver) {
-  const std::string digits = solver.substr(std::string("sweeps:").size());
-  int sweeps = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), sweeps);
-  if (error != std::errc{} || end != digits.data() + digits.size() || sweeps < 0 || sweeps > 1000) {
-    throw UsageError(
-        fmt::format("--solver {}: K in sweeps:K must be an integer from 0 to 1000", solver));
-  }
-  return sweeps;
-}
-
 std::string describe(const StepEquations& equations, const Block& block) {
   const std::size_t size = block.unknowns.size();
   const std::string which = names_of(equations, block.unknowns);
@@ -293,22 +279,18 @@ LinearSolver linear_solver(const Block& block) {
 
 namespace {
 
-SolvePlan plan_member(const StepEquations& equations, const std::string& solver) {
+SolvePlan plan_member(const StepEquations& equations, const SolverWish& wish) {
+  if (equations.mechanics.keeps_sums()) return plan_arrays(equations, wish);
   SolvePlan plan{.equations = equations};
-  if (solver.starts_with("sweeps:")) {
-    plan.sweeps = parse_sweeps(solver);
-  } else if (!solver.empty() && solver != "newton" && solver != "fixed-point") {
-    throw UsageError(
-        fmt::format("unknown solver '{}'; there are newton, fixed-point, sweeps:K", solver));
-  }
-  if (equations.mechanics.keeps_sums()) return plan_arrays(equations, solver, plan.sweeps);
+  if (wish.kind == SolverWish::Kind::sweeps) plan.sweeps = wish.sweeps;
   const std::vector<int> needed = needed_stages(equations);
   const Dependency depends = [&](int i, int j) { return equations.depends(i, j); };
   // Sweeps take all stage values together: no blocks.
   const auto components = plan.sweeps ? std::vector<std::vector<int>>{}
                                       : strongly_connected_components(needed, depends);
   for (const auto& component : components) {
-    plan.blocks.push_back(plan_block(equations, component, solver == "fixed-point"));
+    plan.blocks.push_back(
+        plan_block(equations, component, wish.kind == SolverWish::Kind::fixed_point));
   }
   plan.solver = solver_line(plan);
   plan.left_out = what_was_left_out(plan);
@@ -317,9 +299,9 @@ SolvePlan plan_member(const StepEquations& equations, const std::string& solver)
 
 }  // namespace
 
-SolvePlan plan_solve(const StepEquations& equations, const std::string& solver) {
+SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver) {
   if (!equations.scheme.has_member()) return plan_without_member(equations, solver);
-  SolvePlan plan = plan_member(equations, solver);
+  SolvePlan plan = plan_member(equations, *solver);
   if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {
     plan.solver = fmt::format("{} substeps, each: {}", composition->substeps.size(), plan.solver);
   }

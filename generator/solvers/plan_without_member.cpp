@@ -25,7 +25,7 @@ void plan_splitting(SolvePlan& plan, const Splitting& splitting) {
   }
 }
 
-void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& solver) {
+void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const SolverWish& wish) {
   const std::size_t stages = tableau.b.size();
   if (tableau.is_explicit()) {
     plan.solver = fmt::format("explicit: {} gradient{}", stages, stages == 1 ? "" : "s");
@@ -34,8 +34,9 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& 
   }
   const std::size_t size =
       2 * stages * static_cast<std::size_t>(plan.equations.mechanics.degrees_of_freedom);
+  using Kind = SolverWish::Kind;
   const bool newton = size <= kLargestElimination;
-  if (solver == "newton" && !newton) {
+  if (wish.kind == Kind::newton && !newton) {
     throw UsageError(
         fmt::format("--solver newton: its system has size {}, and dense elimination is "
                     "for {} at most\nhelp: --solver fixed-point, or a method with "
@@ -45,9 +46,9 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& 
   if (!newton) {
     plan.left_out.push_back(fmt::format("Newton: the system of size {} is too large", size));
   }
-  plan.stage_solver = solver == "newton"                   ? StageSolver::newton
-                      : solver == "fixed-point" || !newton ? StageSolver::fixed_point
-                                                           : StageSolver::both;
+  plan.stage_solver = wish.kind == Kind::newton                   ? StageSolver::newton
+                      : wish.kind == Kind::fixed_point || !newton ? StageSolver::fixed_point
+                                                                  : StageSolver::both;
   const std::string name = fmt::format("simplified Newton of size {}", size);
   switch (*plan.stage_solver) {
     case StageSolver::newton:
@@ -64,7 +65,7 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const std::string& 
 
 }  // namespace
 
-SolvePlan plan_without_member(const StepEquations& equations, const std::string& solver) {
+SolvePlan plan_without_member(const StepEquations& equations, const SolverChoice& solver) {
   SolvePlan plan{.equations = equations};
   const Scheme& scheme = equations.scheme;
   const auto* tableau = std::get_if<RungeKutta>(&scheme.method);
@@ -73,13 +74,13 @@ SolvePlan plan_without_member(const StepEquations& equations, const std::string&
     throw UsageError(
         fmt::format("--solver {}: {} is explicit and solves nothing\nhelp: leave "
                     "--solver out",
-                    solver, scheme.name));
+                    solver.text(), scheme.name));
   }
-  if (implicit && !solver.empty() && solver != "newton" && solver != "fixed-point") {
+  if (implicit && solver->kind == SolverWish::Kind::sweeps) {
     throw UsageError(
-        fmt::format("--solver {}: {} has newton and fixed-point", solver, scheme.name));
+        fmt::format("--solver {}: {} has newton and fixed-point", solver.text(), scheme.name));
   }
-  if (tableau != nullptr) plan_stages(plan, *tableau, solver);
+  if (tableau != nullptr) plan_stages(plan, *tableau, *solver);
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
     plan_splitting(plan, *splitting);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/equations/step_equations.hpp"
+#include "generator/solvers/all_solvers.hpp"
 #include "generator/solvers/matrix_storage.hpp"
 
 namespace hamgen {
@@ -74,16 +75,15 @@ struct SolvePlan {
   [[nodiscard]] bool is_explicit() const;
 };
 
-// solver: "", "newton", "fixed-point", "sweeps:K".  Throws UsageError on anything else.
-[[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const std::string& solver);
+// Throws UsageError for a solver that the step has not.
+[[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver);
 [[nodiscard]] bool uses_eigen(const ArrayPlan& plan);
 // Is there an iteration, with start values from earlier steps?
 [[nodiscard]] bool iterates(const ArrayPlan& plan);
 // Of a splitting or a Runge-Kutta method.
 [[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
-                                            const std::string& solver);
-[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const std::string& solver,
-                                    std::optional<int> sweeps);
+                                            const SolverChoice& solver);
+[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 

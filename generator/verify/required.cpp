@@ -27,52 +27,66 @@ const Finding* find(const Proof& proof, std::string_view property) {
                                                     to_text(finding->verdict), finding->detail));
 }
 
-void require_order(const Proof& proof, const std::string& word) {
-  const std::string digits = word.substr(word.find(':') + 1);
-  int wanted = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), wanted);
-  if (error != std::errc{} || end != digits.data() + digits.size()) {
-    throw UsageError(fmt::format("--require {}: the order must be an integer", word));
-  }
+void require_order(const Proof& proof, const Requirement& required) {
   for (const Finding& finding : proof) {
     if (!finding.property.starts_with("order ")) continue;
     const bool known = finding.verdict == Verdict::proved || finding.verdict == Verdict::tested;
-    if (known && std::stoi(finding.property.substr(6)) >= wanted) return;
-    throw ProofError(
-        fmt::format("--require {}: {} is {}", word, finding.property, to_text(finding.verdict)));
+    if (known && std::stoi(finding.property.substr(6)) >= required.order) return;
+    throw ProofError(fmt::format("--require {}: {} is {}", required.word, finding.property,
+                                 to_text(finding.verdict)));
   }
-  fail(word, nullptr);
+  fail(required.word, nullptr);
 }
 
-void require_one(const Proof& proof, const std::string& word) {
-  if (word.starts_with("order:")) return require_order(proof, word);
-  std::string property = word;
-  if (word == "emitted-code") {
-    property = kEmittedCode;
-  } else if (word.starts_with("conserves:")) {
-    const std::string name = word.substr(word.find(':') + 1);
-    property = name + std::string(kConserved);
-    if (find(proof, name + " invariant") == nullptr) {
-      throw UsageError(fmt::format("--require {}: the model has no invariant '{}'", word, name));
-    }
-  } else if (word != "symplectic" && word != "symmetric" && word != kProgram) {
-    throw UsageError(fmt::format("--require {}: there are {}", word, kWords));
+void require_one(const Proof& proof, const Requirement& required) {
+  if (required.property.empty()) return require_order(proof, required);
+  const std::string& name = required.invariant;
+  if (!name.empty() && find(proof, name + " invariant") == nullptr) {
+    throw UsageError(
+        fmt::format("--require {}: the model has no invariant '{}'", required.word, name));
   }
-  const Finding* finding = find(proof, property);
+  const Finding* finding = find(proof, required.property);
   if (finding != nullptr && finding->verdict == Verdict::proved) return;
   const bool tested = finding != nullptr && finding->verdict == Verdict::tested;
-  if (tested && (word == "emitted-code" || word == kProgram)) return;
-  fail(word, finding);
+  if (!tested || !required.may_be_tested) fail(required.word, finding);
+}
+
+int order_of(const std::string& word, const std::string& digits) {
+  int order = 0;
+  const char* last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, order);
+  if (error != std::errc{} || end != last)
+    throw UsageError(fmt::format("--require {}: the order must be an integer", word));
+  return order;
+}
+
+Requirement read_word(const std::string& word) {
+  const std::string argument = word.substr(word.find(':') + 1);
+  if (word.starts_with("order:"))
+    return {.word = word, .property = "", .order = order_of(word, argument)};
+  if (word.starts_with("conserves:"))
+    return {.word = word, .property = argument + std::string(kConserved), .invariant = argument};
+  if (word == "emitted-code")
+    return {.word = word, .property = kEmittedCode, .may_be_tested = true};
+  if (word == kProgram) return {.word = word, .property = kProgram, .may_be_tested = true};
+  if (word == "symplectic" || word == "symmetric") return {.word = word, .property = word};
+  throw UsageError(fmt::format("--require {}: there are {}", word, kWords));
 }
 
 }  // namespace
 
-void require(const Proof& proof, const std::string& list) {
-  for (std::size_t begin = 0; begin <= list.size() && !list.empty();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    require_one(proof, list.substr(begin, end - begin));
+Requirements Requirements::read(const std::string& text) {
+  Requirements required;
+  for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    required.list.push_back(read_word(text.substr(begin, end - begin)));
     begin = end + 1;
   }
+  return required;
+}
+
+void require(const Proof& proof, const Requirements& required) {
+  for (const Requirement& each : required.list) require_one(proof, each);
 }
 
 void require_emitted(const Proof& proof) {

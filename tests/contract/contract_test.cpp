@@ -12,7 +12,7 @@ namespace {
 
 Case case_of(const std::string& name, const std::string& scene, const Request& request,
              long steps) {
-  return {.name = name + " " + scene + " " + request.scheme + request.solver,
+  return {.name = name + " " + scene + " " + request.scheme.text() + request.solver.text(),
           .model = model(name),
           .scene = scene,
           .request = request,

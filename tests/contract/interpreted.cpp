@@ -138,7 +138,7 @@ std::vector<Defects> Interpretable::measure(const Request& request,
                                             const std::vector<Case>& cases) const {
   Codes codes{.equations = discretise(parts_->mechanics,
                                       choose_scheme(parts_->model, parts_->mechanics, request))};
-  codes.measured = code_of(codes.equations, request.solver);
+  codes.measured = code_of(codes.equations, request.solver.text());
   codes.exact = request.solver == "fixed-point" ? code_of(codes.equations, "") : codes.measured;
   std::vector<Defects> result;
   for (const Case& c : cases) {

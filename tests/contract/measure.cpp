@@ -120,7 +120,7 @@ std::string program(const std::vector<Case>& cases,
   std::string text;
   std::string calls;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const ScalarType& scalar = find_scalar(cases[i].request.scalar);
+    const ScalarType& scalar = *cases[i].request.scalar->type;
     const std::string measured = fmt::format("case_{}_measured", i);
     const std::string exact = fmt::format("case_{}_exact", i);
     std::string code = inside(cases[i], measured, std::string(scalar.name));

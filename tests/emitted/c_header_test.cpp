@@ -86,7 +86,7 @@ std::string c_program() {
     puts("");
   }}
 )",
-                         number++, find_scalar(request.scalar).cpp,
+                         number++, request.scalar->type->cpp,
                          request.scalar == "float"         ? "f"
                          : request.scalar == "long-double" ? "l"
                                                            : "",
@@ -172,7 +172,7 @@ TEST(CHeader, RefusesWhatItHasNoBlocksForAndSaysWhatItHas) {
     request.format = "c-header";
     try {
       static_cast<void>(generate(shipped("pendulum"), request));
-      ADD_FAILURE() << request.scheme << request.solver << request.scalar;
+      ADD_FAILURE() << request.scheme.text() << request.solver.text() << request.scalar.text();
     } catch (const UsageError& error) {
       EXPECT_NE(std::string(error.what()).find("help: "), std::string::npos) << error.what();
     }

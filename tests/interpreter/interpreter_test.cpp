@@ -48,7 +48,7 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
-  return out << c.model << " " << c.request.scheme << c.request.solver;
+  return out << c.model << " " << c.request.scheme.text() << c.request.solver.text();
 }
 
 class Compiled : public testing::TestWithParam<Case> {};

@@ -182,7 +182,7 @@ TEST(Loops, AgreeWithTheWrittenOutSystem) {
     EXPECT_LT(distance(Emitted(text, request).after(100, start, 0.1L),
                        Emitted(text, written_out).after(100, start, 0.1L)),
               1e-12L)
-        << request.alpha;
+        << request.alpha.text();
   }
 }
 

@@ -55,8 +55,8 @@ Counts read_all(const std::vector<Request>& requests, std::size_t every = 7) {
         continue;
       }
       EXPECT_EQ(found.outcome, ReadBack::Outcome::same)
-          << models[i] << " " << request.scheme << request.solver << request.scalar << " line "
-          << found.line << ": " << found.what;
+          << models[i] << " " << request.scheme.text() << request.solver.text()
+          << request.scalar.text() << " line " << found.line << ": " << found.what;
       EXPECT_GE(found.routines, 3);
       EXPECT_GE(found.instructions, 7);
       counts.read += found.outcome == ReadBack::Outcome::same ? 1 : 0;

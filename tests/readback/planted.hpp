@@ -48,7 +48,7 @@ inline Emitted emitted(const std::string& model, const Request& request) {
   std::string text = plugin.header.text;
   if (request.format == "cpp-plugin") text = plugin.text;
   if (request.format == "c-header" || request.events) text = generate(source, request).at(0).text;
-  return {run_stages(source, request), request.scalar, std::move(text), request.step};
+  return {run_stages(source, request), request.scalar.text(), std::move(text), request.step};
 }
 
 inline int line_of(const std::string& text, std::size_t at) {

@@ -164,8 +164,8 @@ TEST(Emitted, FailureLeavesTheStateAsItWasBeforeTheStep) {
   auto add = [&](Request request) {
     const std::string name = "fall_" + std::to_string(number++);
     text += header(model, request, name);
-    calls += "  falls<" + name + "::Propagator, " + name + "::State>(\"" + request.scheme + " " +
-             request.solver + "\", [](" + name + "::State& z) { return " + name +
+    calls += "  falls<" + name + "::Propagator, " + name + "::State>(\"" + request.scheme.text() +
+             " " + request.solver.text() + "\", [](" + name + "::State& z) { return " + name +
              "::step({}, 0.1, z).converged; });\n";
   };
   for (const char* name : {"stormer-verlet", "ruth-3", "saba-2", "yoshida-4", "yoshida-6-verlet",

@@ -64,7 +64,12 @@ TEST(GaugeBlocks, ADiagonalMatrixIsTheListAndAListMayStandInBrackets) {
 TEST(GaugeBlocks, ABlockThatIsNotSymmetricIsRefusedWithTheReason) {
   for (const char* option : {"beta", "gamma"}) {
     Request request;
-    (option == std::string("beta") ? request.beta : request.gamma) = "[[h, a], [a^2, h]]";
+    const char* matrix = "[[h, a], [a^2, h]]";
+    if (option == std::string("beta")) {
+      request.beta = matrix;
+    } else {
+      request.gamma = matrix;
+    }
     EXPECT_EQ(refusal(request),
               std::string("--") + option +
                   ": entry (1, 2) is a, but entry (2, 1) is a^2\nhelp: the " + option +

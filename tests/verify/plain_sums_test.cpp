@@ -34,7 +34,7 @@ const std::vector<Request> kMethods = {
 };
 
 std::string name_of(const Request& request) {
-  return request.scheme + request.solver + request.alpha + request.beta;
+  return request.scheme.text() + request.solver.text() + request.alpha.text() + request.beta.text();
 }
 
 TEST(PlainSums, AreProvedAndNameNoCarry) {
