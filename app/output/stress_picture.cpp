@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/output/gnuplot.hpp"
 #include "app/output/stress_output.hpp"
 #include "generator/base/quoted_text.hpp"
 
@@ -155,7 +156,7 @@ std::string stress_script(const StressMap& map, const std::string& output) {
   const bool png = output.ends_with(".png");
   const int width = panels.size() > 1 ? 940 : 620;
   std::string text = fmt::format(
-      "# Drawn by: gnuplot THIS_FILE\nset terminal {}\nset output {}\n"
+      "# Drawn by: gnuplot THIS_FILE\nset terminal {}\n{}"
       "set multiplot title {} noenhanced\n"
       "set xlabel {} noenhanced\nset tics out nomirror\nset border 3\n",
       png ? fmt::format("pngcairo size {},600 font 'Sans,11' fontscale 1.3 background rgb 'white'",
@@ -163,7 +164,7 @@ std::string stress_script(const StressMap& map, const std::string& output) {
           : fmt::format("svg size {},400 dynamic enhanced font 'Helvetica, Arial, sans-serif,12' "
                         "background rgb 'white'",
                         width),
-      gnuplot_path(output),
+      output_line(output),
       gnuplot_text(fmt::format("{}{}: {}, {} steps a cell", map.model,
                                map.scene.empty() ? "" : ", " + map.scene, map.method, map.steps)),
       gnuplot_text(axis_label(map.axes[0])));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "app/output/gnuplot.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -89,7 +90,7 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
   std::string text = fmt::format(
       "# Drawn by: gnuplot THIS_FILE\n"
       "set terminal {} enhanced font 'Sans,11' background rgb 'white'\n"
-      "set output {}\n"
+      "{}"
       "set encoding utf8\n"
       "set title {} noenhanced\n"
       "set xlabel \"b, β = b h{}\"\nset ylabel 'c, γ = c h'\n"
@@ -100,7 +101,7 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set rmargin at screen 0.79\nset lmargin at screen 0.12\n"
       "set tmargin at screen 0.92\nset bmargin at screen 0.25\n"
       "set key at screen 0.455,0.11 center top horizontal maxcols 2 noenhanced\n",
-      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", gnuplot_path(output),
+      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", output_line(output),
       gnuplot_text(title), what_stays_bounded(map), svg ? 2 : 1);
   text += map_range("x", map.b) + map_range("y", map.c);
   std::vector<double> drawn;
