@@ -50,8 +50,8 @@ std::string drawn_text(const std::string& script, const std::filesystem::path& s
 // With its panels one below the other, for a narrow screen.
 Plot narrow_form(Plot plot) {
   plot.stacked = true;
-  plot.width = 480;
-  plot.height = plot.panels.size() > 1 ? 420 : 620;
+  plot.width = 440;
+  plot.height = plot.panels.size() > 1 ? 370 : 560;
   return plot;
 }
 

@@ -19,6 +19,16 @@ double bench_floor(const Bench& bench, Observed observed) {
   return std::max(bench.reference.error, half_unit * std::sqrt(square));
 }
 
+// Not by time: where a solver fails to converge quickly, a larger step takes longer.
+std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method) {
+  std::vector<const BenchRow*> rows;
+  for (const BenchRow& row : bench.rows) {
+    if (row.method == method) rows.push_back(&row);
+  }
+  std::ranges::sort(rows, {}, [](const BenchRow* row) { return row->steps; });
+  return rows;
+}
+
 }  // namespace
 
 PlotPanel bench_panel(const Bench& bench, Observed observed) {
@@ -33,12 +43,11 @@ PlotPanel bench_panel(const Bench& bench, Observed observed) {
                   .floor = bench_floor(bench, observed)};
   for (std::size_t m = 0; m < bench.methods.size(); ++m) {
     PlotSeries series{.label = bench.methods[m].spec, .points = {}};
-    for (const BenchRow& row : bench.rows) {
-      const std::optional<double> error = error_of(row, observed);
-      if (row.method == m && error && !row.samples.empty())
-        series.points.push_back({time_of(row).seconds_per_time, *error});
+    for (const BenchRow* row : rows_by_step(bench, m)) {
+      const std::optional<double> error = error_of(*row, observed);
+      if (error && !row->samples.empty())
+        series.points.push_back({time_of(*row).seconds_per_time, *error});
     }
-    std::ranges::sort(series.points, {}, &PlotPoint::x);
     if (!series.points.empty()) panel.series.push_back(std::move(series));
   }
   return panel;

@@ -42,8 +42,15 @@ std::string number_with(double value, int digits, std::string (*power)(int)) {
   if (!std::isfinite(value)) return "–";
   const auto [mantissa, exponent] = parts_of(value, digits);
   if (is_plain(value, exponent)) return minus_sign(without_power(value, digits, exponent));
+  // Of many digits the last zeros are those of a round number.
+  constexpr int many = 3;
+  std::string digits_shown = mantissa;
+  if (digits > many && digits_shown.find('.') != std::string::npos) {
+    digits_shown.erase(digits_shown.find_last_not_of('0') + 1);
+    if (digits_shown.ends_with('.')) digits_shown.pop_back();
+  }
   const bool is_power = mantissa.substr(0, mantissa.find_last_not_of("0.") + 1) == "1";
-  return minus_sign(is_power ? power(exponent) : mantissa + "·" + power(exponent));
+  return minus_sign(is_power ? power(exponent) : digits_shown + "·" + power(exponent));
 }
 
 std::string html_power(int exponent) {

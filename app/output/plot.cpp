@@ -163,12 +163,15 @@ std::string floor_text(const PlotPanel& panel, const Range& y) {
 
 // Names beside short pieces of line or markers, in rows below the plot.
 std::string legend_text(const PlotPanel& panel) {
-  const bool any =
-      std::ranges::any_of(panel.series, [](const auto& s) { return !s.label.empty(); });
-  return any ? "set key below center horizontal Left reverse noenhanced samplen 2 width -3 height "
-               "0.6 "
-               "font ',13'\n"
-             : "unset key\n";
+  std::size_t longest = 0;
+  for (const PlotSeries& series : panel.series) longest = std::max(longest, series.label.size());
+  if (longest == 0) return "unset key\n";
+  // Gnuplot takes letters for wider than they are.
+  return fmt::format(
+      "set key below center horizontal Left reverse noenhanced samplen 1.8 width {} height 0.6 "
+      "font "
+      "',13'\n",
+      longest < 8 ? 2 : -static_cast<int>(longest / 4));
 }
 
 std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {

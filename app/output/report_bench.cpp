@@ -72,9 +72,11 @@ std::string ladder_table(const ReportContent& content) {
   }
   return fmt::format(
              "<div class='wide'><table><tr><th class='number'>{} error</th><th>quickest</th>"
-             "<th class='number'>h</th><th class='number'>time for a unit of time</th></tr>\n",
+             "<th class='number'>h</th><th class='number'>time</th></tr>\n",
              to_text(bench.observed)) +
-         rows + "</table></div>\n";
+         rows +
+         "</table></div>\n<p class='note'>Measured; the time is for a unit of the model's "
+         "time.</p>\n";
 }
 
 std::string html_seconds(double seconds) {

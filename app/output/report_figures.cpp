@@ -21,8 +21,8 @@ constexpr int kTrack = 40;              // times at which the state error is loo
 constexpr double kTrackSeconds = 20.0;  // for the reference at these times
 constexpr double kHalfUnit = std::numeric_limits<double>::epsilon() / 2;
 
-constexpr int kSmallWidth = 480;
-constexpr int kSmallHeight = 380;
+constexpr int kSmallWidth = 440;
+constexpr int kSmallHeight = 350;
 constexpr const char* kEnergyLabel = "(H − H(0)) / scale";
 
 runtime::InitialValues start_of_figure(const BenchMethod& method, const SceneValues& scene) {

@@ -134,7 +134,7 @@ Figure orbit_in_space(const Space& space, const DrawnOrbit& orbit, const std::st
                                                    : "";
   Figure figure{.name = "orbit",
                 .caption = fmt::format("The orbit{}: {}.", shown, what),
-                .plot = {.panels = {plane(space, orbit, 0, 1)}, .width = 480, .height = 400}};
+                .plot = {.panels = {plane(space, orbit, 0, 1)}, .width = 440, .height = 370}};
   if (space.names.size() < 3) return figure;
   figure.plot.panels.push_back(plane(space, orbit, 0, 2));
   figure.plot.panels.push_back(plane(space, orbit, 1, 2));
@@ -186,7 +186,7 @@ Figure portrait(const BenchMethod& method, const SceneValues& scene, const Drawn
   phase.series.push_back(thin_line(component(orbit.states, 0), component(orbit.states, n), "", 0));
   return {.name = "portrait",
           .caption = caption,
-          .plot = {.panels = {phase}, .width = 480, .height = 400}};
+          .plot = {.panels = {phase}, .width = 440, .height = 370}};
 }
 
 }  // namespace

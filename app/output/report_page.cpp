@@ -72,9 +72,9 @@ std::string energy_sentence(const OrbitSummary& orbit) {
                                 html_number(energy.max_error() / scale, 3), html_number(scale, 3))
                   : "";
   return fmt::format(
-      "<p>{} steps: max |H − H(0)| = {}{}; spread {}, H(0) = {}. The scale is the larger of |H|, "
-      "|p H<sub>p</sub>|/2 and |H − p H<sub>p</sub>/2| at the start: of a mechanical system its "
-      "kinetic and its potential energy.</p>\n",
+      "<p>{} steps: max |H − H(0)| = {}{}; spread {}, H(0) = {}. The scale is the largest of |H|, "
+      "|p H<sub>p</sub>|/2, |H − p H<sub>p</sub>/2| and |q H<sub>q</sub>|/2 at the start: of a "
+      "mechanical system its kinetic and its potential energy and half its virial.</p>\n",
       orbit.run.steps_done, html_number(energy.max_error(), 3), relative,
       html_number(energy.spread(), 3),
       orbit.scalar_digits > 53 ? wide_text(energy.initial, orbit.scalar_digits)

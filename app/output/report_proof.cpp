@@ -70,11 +70,11 @@ std::string linear_text(const LinearPoint& point) {
   std::string text = fmt::format("<p>At the {} {}.", html_text(point.place), oscillations(linear));
   text += bounded_phrase(linear);
   if (linear.growing > 0)
-    text += fmt::format(
-        " {} of its own accord, up to exp({} t): that is the system's doing, not the step's.",
-        linear.growing == 1 ? "One direction grows"
-                            : fmt::format("{} directions grow", linear.growing),
-        html_number(linear.growth_rate, 4));
+    text += fmt::format(" {}, up to exp({} t): that is the system's doing, not the step's.",
+                        linear.growing == 1
+                            ? "One direction grows of its own accord"
+                            : fmt::format("{} directions grow of their own accord", linear.growing),
+                        html_number(linear.growth_rate, 4));
   if (linear.iteration_radius)
     text += fmt::format(" Fixed-point iteration would {}: its factor is {} an iteration.",
                         *linear.iteration_radius < 1.0 ? "converge" : "not converge",
