@@ -49,10 +49,13 @@ std::string style_text(const PlotPanel& panel, std::size_t i) {
   const std::size_t colour = colour_of(panel, i);
   const bool points = panel.series[i].style == PlotStyle::points;
   const bool lines = panel.series[i].style == PlotStyle::lines;
-  const std::string line = fmt::format("lc rgb '{}' lw 1.6 dt {}", kColours[colour],
-                                       kDashes[lines ? 0 : i % kDashes.size()]);
+  const bool thin = panel.series[i].style == PlotStyle::thin_lines;
+  const std::string line =
+      fmt::format("lc rgb '{}' lw {} dt {}", kColours[colour], thin ? 1.0 : 1.6,
+                  kDashes[lines || thin ? 0 : i % kDashes.size()]);
   switch (panel.series[i].style) {
     case PlotStyle::lines:
+    case PlotStyle::thin_lines:
       return "with lines " + line;
     case PlotStyle::mark:
       return fmt::format("with points lc rgb '{}' pt 3 ps 1.6 lw 2", kColours[colour]);
@@ -166,12 +169,13 @@ std::string legend_text(const PlotPanel& panel) {
   std::size_t longest = 0;
   for (const PlotSeries& series : panel.series) longest = std::max(longest, series.label.size());
   if (longest == 0) return "unset key\n";
-  // Gnuplot takes letters for wider than they are.
+  // Gnuplot takes letters for wider than they are, the more the longer a name is.
+  const int length = static_cast<int>(longest);
+  const int width = length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
   return fmt::format(
       "set key below center horizontal Left reverse noenhanced samplen 1.8 width {} height 0.6 "
-      "font "
-      "',13'\n",
-      longest < 8 ? 2 : -static_cast<int>(longest / 4));
+      "font ',13'\n",
+      width);
 }
 
 std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {

@@ -13,7 +13,7 @@ struct PlotPoint {
   double low = 0.0;  // of a band, whose upper end is y
 };
 
-enum class PlotStyle { lines, points, dots, lines_and_points, band, mark };
+enum class PlotStyle { lines, thin_lines, points, dots, lines_and_points, band, mark };
 
 struct PlotSeries {
   std::string label;  // in the legend; may be empty

@@ -50,7 +50,7 @@ double extent(const std::vector<double>& values) {
 PlotSeries thin_line(const std::vector<double>& x, const std::vector<double>& y,
                      const std::string& label, int colour) {
   constexpr std::size_t many = 4'000;
-  PlotSeries series{.label = label, .points = {}, .style = PlotStyle::lines, .colour = colour};
+  PlotSeries series{.label = label, .points = {}, .style = PlotStyle::thin_lines, .colour = colour};
   for (double seen = 0.004; seen < 0.02; seen *= 1.5) {
     const double across = seen * extent(x);
     const double up = seen * extent(y);
@@ -86,6 +86,25 @@ std::vector<double> component(const OrbitStates& states, std::size_t i) {
   std::vector<double> values;
   for (const std::vector<double>& state : states) values.push_back(state[i]);
   return values;
+}
+
+// How many states a line shows before it only fills an area: its length in extents.
+std::size_t states_of_line(const OrbitStates& states) {
+  constexpr double longest = 90.0;
+  if (states.empty()) return 0;
+  const std::size_t n = states.front().size();
+  std::vector<double> extents;
+  for (std::size_t i = 0; i < n; ++i) extents.push_back(extent(component(states, i)));
+  double length = 0.0;
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (extents[i] > 0.0) square += std::pow((states[k][i] - states[k - 1][i]) / extents[i], 2);
+    }
+    length += std::sqrt(square / static_cast<double>(n));
+    if (length > longest) return k + 1;
+  }
+  return states.size();
 }
 
 // What the axes of a picture show: coordinates by name, each the place of its first body's value.
@@ -197,11 +216,14 @@ std::vector<Figure> orbit_figures(const BenchMethod& method, const SceneValues& 
   const std::size_t count = element_names(model.coordinates).size();
   const bool is_wave = count > 1 && space.names.empty();
   const long steps = std::min(*scene.steps, is_wave ? kWaveSteps : kOrbitSteps);
-  const DrawnOrbit orbit = orbit_from(
+  DrawnOrbit orbit = orbit_from(
       method, scene, initial_values(method.plugin, scene, *method.loaded.library), steps);
-  const std::string what = steps == *scene.steps
-                               ? fmt::format("all {} steps", steps)
-                               : fmt::format("the first {} of {} steps", steps, *scene.steps);
+  if (!is_wave) orbit.states.resize(states_of_line(orbit.states));
+  orbit.times.resize(orbit.states.size());
+  const auto drawn = static_cast<long>(orbit.states.size()) - 1;
+  const std::string what = drawn == *scene.steps
+                               ? fmt::format("all {} steps", drawn)
+                               : fmt::format("the first {} of {} steps", drawn, *scene.steps);
   std::vector<Figure> figures;
   if (is_wave) {
     figures.push_back(coordinates_over_time(model, orbit, what));

@@ -58,7 +58,7 @@ tr.front td { font-weight: 600; }
 .proved { color: var(--good); } .refuted { color: var(--bad); } .open { color: var(--open); }
 .tested { color: var(--accent); } .verdict.measured { color: var(--plain); font-weight: 400; }
 .figures { display: grid; gap: 2rem 2.2rem;
-  grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr)); }
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 21rem), 1fr)); }
 .figures .large { grid-column: 1 / -1; }
 figure { margin: 1rem 0 0; min-width: 0; }
 .figures figure { margin: 0; }
