@@ -7,7 +7,7 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "app/studies/processor_time.hpp"
+#include "runtime/processor_time.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "runtime/trajectory.hpp"
@@ -88,10 +88,10 @@ BenchTime time_of(const BenchRow& row) {
 // The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
 double processor_clock(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
   runtime::Integrator integrator(method.loaded.library, start);
-  const double begin = thread_seconds();
+  const double begin = runtime::thread_seconds();
   for (long long left = steps; left > 0 && !is_stopped(method.stop); left -= kStepsAtOnce)
     static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
-  return thread_seconds() - begin;
+  return runtime::thread_seconds() - begin;
 }
 
 double gradients_per_step(const Method& method, double iterations_per_step) {
