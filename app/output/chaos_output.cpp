@@ -31,8 +31,8 @@ std::string chaos_text(const Chaos& chaos, const ChaosTitle& title) {
   if (chaos.samples.empty())
     return text + fmt::format("  ended      {} at the first step\n", to_text(chaos.status));
   const ChaosSample& end = chaos.samples.back();
-  text += fmt::format("  time       {:.6g}, {} steps, energy kept to {}\n", end.time,
-                      chaos.steps, kept_text(chaos.largest_energy_error, chaos.energy_scale));
+  text += fmt::format("  time       {:.6g}, {} steps, energy kept to {}\n", end.time, chaos.steps,
+                      kept_text(chaos.largest_energy_error, chaos.energy_scale));
   if (chaos.status != runtime::Status::done)
     text += fmt::format("  ended      {} before all steps were done\n", to_text(chaos.status));
   text += fmt::format("  lyapunov   {:.5g} (on a regular orbit about ln(t)/t = {:.1e})\n",

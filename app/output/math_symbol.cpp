@@ -85,4 +85,21 @@ std::string plain_symbol(std::string_view name) {
   return text;
 }
 
+std::string greek_text(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    const std::string_view word = text.substr(at, std::max<std::size_t>(1, end - at));
+    result += greek(word).empty() ? word : greek(word);
+    at += word.size();
+  }
+  for (const auto& [word, letter] : kGreek) {
+    const std::string same = std::string(letter) + " = " + std::string(letter);
+    if (const std::size_t at = result.find(same); at != std::string::npos)
+      result.replace(at, same.size(), std::string(letter) + " varied");
+  }
+  return result;
+}
+
 }  // namespace hamgen::app

@@ -19,4 +19,7 @@ struct SymbolMarkup {
 // The same on one line of plain text, as pictures have it: "θ₁", "px", "q[3]".
 [[nodiscard]] std::string plain_symbol(std::string_view name);
 
+// A line of text with the names of Greek letters as letters: "α = 1/2"; "β = β" is "β varied".
+[[nodiscard]] std::string greek_text(std::string_view text);
+
 }  // namespace hamgen::app

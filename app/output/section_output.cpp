@@ -7,6 +7,7 @@
 
 #include "app/output/json_document.hpp"
 #include "app/output/kept_text.hpp"
+#include "app/output/math_symbol.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -52,8 +53,8 @@ std::string section_summary(const Section& section, const SectionTitle& title) {
   std::string text = fmt::format(
       "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}, kept to {}\n"
       "  orbits     {}, {} crossings\n",
-      of_scene(title), title.surface, title.scheme, title.h, title.energy,
-      energy_kept(section), section.orbits.size(), points_of(section));
+      of_scene(title), title.surface, title.scheme, title.h, title.energy, energy_kept(section),
+      section.orbits.size(), points_of(section));
   if (section.unreachable > 0)
     text += fmt::format("  starts     no momentum has this energy at {} of {} that were tried\n",
                         section.unreachable, section.tried);
@@ -122,8 +123,8 @@ std::string section_json(const Section& section, const SectionTitle& title) {
 Plot section_plot(const Section& section, const SectionTitle& title) {
   PlotPanel panel{
       .title = fmt::format("{}: {}, H = {:.6g}", title.model, title.surface, title.energy),
-      .x_label = title.first,
-      .y_label = title.second,
+      .x_label = plain_symbol(title.first),
+      .y_label = plain_symbol(title.second),
       .series = {}};
   for (std::size_t i = 0; i < section.orbits.size(); ++i) {
     PlotSeries series{.label = "", .points = {}, .style = PlotStyle::dots};

@@ -13,6 +13,9 @@
 namespace hamgen::app {
 namespace {
 
+// Colours span at least this factor: a map with little to gain looks as flat as it is.
+constexpr double kLeastRange = 10.0;
+
 // About five ticks, at multiples of 1, 2 or 5 times a power of ten.
 double tick_distance(const MapAxis& axis) {
   const double wish = (axis.high - axis.low) / 5;
@@ -33,7 +36,8 @@ std::string map_range(const char* name, const MapAxis& axis) {
 // Powers of ten; where there would be fewer than three of them, five numbers of the range.
 std::string colour_ticks(const std::vector<double>& drawn) {
   if (drawn.empty()) return "";
-  const auto [low, high] = std::ranges::minmax(drawn);
+  const auto [low, highest] = std::ranges::minmax(drawn);
+  const double high = std::max(highest, kLeastRange * low);
   if (high > 1e3 * low) return "set format cb '10^{%T}'\n";
   constexpr int ticks = 5;
   std::string text;
@@ -42,7 +46,17 @@ std::string colour_ticks(const std::vector<double>& drawn) {
     text += fmt::format("{}'{:.2e}' {:.6g}", i == 0 ? "" : ", ", value, value);
     if (!(high > 1.001 * low)) break;
   }
-  return "set cbtics (" + text + ")\n";
+  return fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics ({})\n", low, high, text);
+}
+
+// Lines around what is within 5 %, half as much again, twice and ten times the least.
+std::string contour_text(const std::vector<double>& drawn) {
+  if (drawn.empty()) return "";
+  const double low = std::ranges::min(drawn);
+  return fmt::format(
+      "set contour base\nunset surface\nset cntrparam levels discrete {:.6g}, {:.6g}, {:.6g}, "
+      "{:.6g}\nset table $levels\nsplot $map using 1:2:3\nunset table\nunset contour\n",
+      1.05 * low, 1.5 * low, 2 * low, 10 * low);
 }
 
 // Black on a white rim: seen on every colour.
@@ -138,7 +152,8 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
     }
     text += "\n";
   }
-  text += "EOD\nplot $map using 1:2:3 with image notitle";
+  text += "EOD\n" + contour_text(drawn) + "plot $map using 1:2:3 with image notitle";
+  if (!drawn.empty()) text += ", \\\n  $levels with lines lw 1.2 lc rgb '#FFFFFF' notitle";
   text += mark({}, 4, "midpoint rule");
   text += mark(map.fitted, 2, fmt::format("fitted: {:.5g}, {:.5g}", map.fitted.b, map.fitted.c));
   if (std::isfinite(least)) text += mark(best, 6, fmt::format("best cell: {:.3g}", least));

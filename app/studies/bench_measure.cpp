@@ -7,9 +7,9 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "runtime/processor_time.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "runtime/processor_time.hpp"
 #include "runtime/trajectory.hpp"
 
 namespace hamgen::app {

@@ -11,11 +11,11 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "runtime/processor_time.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "runtime/extrapolation.hpp"
+#include "runtime/processor_time.hpp"
 #include "runtime/sha256.hpp"
 #include "runtime/tool_error.hpp"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/processor_time.hpp"
 #include "app/studies/stress.hpp"
+#include "runtime/processor_time.hpp"
 
 namespace hamgen::app {
 namespace {
