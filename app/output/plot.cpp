@@ -35,8 +35,9 @@ struct Range {
 Range padded(Range range, bool logarithmic) {
   if (!(range.low <= range.high)) return {logarithmic ? 0.1 : 0.0, 1.0};
   if (logarithmic) return {range.low / 1.6, range.high * 1.6};
-  const double room = range.high > range.low ? 0.04 * (range.high - range.low)
-                                             : std::max(1e-12, 0.1 * std::fabs(range.high));
+  const double room = range.high > range.low
+                          ? 0.04 * (range.high - range.low)
+                          : (range.high != 0.0 ? 0.1 * std::fabs(range.high) : 1.0);
   return {range.low - room, range.high + room};
 }
 
@@ -174,7 +175,7 @@ std::string legend_text(const PlotPanel& panel) {
   const int width = length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
   return fmt::format(
       "set key below center horizontal Left reverse noenhanced samplen 1.8 width {} height 0.6 "
-      "font ',13'\n",
+      "font ',12'\n",
       width);
 }
 

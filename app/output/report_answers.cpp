@@ -121,7 +121,8 @@ std::string report_answers(const ReportContent& content) {
   line("Method", method_answer(content));
   line("Conserves", conserved_answer(content));
   line("Reached", reached_answer(content));
-  line(fmt::format("For a {} error {}", to_text(content.bench->observed),
+  line(fmt::format("For {} {} error {}", content.bench->observed == Observed::energy ? "an" : "a",
+                   to_text(content.bench->observed),
                    html_number(content.bench->answers.front().target, 2)),
        advice_answer(content));
   line("Left out", left_out_answer(*content.plugin));
