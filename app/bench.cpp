@@ -1,12 +1,14 @@
 // hamgen bench: error against run time, method by method and step by step.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "app/bench_options.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/bench_output.hpp"
+#include "app/output/bench_picture.hpp"
 #include "app/output/draw_picture.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -30,7 +32,7 @@ void write_files(const BenchCommand& options, const Bench& bench) {
   const auto draw = [&](const fs::path& picture) {
     draw_picture({.picture = picture,
                   .script = fs::path(picture).replace_extension(".gp"),
-                  .text = gnuplot_script(picture_of(bench), picture.string())},
+                  .text = gnuplot_script(bench_picture(bench), picture.string())},
                  options.bench.quiet, &interrupt_flag());
   };
   if (!options.csv.empty()) write(options.csv, csv_text(bench));
@@ -53,7 +55,9 @@ int bench(const BenchCommand& options) {
   print_error(warning_text(result));
   print(options.json ? json_text(result) : table_text(result));
   write_files(options, result);
-  return result.answer && !result.answer->row ? numerical_failure : done;
+  const bool all_reached =
+      std::ranges::all_of(result.answers, [](const auto& each) { return each.row.has_value(); });
+  return all_reached ? done : numerical_failure;
 }
 
 }  // namespace
@@ -76,8 +80,8 @@ Command add_bench(CLI::App& app) {
       ->add_option("--time", options->bench.time,
                    "of each run; default: 2000 steps of the scene's h")
       ->type_name("T");
-  parser->add_option("--target", options->bench.target, "which method reaches this error soonest")
-      ->type_name("ERROR");
+  parser->add_option("--target", options->bench.target, "which method reaches these errors soonest")
+      ->type_name("E1,E2,...");
   parser->add_option("--observe", options->bench.observe, "the error that counts: state or energy")
       ->type_name("WHAT");
   parser->add_option("--rounds", options->bench.rounds, "samples of each time; default 9")

@@ -17,11 +17,15 @@ namespace {
 
 constexpr long kDefaultSteps = 2000;  // at the scene's h
 
-double target_value(const std::string& text) {
-  if (text.empty()) return 0.0;
-  const double value = to_double(constant_option("--target", text));
-  if (!(value > 0.0)) throw UsageError(fmt::format("--target {}: not a positive number", text));
-  return value;
+std::vector<double> target_values(const std::string& list) {
+  std::vector<double> values;
+  if (list.empty()) return values;
+  for (const std::string& text : split_specs(list)) {
+    values.push_back(to_double(constant_option("--target", text)));
+    if (!(values.back() > 0.0))
+      throw UsageError(fmt::format("--target {}: not a positive number", text));
+  }
+  return values;
 }
 
 Observed observed_of(const std::string& text) {
@@ -95,7 +99,7 @@ std::vector<BenchSpec> methods_of(const BenchOptions& options, const BenchReques
 BenchRequest read_bench(const BenchOptions& options) {
   BenchRequest request;
   request.observed = observed_of(options.observe);
-  request.target = target_value(options.target);
+  request.targets = target_values(options.target);
   request.compiler = options.compiler;
   request.setting =
       read_setting({.model = options.model, .plain_sums = options.plain_sums}, options.scene);

@@ -2,13 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 
 #include "app/bench_options.hpp"
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
+#include "app/output/bench_output.hpp"
+#include "app/output/gnuplot.hpp"
 #include "app/output/report_page.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
@@ -17,32 +19,60 @@
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "runtime/atomic_file.hpp"
+#include "runtime/temporary_directory.hpp"
 
 namespace hamgen::app {
 namespace {
+
+constexpr const char* kDefaultTarget = "1e-8";
+// The page says which method is the quickest for each of these.
+constexpr const char* kLadder = "1e-2,1e-4,1e-6,1e-8,1e-10,1e-12";
 
 struct ReportOptions {
   MethodOptions method;
   SceneOptions scene;
   std::string output, schemes;
   CompilerChoice compiler;
+  std::string target = kDefaultTarget;
   std::string rounds = "5";
+  bool json = false;
   bool quiet = false;
 };
 
-// A figure's three files; the picture's text for the page.
+std::string drawn_text(const std::string& script, const std::filesystem::path& svg,
+                       std::string& problem) {
+  const std::string failed = run_gnuplot(script, svg, &interrupt_flag());
+  if (failed.empty()) return runtime::read_file(svg);
+  if (problem.empty()) problem = failed;
+  return "";
+}
+
+// With its panels one below the other, for a narrow screen.
+Plot narrow_form(Plot plot) {
+  plot.stacked = true;
+  plot.width = 440;
+  plot.height = plot.panels.size() > 1 ? 370 : 560;
+  return plot;
+}
+
+// A figure's three files; the pictures' text for the page.
 ReportPicture draw_figure(const Figure& figure, const std::filesystem::path& directory,
                           std::string& problem) {
-  ReportPicture picture{.name = figure.name, .caption = figure.caption};
+  ReportPicture picture{.name = figure.name, .caption = figure.caption, .large = figure.large};
   const std::filesystem::path svg = directory / (figure.name + ".svg");
   const std::filesystem::path png = directory / (figure.name + ".png");
-  const std::filesystem::path script = directory / (figure.name + ".gp");
   const std::string text = gnuplot_script(figure.plot, svg.string());
-  runtime::atomic_write(script, text);
-  problem = run_gnuplot(gnuplot_script(figure.plot, png.string()), png, &interrupt_flag());
-  if (!problem.empty()) return picture;
-  problem = run_gnuplot(text, svg, &interrupt_flag());
-  if (problem.empty()) picture.svg = runtime::read_file(svg);
+  runtime::atomic_write(directory / (figure.name + ".gp"), text);
+  const std::string failed =
+      run_gnuplot(gnuplot_script(figure.plot, png.string()), png, &interrupt_flag());
+  if (problem.empty()) problem = failed;
+  if (!failed.empty()) return picture;
+  picture.svg = drawn_text(text, svg, problem);
+  if (!figure.large) return picture;
+  const runtime::TemporaryDirectory aside = runtime::private_directory();
+  const std::filesystem::path narrow = aside.path() / svg.filename();
+  picture.narrow_svg =
+      drawn_text(gnuplot_script(narrow_form(figure.plot), narrow.string()), narrow, problem);
   return picture;
 }
 
@@ -51,9 +81,8 @@ std::vector<ReportPicture> draw_all(const std::vector<Figure>& figures,
   std::vector<ReportPicture> pictures;
   std::string problem;
   for (const Figure& figure : figures) {
-    std::string failed;
-    pictures.push_back(draw_figure(figure, directory, failed));
-    if (problem.empty()) problem = failed;
+    if (interrupt_flag()) return pictures;
+    pictures.push_back(draw_figure(figure, directory, problem));
   }
   if (!problem.empty())
     print_error(fmt::format("hamgen: pictures are missing: {}\nhelp: the scripts *.gp are in {}\n",
@@ -90,12 +119,25 @@ std::optional<ModifiedEnergy> modified_energy_of(const SourceText& source, const
   return {};
 }
 
-Proof linear_part(const SourceText& source, const Request& request, const SceneValues& scene) {
-  Proof proof;
-  for (const LinearPoint& point : linear_points(source, request, scene)) {
-    for (Finding& finding : findings(point)) proof.push_back(std::move(finding));
-  }
-  return proof;
+// The page's step over the bench's time, measured as the bench measures.
+BenchRow subject_row(const BenchMethod& method, const SceneValues& scene, const Bench& bench,
+                     long rounds) {
+  const double h = to_double(*scene.h);
+  BenchRow row{.h = *scene.h, .steps = std::max(1L, std::lround(std::fabs(bench.time / h)))};
+  measure_errors(method, scene, bench.reference, row);
+  for (long round = 0; row.ok() && round < rounds && !interrupt_flag(); ++round)
+    measure_time(method, scene, row);
+  return row;
+}
+
+int stopped() {
+  print_error("hamgen: stopped; no page was written\n");
+  return interrupted;
+}
+
+// On the page the model has no folder: it is for others too.
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
 }
 
 int report(const ReportOptions& options) {
@@ -106,24 +148,32 @@ int report(const ReportOptions& options) {
   const SceneValues scene = complete_scene(model, setting.scene);
   take_gauge_at(scene, model, request);
   specialise(options.scene, scene, {}, Observing::everything, setting);
-  record_origin(options.method, source, request);
-  const BenchMethod method = chosen_method(options, source, request);
+  SourceText shown = source;
+  shown.path = file_name(source.path);
+  MethodOptions named = options.method;
+  named.model = shown.path;
+  record_origin(named, source, request);
+  const BenchMethod method = chosen_method(options, shown, request);
   // With all parameters by their names, folded ones too.
   const Mechanics mechanics = derive(read_model(source, request.sizes));
 
-  const Bench bench = run_bench(read_bench({.model = options.method.model,
-                                            .scene = options.scene,
-                                            .schemes = options.schemes,
-                                            .compiler = options.compiler,
-                                            .rounds = options.rounds,
-                                            .quiet = options.quiet,
-                                            .length = "--steps 1000"}));
-  if (interrupt_flag()) return interrupted;
+  const BenchRequest asked = read_bench({.model = options.method.model,
+                                         .scene = options.scene,
+                                         .schemes = options.schemes,
+                                         .target = options.target + "," + kLadder,
+                                         .compiler = options.compiler,
+                                         .rounds = options.rounds,
+                                         .quiet = options.quiet,
+                                         .length = "--steps 1000"});
+  const Bench bench = run_bench(asked);
+  if (interrupt_flag()) return stopped();
   print_error(warning_text(bench));
   const ReferenceRequest reference{
       .sizes = request.sizes, .compiler = options.compiler, .stop = &interrupt_flag()};
-  ReportFigures drawn = report_figures(method, scene, source, bench, reference);
-  if (interrupt_flag()) return interrupted;
+  const ReportSubject subject{
+      .method = &method, .scene = &scene, .row = subject_row(method, scene, bench, asked.rounds)};
+  ReportFigures drawn = report_figures(subject, source, bench, reference);
+  if (interrupt_flag()) return stopped();
 
   const std::filesystem::path directory =
       options.output.empty() ? model.name + "-report" : options.output;
@@ -131,16 +181,20 @@ int report(const ReportOptions& options) {
                               .mechanics = &mechanics,
                               .scene = &scene,
                               .bench = &bench,
+                              .row = subject.row,
                               .proof = verify_step(source, request),
-                              .linear = linear_part(source, request, scene),
+                              .linear = linear_points(source, request, scene),
                               .modified = modified_energy_of(source, request, scene),
                               .orbit = drawn.orbit,
                               .pictures = draw_all(drawn.figures, directory),
-                              .command = request.command};
+                              .file = shown.path,
+                              .command = request.command,
+                              .path = options.method.model};
+  if (interrupt_flag()) return stopped();
   const std::filesystem::path page = directory / "report.html";
   runtime::atomic_write(page, report_page(content));
   runtime::atomic_write(directory / "bench.csv", csv_text(bench));
-  print(page.string() + "\n");
+  print(options.json ? report_json(content, directory.string()) : page.string() + "\n");
   return done;
 }
 
@@ -161,8 +215,13 @@ Command add_report(CLI::App& app) {
       ->type_name("DIRECTORY");
   parser->add_option("--schemes", options->schemes, "methods compared, as for bench")
       ->type_name("A,B,...");
+  parser
+      ->add_option("--target", options->target,
+                   "the error for which the page says what to take; default 1e-8")
+      ->type_name("E");
   parser->add_option("--rounds", options->rounds, "samples of each time; default 5")
       ->type_name("N");
+  parser->add_flag("--json", options->json, "what the page says, as JSON on standard output");
   parser->add_flag("--quiet", options->quiet, "no progress");
   add_method_options(*parser, options->method);
   add_compiler_options(*parser, options->compiler);

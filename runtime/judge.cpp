@@ -64,7 +64,7 @@ Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> param
   const HalfProducts half = half_products(state, gradient);
   energy_scale_ = std::max({std::fabs(energy_.hi), norm_of(state) * norm_of(gradient),
                             std::fabs(half.p), std::fabs(half.q)});
-  energy_terms_ = std::max(std::fabs(energy_.hi), terms(state));
+  energy_terms_ = std::max({std::fabs(energy_.hi), terms(state), std::fabs(half.q)});
   q_size_ = std::max(1.0, largest_component(state));
   p_size_ = std::max(q_size_, std::sqrt(2.0 * energy_scale_));
 }

@@ -22,7 +22,8 @@ class Judge {
   // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the start: what an
   // energy error is compared with, even if H happens to vanish there.
   [[nodiscard]] double energy_scale() const { return energy_scale_; }
-  // The larger of |H| and terms() at the start: what a person compares an energy error with.
+  // The largest of |H|, terms() and |q H_q|/2 at the start, energies all of them, whatever the
+  // units of q and p: what a person compares an energy error with.
   [[nodiscard]] double energy_terms() const { return energy_terms_; }
   // How large the components of a state are.  The unit is the largest at the start, or 1; for
   // momenta also that of a mass of 1 that has all the energy of the scale as kinetic energy.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "runtime/processor_time.hpp"
+
 namespace hamgen::runtime {
 namespace {
 
@@ -259,9 +261,9 @@ RunSummary integrate(Integrator& integrator, const IntegrateOptions& options) {
     if (options.every > 0) {
       steps = std::min(steps, options.every - summary.steps_done % options.every);
     }
-    const Clock::time_point before = Clock::now();
+    const double before = thread_seconds();
     const Report report = plugin.advance(steps, summary.jump);
-    summary.advance_seconds += seconds_since(before);
+    summary.advance_seconds += thread_seconds() - before;
     add(summary, report);
     until_look -= steps;
 

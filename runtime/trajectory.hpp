@@ -73,7 +73,7 @@ struct RunSummary {
   std::optional<double> jump;              // the energy error after the step that jumped
   bool ended = false;                      // by on_look, with Status::done
   long long records = 0;
-  double advance_seconds = 0.0;  // inside the plugin
+  double advance_seconds = 0.0;  // inside the plugin: processor time of the thread
   double total_seconds = 0.0;    // with records and progress
 
   [[nodiscard]] double iterations_per_step() const;   // 0 if no step was done

@@ -46,7 +46,8 @@ bool is_in(const std::vector<std::size_t>& front, std::size_t row) {
 std::string remark(const Bench& bench, std::size_t row, const std::vector<std::size_t>& front) {
   const BenchRow& values = bench.rows[row];
   if (!values.ok()) return values.outcome;
-  const bool is_answer = bench.answer && bench.answer->row == row;
+  const bool is_answer = std::ranges::any_of(
+      bench.answers, [row](const BenchAnswer& answer) { return answer.row == row; });
   return is_answer ? "<- target" : is_in(front, row) ? "*" : "";
 }
 
@@ -58,15 +59,27 @@ std::string reference_text(const Bench& bench) {
       reference.from_cache ? ", computed before" : fmt::format(", {:.2g} s", reference.seconds));
 }
 
-// That emits the quickest method; empty if none is good enough.
-std::string answer_command(const Bench& bench) {
-  const std::optional<std::size_t>& row = bench.answer->row;
-  if (!row) return "";
-  return generate_command(bench.path, bench.methods[bench.rows[*row].method].request);
+// What the energy errors are relative to; 0 where no row has one.
+double energy_scale(const Bench& bench) {
+  double scale = 0.0;
+  for (const BenchRow& row : bench.rows) scale = std::max(scale, row.energy_scale);
+  return scale;
 }
 
-std::string answer_text(const Bench& bench) {
-  const BenchAnswer& answer = *bench.answer;
+// What the columns of errors are.
+std::string errors_text(const Bench& bench) {
+  return fmt::format(
+      "of the energy relative to its scale {:.3g}; of q and of p at the end, Euclidean",
+      energy_scale(bench));
+}
+
+// That emits the quickest method; empty if none is good enough.
+std::string answer_command(const Bench& bench, const BenchAnswer& answer) {
+  if (!answer.row) return "";
+  return generate_command(bench.path, bench.methods[bench.rows[*answer.row].method].request);
+}
+
+std::string answer_text(const Bench& bench, const BenchAnswer& answer) {
   if (!answer.row)
     return fmt::format(
         "no method reaches the {} error {:g} with these steps\n"
@@ -77,7 +90,14 @@ std::string answer_text(const Bench& bench) {
       "{} error {:g} is reached soonest by {} with h = {:.10g}: {:.3g} s for a unit "
       "of time\n  {}\n",
       to_text(bench.observed), answer.target, bench.methods[row.method].spec, to_double(row.h),
-      time_of(row).seconds_per_time, answer_command(bench));
+      time_of(row).seconds_per_time, answer_command(bench, answer));
+}
+
+OrderedJson answer_json(const Bench& bench, const BenchAnswer& answer) {
+  return {{"observe", to_text(bench.observed)},
+          {"target", answer.target},
+          {"row", answer.row ? OrderedJson(*answer.row) : OrderedJson(nullptr)},
+          {"command", answer_command(bench, answer)}};
 }
 
 OrderedJson finite(const std::optional<double>& value) {
@@ -104,8 +124,11 @@ OrderedJson row_json(const Bench& bench, const BenchRow& row) {
           {"iterations_per_step", row.iterations_per_step},
           {"gradients_per_step", row.gradients_per_step},
           {"max_energy_error", finite(row.energy_error)},
+          {"max_relative_energy_error", finite(row.relative_energy_error())},
           {"energy_spread", finite(row.energy_spread)},
           {"state_error", finite(row.state_error)},
+          {"q_error", finite(row.q_error)},
+          {"p_error", finite(row.p_error)},
           {"invariant_errors", invariants}};
 }
 
@@ -123,11 +146,11 @@ std::string warning_text(const Bench& bench) {
 
 std::string table_text(const Bench& bench) {
   const std::vector<std::size_t> front = pareto_front(bench.rows, bench.observed);
-  std::string text = fmt::format("{}{}: T = {:.10g}\n  reference  {}\n", bench.model,
-                                 bench.scene.empty() ? "" : ", scene " + bench.scene, bench.time,
-                                 reference_text(bench));
+  std::string text = fmt::format("{}{}: T = {:.10g}\n  reference  {}\n  errors     {}\n",
+                                 bench.model, bench.scene.empty() ? "" : ", scene " + bench.scene,
+                                 bench.time, reference_text(bench), errors_text(bench));
   std::vector<Cells> lines = {{"scheme", "h", "s/time", "+-", "ns/step", "it/step", "grad/step",
-                               "energy error", "energy spread", "state error", ""}};
+                               "energy error", "q error", "p error", ""}};
   for (std::size_t i = 0; i < bench.rows.size(); ++i) {
     const BenchRow& row = bench.rows[i];
     const BenchTime time = time_of(row);
@@ -139,27 +162,29 @@ std::string table_text(const Bench& bench) {
          timed ? fmt::format("{:.0f}", time.nanoseconds_per_step) : "-",
          row.iterations_per_step > 0.0 ? fmt::format("{:.2f}", row.iterations_per_step) : "-",
          row.gradients_per_step > 0.0 ? fmt::format("{:.3g}", row.gradients_per_step) : "-",
-         error_cell(row.energy_error), error_cell(row.energy_spread), error_cell(row.state_error),
+         error_cell(row.relative_energy_error()), error_cell(row.q_error), error_cell(row.p_error),
          remark(bench, i, front)});
   }
   text += aligned(lines);
   if (!front.empty())
     text += fmt::format("* nothing here is both faster and better in {} error (Pareto front)\n",
                         to_text(bench.observed));
-  return bench.answer ? text + answer_text(bench) : text;
+  for (const BenchAnswer& answer : bench.answers) text += answer_text(bench, answer);
+  return text;
 }
 
 std::string csv_text(const Bench& bench) {
   std::string text = fmt::format(
       "# made by   hamgen {}\n# model     {}\n# time      {}\n# reference {}\n"
+      "# energy    errors are absolute, and relative to the scale {}\n"
       "# machine   {}\n# compiler  {}\n# flags     {}\n# date      {}\n"
       "scheme,h,steps,outcome,s_per_time,time_spread,ns_per_step,iterations_per_step,"
       "gradients_per_step,"
-      "max_energy_error,energy_spread,state_error",
+      "max_energy_error,max_relative_energy_error,energy_spread,state_error,q_error,p_error",
       HAMGEN_VERSION, comment_text(bench.path), runtime::number_text(bench.time),
-      comment_text(reference_text(bench)), comment_text(bench.provenance.machine),
-      comment_text(bench.provenance.compiler), comment_text(bench.provenance.flags),
-      bench.provenance.date);
+      comment_text(reference_text(bench)), runtime::number_text(energy_scale(bench)),
+      comment_text(bench.provenance.machine), comment_text(bench.provenance.compiler),
+      comment_text(bench.provenance.flags), bench.provenance.date);
   std::vector<std::string> names;
   for (const BenchMethod& method : bench.methods) {
     if (method.refusal.empty()) names = method.plugin.invariant_names;
@@ -172,14 +197,16 @@ std::string csv_text(const Bench& bench) {
     const auto if_timed = [timed](double value) {
       return timed ? runtime::number_text(value) : std::string();
     };
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}",
-        runtime::csv_cell(visible_text(bench.methods[row.method].spec)),
-        runtime::number_text(to_double(row.h)), row.steps,
-        runtime::csv_cell(visible_text(row.outcome)), if_timed(time.seconds_per_time),
-        if_timed(time.spread), if_timed(time.nanoseconds_per_step),
-        runtime::number_text(row.iterations_per_step), runtime::number_text(row.gradients_per_step),
-        csv_number(row.energy_error), csv_number(row.energy_spread), csv_number(row.state_error));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                    runtime::csv_cell(visible_text(bench.methods[row.method].spec)),
+                    runtime::number_text(to_double(row.h)), row.steps,
+                    runtime::csv_cell(visible_text(row.outcome)), if_timed(time.seconds_per_time),
+                    if_timed(time.spread), if_timed(time.nanoseconds_per_step),
+                    runtime::number_text(row.iterations_per_step),
+                    runtime::number_text(row.gradients_per_step), csv_number(row.energy_error),
+                    csv_number(row.relative_energy_error()), csv_number(row.energy_spread),
+                    csv_number(row.state_error), csv_number(row.q_error), csv_number(row.p_error));
     for (std::size_t i = 0; i < names.size(); ++i)
       text += row.ok() ? "," + runtime::number_text(row.invariant_errors[i]) : ",";
     text += "\n";
@@ -193,6 +220,7 @@ std::string json_text(const Bench& bench) {
       {"path", bench.path},
       {"scene", bench.scene.empty() ? OrderedJson(nullptr) : OrderedJson(bench.scene)},
       {"time", bench.time},
+      {"energy_scale", energy_scale(bench)},
       {"machine", bench.provenance.machine},
       {"compiler", bench.provenance.compiler},
       {"flags", bench.provenance.flags},
@@ -212,38 +240,13 @@ std::string json_text(const Bench& bench) {
   for (const BenchRow& row : bench.rows) result["rows"].push_back(row_json(bench, row));
   for (const Observed observed : {Observed::energy, Observed::state})
     result["pareto"][std::string(to_text(observed))] = pareto_front(bench.rows, observed);
-  if (bench.answer) {
-    result["answer"] = {
-        {"observe", to_text(bench.observed)},
-        {"target", bench.answer->target},
-        {"row", bench.answer->row ? OrderedJson(*bench.answer->row) : OrderedJson(nullptr)},
-        {"command", answer_command(bench)}};
+  for (const BenchAnswer& answer : bench.answers) {
+    if (bench.answers.size() == 1)
+      result["answer"] = answer_json(bench, answer);
+    else
+      result["answers"].push_back(answer_json(bench, answer));
   }
   return json_document(result);
-}
-
-Plot picture_of(const Bench& bench) {
-  const auto panel = [&bench](Observed observed) {
-    PlotPanel result{.title = fmt::format("{}: {} error", bench.model, to_text(observed)),
-                     .x_label = "run time for a unit of time [s]",
-                     .y_label = observed == Observed::energy
-                                    ? "max |H - H(0)|"
-                                    : fmt::format("|z - z*| at t = {:.6g}", bench.time),
-                     .logarithmic_x = true,
-                     .logarithmic_y = true};
-    for (std::size_t m = 0; m < bench.methods.size(); ++m) {
-      PlotSeries series{.label = bench.methods[m].spec};
-      for (const BenchRow& row : bench.rows) {
-        const std::optional<double> error = error_of(row, observed);
-        if (row.method == m && error && !row.samples.empty())
-          series.points.push_back({time_of(row).seconds_per_time, *error});
-      }
-      std::ranges::sort(series.points, {}, &PlotPoint::x);
-      result.series.push_back(std::move(series));
-    }
-    return result;
-  };
-  return {.panels = {panel(Observed::energy), panel(Observed::state)}, .width = 660, .height = 440};
 }
 
 }  // namespace hamgen::app

@@ -1,9 +1,8 @@
-// What `hamgen bench` says: a table to read, CSV, JSON and a picture of the same rows.
+// What `hamgen bench` says: a table to read, CSV and JSON of the same rows.
 #pragma once
 
 #include <string>
 
-#include "app/output/plot.hpp"
 #include "app/studies/bench.hpp"
 
 namespace hamgen::app {
@@ -13,7 +12,5 @@ namespace hamgen::app {
 [[nodiscard]] std::string table_text(const Bench& bench);
 [[nodiscard]] std::string csv_text(const Bench& bench);
 [[nodiscard]] std::string json_text(const Bench& bench);
-// Energy error and state error against run time, a line a method.
-[[nodiscard]] Plot picture_of(const Bench& bench);
 
 }  // namespace hamgen::app

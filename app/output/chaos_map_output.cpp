@@ -7,6 +7,7 @@
 
 #include "app/output/chaos_output.hpp"
 #include "app/output/json_document.hpp"
+#include "app/output/math_symbol.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -119,7 +120,7 @@ std::string chaos_map_script(const ChaosMapTable& map, const Indicator& indicato
       if (values[i]) line.points.push_back({x.values[i], *values[i]});
     }
     return gnuplot_script({.panels = {{.title = title.model,
-                                       .x_label = x.name,
+                                       .x_label = plain_symbol(x.name),
                                        .y_label = indicator.label,
                                        .series = {line}}},
                            .width = 720},
@@ -127,8 +128,8 @@ std::string chaos_map_script(const ChaosMapTable& map, const Indicator& indicato
   }
   const auto [low, high] = range_of(values);
   return heat_map_script({.title = title.model,
-                          .x_label = x.name,
-                          .y_label = (*map.axes)[1].name,
+                          .x_label = plain_symbol(x.name),
+                          .y_label = plain_symbol((*map.axes)[1].name),
                           .value_label = indicator.label,
                           .x = x.values,
                           .y = (*map.axes)[1].values,

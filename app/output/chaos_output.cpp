@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/output/json_document.hpp"
+#include "app/output/kept_text.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -30,8 +31,8 @@ std::string chaos_text(const Chaos& chaos, const ChaosTitle& title) {
   if (chaos.samples.empty())
     return text + fmt::format("  ended      {} at the first step\n", to_text(chaos.status));
   const ChaosSample& end = chaos.samples.back();
-  text += fmt::format("  time       {:.6g}, {} steps, energy kept to {:.1e}\n", end.time,
-                      chaos.steps, chaos.largest_energy_error);
+  text += fmt::format("  time       {:.6g}, {} steps, energy kept to {}\n", end.time, chaos.steps,
+                      kept_text(chaos.largest_energy_error, chaos.energy_scale));
   if (chaos.status != runtime::Status::done)
     text += fmt::format("  ended      {} before all steps were done\n", to_text(chaos.status));
   text += fmt::format("  lyapunov   {:.5g} (on a regular orbit about ln(t)/t = {:.1e})\n",
@@ -98,6 +99,7 @@ std::string chaos_json(const Chaos& chaos, const std::vector<DegreeFrequencies>&
                         {"status", to_text(chaos.status)},
                         {"steps", chaos.steps},
                         {"max_energy_error", chaos.largest_energy_error},
+                        {"energy_scale", chaos.energy_scale},
                         {"deviations", chaos.deviations},
                         {"spectrum", chaos.spectrum},
                         {"frequencies", frequencies},

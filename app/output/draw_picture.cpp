@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
-#include "app/output/plot.hpp"
+#include <vector>
+
+#include "app/output/gnuplot.hpp"
 #include "app/output/terminal.hpp"
 #include "runtime/atomic_file.hpp"
+#include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
+namespace {
+
+// A script draws into the folder in which it is run.
+std::string drawing_command(const std::filesystem::path& script) {
+  const std::vector<std::string> draw = {"gnuplot", script.filename().string()};
+  const std::vector<std::string> go = {"cd", script.parent_path().string()};
+  return (script.has_parent_path() ? runtime::command_text(go) + " && " : "") +
+         runtime::command_text(draw);
+}
+
+}  // namespace
 
 bool draw_picture(const PictureFiles& files, bool quiet, StopFlag stop) {
   runtime::atomic_write(files.script, files.text);
@@ -14,9 +28,8 @@ bool draw_picture(const PictureFiles& files, bool quiet, StopFlag stop) {
   const std::string problem = run_gnuplot(files.text, files.picture, stop);
   if (!problem.empty()) {
     print_error(
-        fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: "
-                    "gnuplot {}\n",
-                    problem, files.script.string()));
+        fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: {}\n",
+                    problem, drawing_command(files.script)));
     return false;
   }
   if (!quiet) print_error(fmt::format("{}\n", files.picture.string()));

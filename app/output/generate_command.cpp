@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <vector>
 
 #include "generator/formats/all_formats.hpp"
@@ -9,32 +10,42 @@
 
 namespace hamgen::app {
 
-std::string generate_command(const std::string& model, const Request& request) {
-  std::vector<std::string> words = {"hamgen", "generate", model};
+namespace {
+
+class Words {
+ public:
+  Words(const std::string& command, const std::string& model) : words_{"hamgen", command, model} {}
+
   // A value that begins with '-' would read as an option after a blank.
-  const auto add = [&words](const std::string& option, const std::string& value) {
+  void add(const std::string& option, const std::string& value) {
     if (value.empty()) return;
     if (value.front() == '-') {
-      words.push_back(option + "=" + value);
+      words_.push_back(option + "=" + value);
     } else {
-      words.push_back(option);
-      words.push_back(value);
+      words_.push_back(option);
+      words_.push_back(value);
     }
-  };
-  add("--scheme", request.scheme.text());
-  add("--alpha", request.alpha.text());
-  add("--beta", request.beta.text());
-  add("--gamma", request.gamma.text());
-  if (request.order > 0) add("--order", std::to_string(request.order));
-  add("--gauge", request.gauge.text());
-  for (const auto& [name, value] : request.reference)
-    add("--reference", fmt::format("{}={}", name, value));
-  add("--solver", request.solver.text());
-  add("--scalar", request.scalar.text());
-  if (request.plain_sums) words.emplace_back("--plain-sums");
-  for (const std::string& name : request.fold) add("--fold", name);
-  for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
-  if (request.scene) {
+  }
+  void add_flag(const std::string& option, bool is_set) {
+    if (is_set) words_.push_back(option);
+  }
+
+  // The method, the sizes and the scene.
+  void add_step(const Request& request) {
+    add("--scheme", request.scheme.text());
+    add("--alpha", request.alpha.text());
+    add("--beta", request.beta.text());
+    add("--gamma", request.gamma.text());
+    if (request.order > 0) add("--order", std::to_string(request.order));
+    add("--gauge", request.gauge.text());
+    for (const auto& [name, value] : request.reference)
+      add("--reference", fmt::format("{}={}", name, value));
+    add("--solver", request.solver.text());
+    add("--scalar", request.scalar.text());
+    add_flag("--plain-sums", request.plain_sums);
+    for (const std::string& name : request.fold) add("--fold", name);
+    for (const auto& [name, value] : request.sizes) add("--set", fmt::format("{}={}", name, value));
+    if (!request.scene) return;
     const SceneFacts& scene = *request.scene;
     add("--scene", scene.values.name);
     for (const auto& [name, value] : scene.asked.set) add("--set", name + "=" + value);
@@ -42,17 +53,45 @@ std::string generate_command(const std::string& model, const Request& request) {
     add("--observe", scene.asked.observe.value_or(""));
     for (const std::string& name : scene.kept) add("--keep", name);
   }
+
+  [[nodiscard]] std::string text() const { return runtime::command_text(words_); }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+// A decimal where it is short, else a fraction: a step that divides the time exactly.
+std::string step_text(const Rational& h) {
+  const std::string decimal = fmt::format("{:.10g}", to_double(h));
+  double read = 0.0;
+  std::from_chars(decimal.data(), decimal.data() + decimal.size(), read);
+  return read == to_double(h) ? decimal : h.get_str();
+}
+
+}  // namespace
+
+std::string generate_command(const std::string& model, const Request& request) {
+  Words words("generate", model);
+  words.add_step(request);
   if (request.format->format != &all_formats().front())
-    add("--format", request.format.text());  // the default
-  add("--namespace", request.name_space);
-  if (request.support->shared) add("--support", request.support.text());  // the default
-  if (request.batch > 0) add("--batch", std::to_string(request.batch));
-  add("--math", request.math.text());
-  add("--require", request.require.text());
-  if (request.tangent) words.emplace_back("--tangent");
-  if (request.events) words.emplace_back("--events");
-  if (request.watch_modified > 0) add("--watch-modified", std::to_string(request.watch_modified));
-  return runtime::command_text(words);
+    words.add("--format", request.format.text());  // the default
+  words.add("--namespace", request.name_space);
+  if (request.support->shared) words.add("--support", request.support.text());  // the default
+  if (request.batch > 0) words.add("--batch", std::to_string(request.batch));
+  words.add("--math", request.math.text());
+  words.add("--require", request.require.text());
+  words.add_flag("--tangent", request.tangent);
+  words.add_flag("--events", request.events);
+  if (request.watch_modified > 0)
+    words.add("--watch-modified", std::to_string(request.watch_modified));
+  return words.text();
+}
+
+std::string run_command(const std::string& model, const Request& request, const Rational& h) {
+  Words words("run", model);
+  words.add_step(request);
+  words.add("--h", step_text(h));
+  return words.text();
 }
 
 }  // namespace hamgen::app

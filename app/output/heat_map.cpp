@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/output/plot.hpp"
+#include "app/output/gnuplot.hpp"
 #include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {

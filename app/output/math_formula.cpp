@@ -2,151 +2,345 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <iterator>
 #include <optional>
-#include <utility>
+#include <span>
 
-#include "generator/base/quoted_text.hpp"
+#include "app/output/math_symbol.hpp"
+#include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kGreek = {{
-    {"alpha", "α"},   {"beta", "β"},   {"gamma", "γ"}, {"delta", "δ"}, {"eps", "ε"},
-    {"epsilon", "ε"}, {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},
-    {"kappa", "κ"},   {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},    {"xi", "ξ"},
-    {"pi", "π"},      {"rho", "ρ"},    {"sigma", "σ"}, {"tau", "τ"},   {"phi", "φ"},
-    {"chi", "χ"},     {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"}, {"Delta", "Δ"},
-    {"Omega", "Ω"},   {"Phi", "Φ"},
-}};
+// How tightly a formula holds together; a ratio is a fraction with a slash.
+enum class Tightness { sum, sign, ratio, product, power, atom };
 
+// A fraction has a bar where it stands by itself, and a slash inside a fraction, an exponent or a
+// subscript.
+enum class FractionForm { bar, slash };
+
+std::string markup_of(const MathFormula& formula, FractionForm form);
+
+bool is_negation(const MathFormula& formula) { return formula.kind == MathKind::negation; }
+
+MathFormula product_of_all(std::vector<MathFormula> factors) {
+  if (factors.empty()) return math_number("1");
+  if (factors.size() == 1) return factors.front();
+  return {.kind = MathKind::product, .text = "", .parts = std::move(factors)};
+}
+
+std::span<const MathFormula> factors_of(const MathFormula& formula) {
+  return formula.kind == MathKind::product ? std::span(formula.parts) : std::span(&formula, 1);
+}
+
+bool is_one(const MathFormula& formula) {
+  return formula.kind == MathKind::number && formula.text == "1";
+}
+
+// Of a product with fractions among its factors: one fraction.
+std::optional<MathFormula> as_one_quotient(const MathFormula& product) {
+  std::vector<MathFormula> above;
+  std::vector<MathFormula> below;
+  for (const MathFormula& factor : product.parts) {
+    const bool is_quotient = factor.kind == MathKind::quotient;
+    if (!is_quotient || !is_one(factor.parts[0]))
+      std::ranges::copy(factors_of(is_quotient ? factor.parts[0] : factor),
+                        std::back_inserter(above));
+    if (is_quotient) std::ranges::copy(factors_of(factor.parts[1]), std::back_inserter(below));
+  }
+  if (below.empty()) return {};
+  return MathFormula{.kind = MathKind::quotient,
+                     .text = "",
+                     .parts = {product_of_all(std::move(above)), product_of_all(std::move(below))}};
+}
+
+Tightness tightness_of(const MathFormula& formula, FractionForm form) {
+  switch (formula.kind) {
+    case MathKind::sum:
+      return Tightness::sum;
+    case MathKind::negation:
+      return Tightness::sign;
+    case MathKind::quotient:
+      return form == FractionForm::bar ? Tightness::power : Tightness::ratio;
+    case MathKind::product:
+      return form == FractionForm::slash && as_one_quotient(formula) ? Tightness::ratio
+                                                                     : Tightness::product;
+    case MathKind::big_sum:
+      return Tightness::product;
+    case MathKind::power:
+      return Tightness::power;
+    case MathKind::number:
+    case MathKind::symbol:
+    case MathKind::call:
+      return Tightness::atom;
+  }
+  internal_error("unknown kind of formula");
+}
+
+// As high as what they hold, where that is higher than a line.
 std::string parenthesised(const std::string& markup) {
-  return "<mrow><mo>(</mo>" + markup + "<mo>)</mo></mrow>";
+  const bool is_high = markup.find("<mfrac") != std::string::npos ||
+                       markup.find("<munderover") != std::string::npos ||
+                       markup.find("<msqrt") != std::string::npos;
+  const char* const stretch = is_high ? "" : " stretchy='false'";
+  return fmt::format("<mrow><mo{0}>(</mo>{1}<mo{0}>)</mo></mrow>", stretch, markup);
 }
 
-std::string at_least_as_tight(Tightness level, const MathFormula& formula) {
-  return formula.tightness >= level ? formula.markup : parenthesised(formula.markup);
+std::string at_least(Tightness level, const MathFormula& formula, FractionForm form) {
+  const std::string markup = markup_of(formula, form);
+  return tightness_of(formula, form) >= level ? markup : parenthesised(markup);
 }
 
-// What stands behind an operator: a sign would meet it.
-std::string behind(Tightness level, const MathFormula& formula) {
-  return formula.tightness == Tightness::sign ? parenthesised(formula.markup)
-                                              : at_least_as_tight(level, formula);
+// A term behind others, or the first one.
+std::string term_markup(const MathFormula& term, bool is_first, FractionForm form) {
+  if (is_first) return at_least(Tightness::sign, term, form);
+  if (is_negation(term))
+    return "<mo form='infix'>−</mo>" + at_least(Tightness::ratio, term.parts[0], form);
+  return "<mo form='infix'>+</mo>" + at_least(Tightness::ratio, term, form);
+}
+
+std::string sum_markup(const MathFormula& sum, FractionForm form) {
+  std::string text;
+  for (std::size_t i = 0; i < sum.parts.size(); ++i)
+    text += term_markup(sum.parts[i], i == 0, form);
+  return text;
+}
+
+// A digit must not follow a factor without a sign between them.
+bool begins_with_number(const MathFormula& factor) {
+  if (factor.kind == MathKind::power) return begins_with_number(factor.parts[0]);
+  return factor.kind == MathKind::number;
+}
+
+std::string product_markup(const MathFormula& product, FractionForm form) {
+  if (form == FractionForm::slash) {
+    if (const auto quotient = as_one_quotient(product)) return markup_of(*quotient, form);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < product.parts.size(); ++i) {
+    const MathFormula& factor = product.parts[i];
+    const bool is_last = i + 1 == product.parts.size();
+    if (i > 0)
+      text +=
+          begins_with_number(factor) ? "<mo>·</mo>" : "<mo>&#x2062;</mo><mspace width='0.14em'/>";
+    // A big sum takes in all that follows it.
+    text += at_least(
+        factor.kind == MathKind::big_sum && is_last ? Tightness::product : Tightness::power, factor,
+        form);
+  }
+  return text;
+}
+
+std::string quotient_markup(const MathFormula& quotient, FractionForm form) {
+  const MathFormula& above = quotient.parts[0];
+  const MathFormula& below = quotient.parts[1];
+  if (form == FractionForm::bar)
+    return fmt::format("<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
+                       markup_of(above, FractionForm::slash),
+                       markup_of(below, FractionForm::slash));
+  return at_least(Tightness::product, above, form) + "<mo lspace='0' rspace='0'>/</mo>" +
+         at_least(Tightness::power, below, form);
+}
+
+std::string list_markup(std::span<const MathFormula> formulas, FractionForm form) {
+  std::string list;
+  for (const MathFormula& each : formulas)
+    list += (list.empty() ? "" : "<mo>,</mo>") + markup_of(each, form);
+  return list;
 }
 
 // Functions that have a notation of their own keep it under a power.
-std::optional<std::string> own_notation(const std::string& function, const std::string& argument) {
-  if (function == "sqrt") return "<msqrt><mrow>" + argument + "</mrow></msqrt>";
-  if (function == "abs") return "<mrow><mo>|</mo>" + argument + "<mo>|</mo></mrow>";
-  if (function == "exp") return "<msup><mi>e</mi><mrow>" + argument + "</mrow></msup>";
+std::optional<std::string> own_notation(const MathFormula& call, FractionForm form) {
+  if (call.text == "sqrt")
+    return "<msqrt><mrow>" + list_markup(call.parts, form) + "</mrow></msqrt>";
+  if (call.text == "abs")
+    return "<mrow><mo>|</mo>" + list_markup(call.parts, form) + "<mo>|</mo></mrow>";
+  if (call.text == "exp")
+    return "<msup><mi>e</mi><mrow>" + list_markup(call.parts, FractionForm::slash) +
+           "</mrow></msup>";
   return {};
+}
+
+std::string call_markup(const MathFormula& call, FractionForm form) {
+  if (const auto notation = own_notation(call, form)) return *notation;
+  return fmt::format("<mi>{}</mi><mo>&#x2061;</mo>{}", call.text,
+                     parenthesised(list_markup(call.parts, form)));
+}
+
+SymbolMarkup symbol_parts(const MathFormula& symbol) {
+  SymbolMarkup parts = symbol_markup(symbol.text);
+  for (const MathFormula& subscript : symbol.parts)
+    parts.subscript +=
+        (parts.subscript.empty() ? "" : "<mo>,</mo>") + markup_of(subscript, FractionForm::slash);
+  return parts;
+}
+
+std::string symbol_markup_of(const MathFormula& symbol) {
+  const SymbolMarkup parts = symbol_parts(symbol);
+  if (parts.subscript.empty()) return parts.letter;
+  return fmt::format("<msub>{}<mrow>{}</mrow></msub>", parts.letter, parts.subscript);
+}
+
+// The power stands above a subscript, and after the name of a function.
+std::string power_markup(const MathFormula& power, FractionForm form) {
+  const MathFormula& base = power.parts[0];
+  const std::string above = markup_of(power.parts[1], FractionForm::slash);
+  if (base.kind == MathKind::symbol) {
+    const SymbolMarkup parts = symbol_parts(base);
+    if (!parts.subscript.empty())
+      return fmt::format("<msubsup>{}<mrow>{}</mrow><mrow>{}</mrow></msubsup>", parts.letter,
+                         parts.subscript, above);
+  }
+  const bool is_call = base.kind == MathKind::call;
+  if (is_call && base.parts.size() == 1 && !own_notation(base, form))
+    return fmt::format("<msup><mi>{}</mi><mrow>{}</mrow></msup><mo>&#x2061;</mo>{}", base.text,
+                       above, parenthesised(markup_of(base.parts[0], form)));
+  const std::string below = markup_of(base, form);
+  const bool bare = !is_call && tightness_of(base, form) == Tightness::atom;
+  return fmt::format("<msup><mrow>{}</mrow><mrow>{}</mrow></msup>",
+                     bare ? below : parenthesised(below), above);
+}
+
+std::string big_sum_markup(const MathFormula& sum, FractionForm form) {
+  return fmt::format(
+      "<mrow><munderover><mo>∑</mo><mrow>{}<mo>=</mo>{}</mrow><mrow>{}</mrow></munderover>{}"
+      "</mrow>",
+      markup_of(math_symbol(sum.text), FractionForm::slash),
+      markup_of(sum.parts[0], FractionForm::slash), markup_of(sum.parts[1], FractionForm::slash),
+      at_least(Tightness::product, sum.parts[2], form));
+}
+
+std::string markup_of(const MathFormula& formula, FractionForm form) {
+  switch (formula.kind) {
+    case MathKind::number:
+      return "<mn>" + formula.text + "</mn>";
+    case MathKind::symbol:
+      return symbol_markup_of(formula);
+    case MathKind::negation:
+      return "<mo form='prefix'>−</mo>" + at_least(Tightness::ratio, formula.parts[0], form);
+    case MathKind::sum:
+      return sum_markup(formula, form);
+    case MathKind::product:
+      return product_markup(formula, form);
+    case MathKind::quotient:
+      return quotient_markup(formula, form);
+    case MathKind::power:
+      return power_markup(formula, form);
+    case MathKind::call:
+      return call_markup(formula, form);
+    case MathKind::big_sum:
+      return big_sum_markup(formula, form);
+  }
+  internal_error("unknown kind of formula");
+}
+
+MathFormula added(const MathFormula& left, MathFormula right) {
+  MathFormula sum = left.kind == MathKind::sum
+                        ? left
+                        : MathFormula{.kind = MathKind::sum, .text = "", .parts = {left}};
+  sum.parts.push_back(std::move(right));
+  return sum;
+}
+
+// -(a - b) is b - a, of a sum that is the whole formula or above its bar; -(a + b) without a bar
+// is -a - b.
+MathFormula without_leading_sign(const MathFormula& formula) {
+  if (!is_negation(formula)) return formula;
+  MathFormula operand = formula.parts[0];
+  MathFormula& sum = operand.kind == MathKind::quotient ? operand.parts[0] : operand;
+  const bool has_negative =
+      sum.kind == MathKind::sum && std::ranges::any_of(sum.parts, is_negation);
+  if (sum.kind != MathKind::sum || (!has_negative && &sum != &operand)) return formula;
+  for (MathFormula& term : sum.parts) term = negated(term);
+  std::ranges::stable_partition(sum.parts, [](const auto& term) { return !is_negation(term); });
+  return operand;
 }
 
 }  // namespace
 
 MathFormula math_number(const std::string& text) {
-  if (text.starts_with('-'))
-    return {.markup = "<mo>−</mo><mn>" + text.substr(1) + "</mn>",
-            .tightness = Tightness::sign,
-            .is_number = true};
-  return {.markup = "<mn>" + text + "</mn>", .is_number = true};
+  if (text.starts_with('-')) return negated(math_number(text.substr(1)));
+  return {.kind = MathKind::number, .text = text, .parts = {}};
 }
 
 MathFormula math_symbol(std::string_view name) {
-  const std::size_t end = name.find_last_not_of("0123456789") + 1;
-  const std::string_view letters = name.substr(0, end);
-  std::string shown(letters);
-  for (const auto& [word, letter] : kGreek) {
-    if (letters == word) shown = letter;
-  }
-  const std::string italic = fmt::format("<mi>{}</mi>", html_text(shown));
-  if (end == name.size() || end == 0) return {.markup = italic};
-  return {.markup = fmt::format("<msub>{}<mn>{}</mn></msub>", italic, name.substr(end))};
+  return {.kind = MathKind::symbol, .text = std::string(name), .parts = {}};
 }
 
 MathFormula with_subscript(std::string_view name, const MathFormula& subscript) {
-  return {.markup = fmt::format("<msub><mrow>{}</mrow><mrow>{}</mrow></msub>",
-                                math_symbol(name).markup, subscript.markup)};
+  return {.kind = MathKind::symbol, .text = std::string(name), .parts = {subscript}};
 }
 
 MathFormula negated(const MathFormula& operand) {
-  return {.markup = "<mo>−</mo>" + at_least_as_tight(Tightness::power, operand),
-          .tightness = Tightness::sign};
+  if (is_negation(operand)) return operand.parts[0];
+  return {.kind = MathKind::negation, .text = "", .parts = {operand}};
 }
 
-MathFormula sum_of(const MathFormula& left, const MathFormula& right) {
-  return {.markup = left.markup + "<mo>+</mo>" + behind(Tightness::product, right),
-          .tightness = Tightness::sum};
-}
+MathFormula sum_of(const MathFormula& left, const MathFormula& right) { return added(left, right); }
 
 MathFormula difference_of(const MathFormula& left, const MathFormula& right) {
-  return {.markup = left.markup + "<mo>−</mo>" + behind(Tightness::product, right),
-          .tightness = Tightness::sum};
+  return added(left, negated(right));
 }
 
 MathFormula product_of(const MathFormula& left, const MathFormula& right) {
-  const char* const times =
-      right.is_number ? "<mo>·</mo>" : "<mo>&#x2062;</mo><mspace width='0.12em'/>";
-  return {.markup =
-              at_least_as_tight(Tightness::product, left) + times + behind(Tightness::power, right),
-          .tightness = Tightness::product};
+  if (is_negation(left)) return negated(product_of(left.parts[0], right));
+  std::vector<MathFormula> factors(factors_of(left).begin(), factors_of(left).end());
+  factors.push_back(right);
+  return product_of_all(std::move(factors));
 }
 
 MathFormula quotient_of(const MathFormula& above, const MathFormula& below) {
-  MathFormula result{.markup = fmt::format("<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
-                                           above.markup, below.markup),
-                     .tightness = Tightness::power};  // the bar holds it together
-  if (above.is_number && below.is_number)
-    result.in_line = fmt::format("<mrow>{}<mo>/</mo>{}</mrow>", above.markup, below.markup);
-  return result;
+  if (is_negation(above)) return negated(quotient_of(above.parts[0], below));
+  if (above.kind == MathKind::quotient)
+    return quotient_of(above.parts[0], product_of(above.parts[1], below));
+  return {.kind = MathKind::quotient, .text = "", .parts = {above, below}};
 }
 
 MathFormula power_of(const MathFormula& base, const MathFormula& exponent) {
-  MathFormula result{.tightness = Tightness::power};
-  const std::string& above = exponent.in_line.empty() ? exponent.markup : exponent.in_line;
-  if (!base.function.empty()) {
-    result.markup = fmt::format("<msup><mi>{}</mi><mrow>{}</mrow></msup><mo>&#x2061;</mo>{}",
-                                base.function, above, parenthesised(base.argument));
-    return result;
-  }
-  const bool bare = base.tightness == Tightness::atom && !base.is_call;
-  constexpr std::string_view subscripted = "<msub>";
-  if (bare && base.markup.starts_with(subscripted)) {
-    // The power stands above the subscript, not after it.
-    const std::string inside =
-        base.markup.substr(subscripted.size(), base.markup.size() - 2 * subscripted.size() - 1);
-    result.markup = fmt::format("<msubsup>{}<mrow>{}</mrow></msubsup>", inside, above);
-    return result;
-  }
-  result.markup = fmt::format("<msup><mrow>{}</mrow><mrow>{}</mrow></msup>",
-                              bare ? base.markup : parenthesised(base.markup), above);
-  return result;
+  return {.kind = MathKind::power, .text = "", .parts = {base, exponent}};
 }
 
 MathFormula call_of(const std::string& function, const std::vector<MathFormula>& arguments) {
-  std::string list;
-  for (const MathFormula& argument : arguments)
-    list += (list.empty() ? "" : "<mo>,</mo>") + argument.markup;
-  if (const auto notation = own_notation(function, list))
-    return {.markup = *notation, .is_call = true};
-  MathFormula result{
-      .markup = fmt::format("<mi>{}</mi><mo>&#x2061;</mo>{}", function, parenthesised(list)),
-      .is_call = true};
-  if (arguments.size() == 1) {
-    result.function = function;
-    result.argument = list;
-  }
-  return result;
+  return {.kind = MathKind::call, .text = function, .parts = arguments};
 }
 
-MathFormula sum_over(const std::vector<MathRange>& ranges, const MathFormula& body) {
-  std::string text;
-  for (const MathRange& range : ranges)
-    text +=
-        fmt::format("<munderover><mo>∑</mo><mrow>{}<mo>=</mo>{}</mrow><mrow>{}</mrow></munderover>",
-                    math_symbol(range.index).markup, range.lower.markup, range.upper.markup);
-  return {.markup = "<mrow>" + text + at_least_as_tight(Tightness::product, body) + "</mrow>",
-          .tightness = Tightness::product};
+MathFormula sum_over(const std::string& index, const MathFormula& lower, const MathFormula& upper,
+                     const MathFormula& body) {
+  return {.kind = MathKind::big_sum, .text = index, .parts = {lower, upper, body}};
+}
+
+std::string math_markup(const MathFormula& formula) {
+  return markup_of(without_leading_sign(formula), FractionForm::bar);
+}
+
+std::vector<std::string> math_pieces(const MathFormula& formula) {
+  const MathFormula whole = without_leading_sign(formula);
+  // A long sum above a number: the number goes in front, so that lines can end between its terms.
+  constexpr std::size_t many = 4;
+  const bool is_over_number =
+      whole.kind == MathKind::quotient && whole.parts[0].kind == MathKind::sum &&
+      whole.parts[0].parts.size() >= many && whole.parts[1].kind == MathKind::number;
+  if (is_over_number) {
+    std::vector<std::string> pieces = math_pieces(whole.parts[0]);
+    const MathFormula factor = quotient_of(math_number("1"), whole.parts[1]);
+    pieces.front() =
+        markup_of(factor, FractionForm::bar) + "<mo stretchy='false'>(</mo>" + pieces.front();
+    pieces.back() += "<mo stretchy='false'>)</mo>";
+    return pieces;
+  }
+  if (whole.kind != MathKind::sum) return {markup_of(whole, FractionForm::bar)};
+  std::vector<std::string> pieces;
+  for (std::size_t i = 0; i < whole.parts.size(); ++i)
+    pieces.push_back(term_markup(whole.parts[i], i == 0, FractionForm::bar));
+  return pieces;
+}
+
+std::string dotted_markup(const MathFormula& symbol) {
+  const SymbolMarkup parts = symbol_parts(symbol);
+  const std::string letter = "<mover accent='true'>" + parts.letter + "<mo>˙</mo></mover>";
+  if (parts.subscript.empty()) return letter;
+  return fmt::format("<msub>{}<mrow>{}</mrow></msub>", letter, parts.subscript);
 }
 
 }  // namespace hamgen::app

@@ -1,4 +1,4 @@
-// Formulas for web pages: MathML put together from its parts.
+// Formulas for web pages: what is written, as a tree, and the MathML that shows it.
 #pragma once
 
 #include <string>
@@ -7,21 +7,19 @@
 
 namespace hamgen::app {
 
-// How tightly a formula holds together, as in the language's own notation.
-enum class Tightness { sum, product, sign, power, atom };
+enum class MathKind { number, symbol, negation, sum, product, quotient, power, call, big_sum };
 
+// Built by the functions below, which bring a sign in front of products and quotients, and
+// quotients of quotients under one bar.
 struct MathFormula {
-  std::string markup;  // without the enclosing <math>
-  Tightness tightness = Tightness::atom;
-  bool is_number = false;  // written as one
-  bool is_call = false;    // of a function
-  std::string function;    // of one argument, named before it: a power follows the name
-  std::string argument;    // of that function
-  std::string in_line;     // numbers above one another, as an exponent has them beside one another
+  MathKind kind = MathKind::number;
+  std::string text;                // digits, name of a symbol, a function or an index
+  std::vector<MathFormula> parts;  // operands; of a symbol its subscripts; of a big sum the lower
+                                   // and the upper end and the body
 };
 
 [[nodiscard]] MathFormula math_number(const std::string& text);
-// "omega" is the Greek letter, "q1" has a subscript.
+// "omega" is the Greek letter; "q1", "px", "rc", "v_max" have a subscript.
 [[nodiscard]] MathFormula math_symbol(std::string_view name);
 [[nodiscard]] MathFormula with_subscript(std::string_view name, const MathFormula& subscript);
 [[nodiscard]] MathFormula negated(const MathFormula& operand);
@@ -32,12 +30,16 @@ struct MathFormula {
 [[nodiscard]] MathFormula power_of(const MathFormula& base, const MathFormula& exponent);
 [[nodiscard]] MathFormula call_of(const std::string& function,
                                   const std::vector<MathFormula>& arguments);
+// sum(index = lower..upper, body).
+[[nodiscard]] MathFormula sum_over(const std::string& index, const MathFormula& lower,
+                                   const MathFormula& upper, const MathFormula& body);
 
-// sum(index = lower..upper, ...), ranges from the outermost to the innermost.
-struct MathRange {
-  std::string index;
-  MathFormula lower, upper;
-};
-[[nodiscard]] MathFormula sum_over(const std::vector<MathRange>& ranges, const MathFormula& body);
+// MathML without the enclosing <math>: fractions, roots, powers and sums set as in print, with no
+// fraction's bar inside another fraction.
+[[nodiscard]] std::string math_markup(const MathFormula& formula);
+// The same in parts between which a line may end: the terms of a sum, each with its sign.
+[[nodiscard]] std::vector<std::string> math_pieces(const MathFormula& formula);
+// A symbol with a dot: its derivative by time.
+[[nodiscard]] std::string dotted_markup(const MathFormula& symbol);
 
 }  // namespace hamgen::app

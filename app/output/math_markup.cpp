@@ -11,6 +11,7 @@ namespace hamgen::app {
 namespace {
 
 MathFormula formula_of(const NodePtr& node);
+MathFormula formula_of(const Expression& e);
 
 MathFormula formula_of(const NumberNode& number) {
   return math_number(to_text(std::make_shared<const Node>(Node{.value = number})));
@@ -48,17 +49,15 @@ MathFormula formula_of(const CallNode& call) {
 }
 
 MathFormula formula_of(const SumNode& sum) {
-  std::vector<MathRange> ranges;
-  for (const SumRange& range : sum.ranges)
-    ranges.push_back({range.index, formula_of(range.lower), formula_of(range.upper)});
-  return sum_over(ranges, formula_of(sum.body));
+  MathFormula result = formula_of(sum.body);
+  for (auto range = sum.ranges.rbegin(); range != sum.ranges.rend(); ++range)
+    result = sum_over(range->index, formula_of(range->lower), formula_of(range->upper), result);
+  return result;
 }
 
 MathFormula formula_of(const NodePtr& node) {
   return std::visit([](const auto& each) { return formula_of(each); }, node->value);
 }
-
-MathFormula formula_of(const Expression& e);
 
 // A literal, with the digits the language would give it.
 MathFormula integer(const Integer& value) { return formula_of(NumberNode{.value = value}); }
@@ -112,20 +111,12 @@ MathFormula formula_of_sum(std::span<const Expression> terms) {
   return result;
 }
 
-// "q[3]" has the subscript 3.
-MathFormula formula_of_symbol(const std::string& name) {
-  const std::size_t bracket = name.find('[');
-  if (bracket == std::string::npos) return math_symbol(name);
-  return with_subscript(name.substr(0, bracket),
-                        math_number(name.substr(bracket + 1, name.size() - bracket - 2)));
-}
-
 MathFormula formula_of(const Expression& e) {
   switch (e.kind()) {
     case Kind::number:
       return formula_of(e.number());
     case Kind::symbol:
-      return formula_of_symbol(e.name());
+      return math_variable(e.name());
     case Kind::function: {
       std::vector<MathFormula> arguments;
       for (const Expression& argument : e.operands()) arguments.push_back(formula_of(argument));
@@ -146,10 +137,15 @@ MathFormula formula_of(const Expression& e) {
 
 }  // namespace
 
-std::string math_markup(const NodePtr& node) { return formula_of(node).markup; }
+MathFormula math_formula(const NodePtr& node) { return formula_of(node); }
 
-std::string math_markup(const Expression& expression) { return formula_of(expression).markup; }
+MathFormula math_formula(const Expression& expression) { return formula_of(expression); }
 
-std::string math_name(std::string_view name) { return math_symbol(name).markup; }
+MathFormula math_variable(const std::string& name) {
+  const std::size_t bracket = name.find('[');
+  if (bracket == std::string::npos) return math_symbol(name);
+  return with_subscript(name.substr(0, bracket),
+                        math_number(name.substr(bracket + 1, name.size() - bracket - 2)));
+}
 
 }  // namespace hamgen::app

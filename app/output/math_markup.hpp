@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "app/output/math_formula.hpp"
 #include "generator/algebra/expression.hpp"
@@ -10,12 +9,11 @@
 
 namespace hamgen::app {
 
-// The expression as MathML, without the enclosing <math>: fractions, roots, powers and sums set as
-// in print; "omega" is the Greek letter, "q1" and "q[1]" have a subscript.
-[[nodiscard]] std::string math_markup(const NodePtr& node);
+// As the user wrote it.
+[[nodiscard]] MathFormula math_formula(const NodePtr& node);
 // As to_text(expression) would be read.
-[[nodiscard]] std::string math_markup(const Expression& expression);
-// A name alone, in the same way.
-[[nodiscard]] std::string math_name(std::string_view name);
+[[nodiscard]] MathFormula math_formula(const Expression& expression);
+// Of a variable or a parameter: "q[3]" has the subscript 3.
+[[nodiscard]] MathFormula math_variable(const std::string& name);
 
 }  // namespace hamgen::app

@@ -6,16 +6,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <system_error>
 
-#include "generator/base/diagnostic.hpp"
+#include "app/output/gnuplot.hpp"
+#include "app/output/plain_number.hpp"
 #include "generator/base/quoted_text.hpp"
-#include "runtime/atomic_file.hpp"
-#include "runtime/process.hpp"
-#include "runtime/temporary_directory.hpp"
-#include "runtime/temporary_name.hpp"
-#include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -41,42 +35,10 @@ struct Range {
 Range padded(Range range, bool logarithmic) {
   if (!(range.low <= range.high)) return {logarithmic ? 0.1 : 0.0, 1.0};
   if (logarithmic) return {range.low / 1.6, range.high * 1.6};
-  const double room = range.high > range.low ? 0.04 * (range.high - range.low)
-                                             : std::max(1e-12, 0.1 * std::fabs(range.high));
+  const double room = range.high > range.low
+                          ? 0.04 * (range.high - range.low)
+                          : (range.high != 0.0 ? 0.1 * std::fabs(range.high) : 1.0);
   return {range.low - room, range.high + room};
-}
-
-// Where a value lies between the ends of its axis, 0 to 1.
-double place(double value, const Range& range, bool logarithmic) {
-  if (!logarithmic) return (value - range.low) / (range.high - range.low);
-  return std::log(value / range.low) / std::log(range.high / range.low);
-}
-
-struct EndLabel {
-  std::string text;
-  double height = 0.0;  // in the panel, 0 to 1
-  std::size_t series = 0;
-};
-
-// Labels beside the ends of their lines, moved apart so that none covers another.
-std::vector<EndLabel> end_labels(const PlotPanel& panel, const Range& y, double distance) {
-  std::vector<EndLabel> labels;
-  for (std::size_t i = 0; i < panel.series.size(); ++i) {
-    const PlotSeries& series = panel.series[i];
-    std::optional<PlotPoint> last;
-    for (const PlotPoint& point : series.points) {
-      if (drawable(panel, point) && (!last || point.x >= last->x)) last = point;
-    }
-    if (last && !series.label.empty())
-      labels.push_back({series.label, place(last->y, y, panel.logarithmic_y), i});
-  }
-  std::ranges::sort(labels, {}, &EndLabel::height);
-  for (std::size_t i = 1; i < labels.size(); ++i)
-    labels[i].height = std::max(labels[i].height, labels[i - 1].height + distance);
-  double ceiling = 1.0;
-  for (std::size_t i = labels.size(); i-- > 0; ceiling = labels[i].height - distance)
-    labels[i].height = std::min(labels[i].height, ceiling);
-  return labels;
 }
 
 std::size_t colour_of(const PlotPanel& panel, std::size_t i) {
@@ -88,11 +50,18 @@ std::string style_text(const PlotPanel& panel, std::size_t i) {
   const std::size_t colour = colour_of(panel, i);
   const bool points = panel.series[i].style == PlotStyle::points;
   const bool lines = panel.series[i].style == PlotStyle::lines;
-  const std::string line = fmt::format("lc rgb '{}' lw 1.6 dt {}", kColours[colour],
-                                       kDashes[lines ? 0 : i % kDashes.size()]);
+  const bool thin = panel.series[i].style == PlotStyle::thin_lines;
+  const std::string line =
+      fmt::format("lc rgb '{}' lw {} dt {}", kColours[colour], thin ? 1.0 : 1.6,
+                  kDashes[lines || thin ? 0 : i % kDashes.size()]);
   switch (panel.series[i].style) {
     case PlotStyle::lines:
+    case PlotStyle::thin_lines:
       return "with lines " + line;
+    case PlotStyle::mark:
+      return fmt::format("with points lc rgb '{}' pt 3 ps 1.6 lw 2", kColours[colour]);
+    case PlotStyle::band:
+      return fmt::format("with filledcurves fc rgb '{}' fs solid 0.3 noborder", kColours[colour]);
     case PlotStyle::dots:  // the same for all series: there are many
       return fmt::format("with points lc rgb '{}' pt 7 ps 0.15", kColours[colour]);
     case PlotStyle::points:
@@ -107,9 +76,12 @@ std::string style_text(const PlotPanel& panel, std::size_t i) {
 std::string data_block(const PlotPanel& panel, std::size_t number) {
   std::string text;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
+    const bool is_band = panel.series[i].style == PlotStyle::band;
     text += fmt::format("$data_{}_{} << EOD\n", number, i);
     for (const PlotPoint& point : panel.series[i].points) {
-      if (drawable(panel, point)) text += fmt::format("{:.9g} {:.9g}\n", point.x, point.y);
+      if (!drawable(panel, point)) continue;
+      text += fmt::format("{:.9g} {:.9g}", point.x, point.y);
+      text += is_band ? fmt::format(" {:.9g}\n", point.low) : "\n";
     }
     text += "EOD\n";
   }
@@ -144,141 +116,121 @@ std::string square_tics(const Range& x, const Range& y, int width, int height) {
   return tics('x', x, 45.0) + tics('y', y, 30.0);
 }
 
+// The power of ten that the numbers on a linear axis leave to its label; 0: none.
+int common_power(const Range& range, bool logarithmic) {
+  const double largest = std::max(std::fabs(range.low), std::fabs(range.high));
+  if (logarithmic || !(largest > 0.0) || (largest >= 1e-2 && largest < 1e5)) return 0;
+  return static_cast<int>(std::floor(std::log10(largest)));
+}
+
+struct PlotAxis {
+  char name = 'x';
+  std::string label;
+  bool logarithmic = false;
+  Range range;
+  int power = 0;  // of ten, that its numbers leave to the label
+
+  // A value of the data as it is drawn: "1" or "($1/1e-6)".
+  [[nodiscard]] std::string column(int number) const {
+    return power == 0 ? std::to_string(number) : fmt::format("(${}/1e{})", number, power);
+  }
+  [[nodiscard]] Range drawn() const {
+    const double unit = std::pow(10.0, power);
+    return {range.low / unit, range.high / unit};
+  }
+};
+
+std::string axis_text(const PlotAxis& axis) {
+  const double decades = axis.logarithmic ? std::log10(axis.range.high / axis.range.low) : 0.0;
+  const std::string label =
+      axis.power == 0 ? axis.label : fmt::format("{}  [{}]", axis.label, power_of_ten(axis.power));
+  return fmt::format(
+      "set {0}label {1} noenhanced offset 0,{7}\n{2} logscale {0}\nset format {0} '{3}'\nset "
+      "{0}tics {4}\n"
+      "set {0}range [{5:.9g}:{6:.9g}]\n",
+      axis.name, gnuplot_text(label), axis.logarithmic ? "set" : "unset",
+      axis.logarithmic ? "10^{%L}" : "%.6g", decades > 8.0 ? "100" : "autofreq", axis.drawn().low,
+      axis.drawn().high, axis.name == 'x' ? 0.4 : 0.0);
+}
+
+// What is below is shaded, where the data come near to it.
+std::string floor_text(const PlotPanel& panel, const Range& y) {
+  if (!panel.floor || !(*panel.floor > y.low && *panel.floor < y.high)) return "";
+  return fmt::format(
+      "set object rectangle from graph 0, graph 0 to graph 1, first {0:.9g} behind fc rgb "
+      "'#DDDDDD' fs solid 0.55 noborder\n"
+      "set label 'rounding' at graph 0.015, first {0:.9g} left offset 0,-0.75 font ',12' textcolor "
+      "rgb "
+      "'#555555'\n",
+      *panel.floor);
+}
+
+// Names beside short pieces of line or markers, in rows below the plot.
+std::string legend_text(const PlotPanel& panel) {
+  std::size_t longest = 0;
+  for (const PlotSeries& series : panel.series) longest = std::max(longest, series.label.size());
+  if (longest == 0) return "unset key\n";
+  // Gnuplot takes letters for wider than they are, the more the longer a name is.
+  const int length = static_cast<int>(longest);
+  const int width = length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
+  return fmt::format(
+      "set key below center horizontal Left reverse noenhanced samplen 1.8 width {} height 0.6 "
+      "font ',12'\n",
+      width);
+}
+
 std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {
-  Range x;
-  Range y;
+  PlotAxis x{.name = 'x', .label = panel.x_label, .logarithmic = panel.logarithmic_x, .range = {}};
+  PlotAxis y{.name = 'y', .label = panel.y_label, .logarithmic = panel.logarithmic_y, .range = {}};
   for (const PlotSeries& series : panel.series) {
     for (const PlotPoint& point : series.points) {
       if (!drawable(panel, point)) continue;
-      x = {std::min(x.low, point.x), std::max(x.high, point.x)};
-      y = {std::min(y.low, point.y), std::max(y.high, point.y)};
+      const double low = series.style == PlotStyle::band ? point.low : point.y;
+      x.range = {std::min(x.range.low, point.x), std::max(x.range.high, point.x)};
+      y.range = {std::min(y.range.low, low), std::max(y.range.high, point.y)};
     }
   }
-  x = padded(x, panel.logarithmic_x);
-  y = padded(y, panel.logarithmic_y);
-  const std::vector<EndLabel> labels = end_labels(panel, y, 18.0 / (0.78 * height));
-  std::size_t longest = 0;
-  for (const EndLabel& label : labels) longest = std::max(longest, label.text.size());
-
-  std::string text = fmt::format(
-      "\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-      gnuplot_text(panel.title), gnuplot_text(panel.x_label), gnuplot_text(panel.y_label));
-  const auto axis = [](char name, bool logarithmic, const Range& range) {
-    const double decades = std::log10(range.high / range.low);
-    return fmt::format(
-        "{0} logscale {1}\nset format {1} '{2}'\nset xtics autofreq\nset {1}tics {4}\nset {1}range "
-        "[{3}]\n",
-        logarithmic ? "set" : "unset", name, logarithmic ? "10^{%L}" : "%.6g",
-        fmt::format("{:.9g}:{:.9g}", range.low, range.high),
-        logarithmic && decades > 8.0 ? std::string("100") : std::string("autofreq"));
-  };
-  text += axis('x', panel.logarithmic_x, x) + axis('y', panel.logarithmic_y, y);
-  text += panel.square ? "set size ratio -1\n" + square_tics(x, y, width, height)
+  x.range = padded(x.range, panel.logarithmic_x);
+  constexpr double near = 100.0;  // the data come to the floor
+  constexpr double room = 30.0;   // below it
+  if (panel.floor && y.range.low < near * *panel.floor)
+    y.range.low = std::min(y.range.low, *panel.floor / room);
+  y.range = padded(y.range, panel.logarithmic_y);
+  x.power = common_power(x.range, x.logarithmic);
+  y.power = common_power(y.range, y.logarithmic);
+  if (panel.square) x.power = y.power = std::max(x.power, y.power);
+  std::string text =
+      fmt::format("\nset title {} noenhanced\nunset label\nunset object\nset xtics autofreq\n",
+                  gnuplot_text(panel.title));
+  text += axis_text(x) + axis_text(y);
+  text += panel.square ? "set size ratio -1\n" + square_tics(x.drawn(), y.drawn(), width, height)
                        : std::string("set size noratio\n");
-  text += fmt::format("set rmargin {}\nunset label\n",
-                      longest == 0 ? 3.0 : 5.0 + 0.78 * static_cast<double>(longest));
-  for (const EndLabel& label : labels) {
-    const std::string_view colour = kColours[colour_of(panel, label.series)];
-    text += fmt::format(
-        "set label {} at graph 1.03, graph {:.4f} noenhanced textcolor rgb '{}' point lc rgb '{}' "
-        "pt {} ps 0.7 offset 0.8,0\n",
-        gnuplot_text(label.text), label.height, colour, colour,
-        kMarkers[label.series % kMarkers.size()]);
-  }
+  text += floor_text(panel, y.range) + legend_text(panel);
   std::string plots;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     if (!has_points(panel, i)) continue;
-    plots += fmt::format("{}$data_{}_{} using 1:2 notitle {}", plots.empty() ? "" : ", \\\n     ",
-                         number, i, style_text(panel, i));
+    const PlotSeries& series = panel.series[i];
+    plots += fmt::format("{}$data_{}_{} using {}:{}{} {} {}", plots.empty() ? "" : ", \\\n     ",
+                         number, i, x.column(1), y.column(2),
+                         series.style == PlotStyle::band ? ":" + y.column(3) : "",
+                         series.label.empty() ? "notitle" : "title " + gnuplot_text(series.label),
+                         style_text(panel, i));
   }
   return text + (plots.empty() ? "plot NaN notitle\n" : "plot " + plots + "\n");
 }
 
-// The script with another output.
-std::string with_output(std::string script, const std::filesystem::path& output) {
-  const std::size_t begin = script.find("set output ");
-  if (begin == std::string::npos) internal_error("a script without an output");
-  const std::size_t end = script.find('\n', begin);
-  return script.replace(begin, end - begin, "set output " + gnuplot_path(output.string()));
-}
-
-// Under a temporary name until it is published.
-class Aside {
- public:
-  explicit Aside(const std::filesystem::path& picture)
-      : picture_(picture), path_(runtime::temporary_name(picture)) {}
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
-  ~Aside() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] bool publish() const {
-    std::error_code failed;
-    std::filesystem::rename(path_, picture_, failed);
-    return !failed;
-  }
-
- private:
-  std::filesystem::path picture_;
-  std::filesystem::path path_;
-};
-
-// Gnuplot does not mind a full disk.
-bool is_whole(const std::filesystem::path& picture) {
-  const std::string text = runtime::read_file(picture);
-  if (text.starts_with("\x89PNG")) return text.ends_with("IEND\xAE\x42\x60\x82");
-  return text.substr(0, text.find_last_not_of('\n') + 1).ends_with("</svg>");
-}
-
 }  // namespace
-
-std::string script_head(const std::string& output, int width, int height) {
-  const bool png = output.ends_with(".png");
-  const int factor = png ? 2 : 1;  // for sharp screens and print
-  return fmt::format(
-      "# Drawn by: gnuplot THIS_FILE\n"
-      "set terminal {} size {},{} enhanced font '{},{}' background rgb 'white'{}\n"
-      "set output {}\n"
-      "set border 3 lc rgb '#555555'\nset tics nomirror out scale 0.6\n"
-      "set grid lc rgb '#DDDDDD' lw 0.6 dt 1\nset samples 2\n",
-      png ? "pngcairo" : "svg", factor * width, factor * height,
-      png ? "Sans" : "Helvetica, Arial, sans-serif", png ? 11 : 14,
-      png ? " fontscale 1.7 linewidth 2 pointscale 2" : " dynamic", gnuplot_path(output));
-}
 
 std::string gnuplot_script(const Plot& plot, const std::string& output) {
   const std::size_t count = plot.panels.size();
-  std::string text = script_head(output, plot.width * static_cast<int>(count), plot.height);
+  const int across = plot.stacked ? 1 : static_cast<int>(count);
+  const int down = plot.stacked ? static_cast<int>(count) : 1;
+  std::string text = script_head(output, plot.width * across, plot.height * down);
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
-  text += fmt::format("set multiplot layout 1,{}\n", count);
+  text += fmt::format("set multiplot layout {},{}\n", down, across);
   for (std::size_t i = 0; i < count; ++i)
     text += panel_text(plot.panels[i], i, plot.width, plot.height);
   return text + "unset multiplot\nunset output\n";
-}
-
-std::string run_gnuplot(const std::string& script, const std::filesystem::path& picture,
-                        StopFlag stop) {
-  try {
-    const runtime::TemporaryDirectory directory = runtime::private_directory();
-    const Aside aside(picture);
-    const std::filesystem::path file = directory.path() / "script.gp";
-    runtime::atomic_write(file, with_output(script, aside.path()));
-    runtime::ProcessRequest request;
-    request.command = {"gnuplot", file.string()};
-    request.stop = stop;
-    const runtime::ProcessResult result = runtime::run_process(request);
-    if (!result.succeeded())
-      return fmt::format("gnuplot: {}\n{}", runtime::end_text(result, request),
-                         runtime::tail_of(result.output));
-    if (!is_whole(aside.path())) return "gnuplot did not write all of it: is the disk full?";
-    return aside.publish() ? "" : fmt::format("cannot write '{}'", picture.string());
-  } catch (const runtime::ToolError& error) {
-    const runtime::ToolFailure& failure = error.failure();
-    const bool was_called = !failure.command.empty();
-    return (was_called ? "gnuplot could not be started: " : "") + failure.message;
-  }
 }
 
 }  // namespace hamgen::app

@@ -4,161 +4,211 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "app/output/bench_picture.hpp"
+#include "app/output/math_symbol.hpp"
+#include "app/output/plain_number.hpp"
+#include "app/output/report_orbit.hpp"
 #include "app/studies/initial_data.hpp"
-#include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
 namespace {
 
-constexpr long kPortraitSteps = 5000;
-constexpr long kZoomSteps = 400;
-constexpr long kBins = 800;             // of the energy error over all the time
-constexpr std::size_t kBodies = 8;      // colours
+constexpr long kZoomSteps = 1000;
+constexpr long kBins = 400;             // of the energy error over all the time
 constexpr int kTrack = 40;              // times at which the state error is looked at
 constexpr double kTrackSeconds = 20.0;  // for the reference at these times
+constexpr double kHalfUnit = std::numeric_limits<double>::epsilon() / 2;
 
-runtime::InitialValues starting_values(const BenchMethod& method, const SceneValues& scene) {
+constexpr int kSmallWidth = 440;
+constexpr int kSmallHeight = 350;
+constexpr const char* kEnergyLabel = "(H − H(0)) / scale";
+
+runtime::InitialValues start_of_figure(const BenchMethod& method, const SceneValues& scene) {
   return initial_values(method.plugin, scene, *method.loaded.library);
 }
 
-// The states after each of the first steps, up to a failure, of all degrees of freedom.
-std::vector<std::vector<double>> orbit(const BenchMethod& method, const SceneValues& scene,
-                                       const runtime::InitialValues& start, long steps) {
-  std::vector<std::vector<double>> states;
-  runtime::Integrator integrator(method.loaded.library, start);
-  runtime::IntegrateOptions options;
-  options.steps = steps;
-  options.every = 1;
-  options.on_record = [&](const runtime::Record& record) {
-    states.push_back(
-        rounded(whole_state(method.plugin, scene, {record.state.begin(), record.state.end()})));
-  };
-  static_cast<void>(runtime::integrate(integrator, options));
-  return states;
-}
+// What is 0 has no scale: its errors are as they are.
+double unit_of(double scale) { return scale > 0.0 ? scale : 1.0; }
 
-PlotSeries path(const std::vector<std::vector<double>>& states, std::size_t x, std::size_t y,
-                int colour) {
-  PlotSeries series{.style = PlotStyle::lines, .colour = colour};
-  for (const std::vector<double>& state : states) series.points.push_back({state[x], state[y]});
-  return series;
-}
-
-// The bodies' paths where the first two coordinates are arrays of the same range, else the first
-// two coordinates.
-Figure orbit_picture(const Model& model, const std::vector<std::vector<double>>& states,
-                     const std::string& what) {
-  const auto& coordinates = model.coordinates;
-  const bool bodies = coordinates.size() > 1 && coordinates[0].range && coordinates[1].range &&
-                      coordinates[0].range->size() == coordinates[1].range->size();
-  const std::vector<std::string> names = element_names(coordinates);
-  const std::size_t count =
-      bodies ? static_cast<std::size_t>(coordinates[0].range->size()) : std::size_t{1};
-  const std::string x = bodies ? coordinates[0].name : names[0];
-  const std::string y = bodies ? coordinates[1].name : names[1];
-  const auto is_time = [&](const std::string& name) {
-    return std::ranges::any_of(model.coordinates, [&](const Variable& variable) {
-      return variable.is_time && variable.name == name;
-    });
-  };
-  PlotPanel plane{.x_label = x, .y_label = y, .square = !is_time(x) && !is_time(y)};
-  for (std::size_t i = 0; i < std::min(count, kBodies); ++i)
-    plane.series.push_back(path(states, i, bodies ? count + i : 1, static_cast<int>(i)));
-  const std::string shown = count > kBodies ? fmt::format(" of the first {} bodies", kBodies)
-                            : bodies        ? fmt::format(" of the {} bodies", count)
-                                            : "";
-  return {"orbit",
-          fmt::format("The orbit{} in {} and {}: {}.", shown, x, y, what),
-          {.panels = {plane}}};
-}
-
-// One degree of freedom: the scene's orbit among those that start nearer to the origin.  More: the
-// first two coordinates, and the first coordinate with its momentum.
-std::vector<Figure> portraits(const BenchMethod& method, const SceneValues& scene) {
-  const Model& model = method.plugin.model;
-  const std::vector<std::string> q = element_names(model.coordinates);
-  const std::vector<std::string> p = element_names(model.momenta);
-  const runtime::InitialValues start = starting_values(method, scene);
-  const long steps = std::min(*scene.steps, kPortraitSteps);
-  const auto states = orbit(method, scene, start, steps);
-  const std::size_t n = q.size();
-  const std::string what =
-      fmt::format("the first {} steps of h = {}", steps, runtime::number_text(to_double(*scene.h)));
-  PlotPanel phase{.x_label = q.front(), .y_label = p.front()};
-  std::string caption = fmt::format("Phase portrait: {}.", what);
-  if (n == 1) {
-    for (const double factor : {0.25, 0.5, 0.75}) {
-      runtime::InitialValues smaller = start;
-      for (runtime::Wide& value : smaller.state) value = {.hi = factor * value.hi};
-      phase.series.push_back(path(orbit(method, scene, smaller, steps), 0, 1, 6));
-    }
-    caption += " In light blue orbits from 1/4, 1/2 and 3/4 of the initial state.";
+// The least and the greatest of a band over a part of its length around each point: what the
+// oscillations fill, without them.
+PlotSeries envelope(const PlotSeries& band) {
+  constexpr std::ptrdiff_t around = 8;
+  PlotSeries result = band;
+  const auto size = static_cast<std::ptrdiff_t>(band.points.size());
+  for (std::ptrdiff_t i = 0; i < size; ++i) {
+    const auto begin = band.points.begin() + std::max<std::ptrdiff_t>(0, i - around);
+    const auto end = band.points.begin() + std::min(size, i + around + 1);
+    PlotPoint& point = result.points[static_cast<std::size_t>(i)];
+    point.y = std::ranges::max_element(begin, end, {}, &PlotPoint::y)->y;
+    point.low = std::ranges::min_element(begin, end, {}, &PlotPoint::low)->low;
   }
-  phase.series.push_back(path(states, 0, n, 0));
-  std::vector<Figure> figures = {{"portrait", caption, {.panels = {phase}}}};
-  if (n > 1) figures.insert(figures.begin(), orbit_picture(model, states, what));
-  return figures;
+  return result;
 }
 
-// Least and greatest error of each bin, in turn: a band where the energy oscillates.
-Figure energy_over_time(const BenchMethod& method, const SceneValues& scene,
-                        OrbitSummary& summary) {
-  runtime::Integrator integrator(method.loaded.library, starting_values(method, scene));
-  const runtime::Wide initial = integrator.energy();
-  const double h = to_double(*scene.h);
-  const long bin = std::max(1L, *scene.steps / kBins);
-  PlotSeries series{.style = PlotStyle::lines};
-  runtime::EnergyStatistics energy{
-      .initial = initial, .min = initial, .max = initial, .last = initial};
-  runtime::RunSummary& run = summary.run;
-  while (run.steps_done < *scene.steps && run.status == runtime::Status::done &&
-         !is_stopped(method.stop)) {
-    const runtime::Report report =
-        integrator.advance(std::min(bin, *scene.steps - static_cast<long>(run.steps_done)), true);
+// A conserved quantity, and its largest error so far after each bin.
+struct Watched {
+  std::size_t place = 0;  // among the plugin's invariants
+  double initial = 0.0;
+  double unit = 1.0;
+  PlotSeries series;
+};
+
+std::vector<Watched> watched_invariants(const BenchMethod& method,
+                                        const runtime::Integrator& integrator) {
+  constexpr double zero = 1e-6;  // below, an error relative to the value says nothing
+  constexpr std::size_t most = 6;
+  std::vector<Watched> all;
+  const std::vector<runtime::Wide> values = integrator.invariants();
+  for (std::size_t i = 0; i < values.size() && all.size() < most; ++i) {
+    const std::string& name = method.plugin.invariant_names[i];
+    const bool is_conserved =
+        std::ranges::find(method.plugin.model.invariants, name, &Invariant::name) !=
+        method.plugin.model.invariants.end();
+    if (!is_conserved || !std::isfinite(values[i].hi)) continue;
+    const double size = std::fabs(values[i].hi);
+    all.push_back({.place = i,
+                   .initial = values[i].hi,
+                   .unit = size > zero ? size : 1.0,
+                   .series = {.label = plain_symbol(name) + (size > zero ? "" : " (absolute)"),
+                              .points = {},
+                              .style = PlotStyle::lines}});
+  }
+  return all;
+}
+
+void add_error(PlotSeries& series, double time, double error) {
+  const double before = series.points.empty() ? 0.0 : series.points.back().y;
+  series.points.push_back({time, std::max(before, error)});
+}
+
+// All the scene's steps, in bins.
+class EnergyWatch {
+ public:
+  explicit EnergyWatch(const ReportSubject& subject)
+      : method_(*subject.method),
+        scene_(*subject.scene),
+        integrator_(method_.loaded.library, start_of_figure(method_, scene_)),
+        initial_(integrator_.energy()),
+        invariants_(watched_invariants(method_, integrator_)),
+        bin_(std::max(1L, *scene_.steps / kBins)) {
+    summary_.run.energy = {.initial = initial_, .min = initial_, .max = initial_, .last = initial_};
+    summary_.run.energy_terms = integrator_.judge().energy_terms();
+    unit_ = unit_of(summary_.run.energy_terms);
+    band_.points.push_back({0.0, 0.0, 0.0});
+    while (advance()) {
+    }
+    summary_.scalar_digits = method_.loaded.library->plugin().scalar_digits;
+    const runtime::RunSummary& run = summary_.run;
+    summary_.outcome =
+        run.status == runtime::Status::done
+            ? "done"
+            : fmt::format("{} in step {}", runtime::to_text(run.status), run.steps_done + 1);
+  }
+
+  [[nodiscard]] const OrbitSummary& summary() const { return summary_; }
+  [[nodiscard]] Figure energy() const {
+    PlotSeries upper{.label = "", .points = {}, .style = PlotStyle::lines, .colour = 0};
+    PlotSeries lower = upper;
+    const PlotSeries band = bin_ > 1 ? envelope(band_) : band_;
+    for (const PlotPoint& point : band.points) {
+      upper.points.push_back({point.x, point.y});
+      lower.points.push_back({point.x, point.low});
+    }
+    const char* const what = bin_ > 1 ? "between its least and its greatest" : "after each step";
+    return {.name = "energy",
+            .caption = fmt::format("Energy error over all {} steps, {}, of the scale {}.",
+                                   summary_.run.steps_done, what,
+                                   plain_number(summary_.run.energy_terms, 3)),
+            .plot = {.panels = {{.title = "",
+                                 .x_label = "t",
+                                 .y_label = kEnergyLabel,
+                                 .series = bin_ > 1 ? std::vector{band, upper, lower}
+                                                    : std::vector{upper}}},
+                     .width = kSmallWidth,
+                     .height = kSmallHeight}};
+  }
+  // Empty where the model names no invariants.
+  [[nodiscard]] std::vector<Figure> conserved() const {
+    if (invariants_.empty()) return {};
+    PlotPanel panel{.title = "",
+                    .x_label = "t",
+                    .y_label = "largest relative error so far",
+                    .logarithmic_x = true,
+                    .logarithmic_y = true,
+                    .series = {largest_},
+                    .floor = kHalfUnit};
+    for (const Watched& each : invariants_) panel.series.push_back(each.series);
+    return {{.name = "conserved",
+             .caption = "What is conserved: the largest error so far of H, of its scale, and of "
+                        "the invariants, of their values at the start.",
+             .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight}}};
+  }
+
+ private:
+  bool advance() {
+    runtime::RunSummary& run = summary_.run;
+    const long left = *scene_.steps - static_cast<long>(run.steps_done);
+    if (left == 0 || run.status != runtime::Status::done || is_stopped(method_.stop)) return false;
+    const runtime::Report report = integrator_.advance(std::min(bin_, left), true);
     run.status = report.status;
     run.steps_done += report.steps_done;
     run.iterations += report.iterations;
-    if (!report.energy) continue;
-    energy.min = std::min(energy.min, report.energy->min);
-    energy.max = std::max(energy.max, report.energy->max);
-    energy.last = report.energy->last;
-    const double time = h * static_cast<double>(run.steps_done);
-    series.points.push_back({time, difference(report.energy->min, initial)});
-    series.points.push_back({time, difference(report.energy->max, initial)});
+    const double time = to_double(*scene_.h) * static_cast<double>(run.steps_done);
+    if (!report.energy) return true;
+    run.energy->min = std::min(run.energy->min, report.energy->min);
+    run.energy->max = std::max(run.energy->max, report.energy->max);
+    run.energy->last = report.energy->last;
+    const double low = difference(report.energy->min, initial_) / unit_;
+    const double high = difference(report.energy->max, initial_) / unit_;
+    band_.points.push_back({time, high, low});
+    add_error(largest_, time, std::max(std::fabs(low), std::fabs(high)));
+    if (invariants_.empty()) return true;
+    const std::vector<runtime::Wide> values = integrator_.invariants();
+    for (Watched& each : invariants_)
+      add_error(each.series, time, std::fabs(values[each.place].hi - each.initial) / each.unit);
+    return true;
   }
-  run.energy = energy;
-  summary.scalar_digits = method.loaded.library->plugin().scalar_digits;
-  summary.outcome =
-      run.status == runtime::Status::done
-          ? "done"
-          : fmt::format("{} in step {}", runtime::to_text(run.status), run.steps_done + 1);
-  return {"energy",
-          fmt::format("Energy error over all {} steps: least and greatest of each {}.",
-                      run.steps_done, bin),
-          {.panels = {{.x_label = "t", .y_label = "H - H(0)", .series = {series}}}}};
-}
 
-Figure energy_at_first(const BenchMethod& method, const SceneValues& scene) {
-  runtime::Integrator integrator(method.loaded.library, starting_values(method, scene));
+  const BenchMethod& method_;
+  const SceneValues& scene_;
+  runtime::Integrator integrator_;
+  runtime::Wide initial_;
+  std::vector<Watched> invariants_;
+  long bin_;
+  double unit_ = 1.0;
+  OrbitSummary summary_;
+  PlotSeries band_ = {.label = "", .points = {}, .style = PlotStyle::band, .colour = 0};
+  PlotSeries largest_ = {.label = "H", .points = {}, .style = PlotStyle::lines};
+};
+
+Figure energy_at_first(const ReportSubject& subject, double scale) {
+  const BenchMethod& method = *subject.method;
+  runtime::Integrator integrator(method.loaded.library, start_of_figure(method, *subject.scene));
   runtime::IntegrateOptions options;
-  options.steps = std::min(*scene.steps, kZoomSteps);
+  options.steps = std::min(*subject.scene->steps, kZoomSteps);
   options.every = 1;
-  PlotSeries series{.style = PlotStyle::lines};
+  PlotSeries series{.label = "", .points = {}, .style = PlotStyle::lines};
   const runtime::Wide initial = integrator.energy();
   options.on_record = [&](const runtime::Record& record) {
-    series.points.push_back({record.time, difference(record.energy, initial)});
+    series.points.push_back({record.time, difference(record.energy, initial) / unit_of(scale)});
   };
   static_cast<void>(runtime::integrate(integrator, options));
-  return {"energy_zoom",
-          fmt::format("The same, step by step, over the first {} steps.", options.steps),
-          {.panels = {{.x_label = "t", .y_label = "H - H(0)", .series = {series}}}}};
+  return {
+      .name = "energy_zoom",
+      .caption = fmt::format("The same, step by step, over the first {} steps.", options.steps),
+      .plot = {
+          .panels = {{.title = "", .x_label = "t", .y_label = kEnergyLabel, .series = {series}}},
+          .width = kSmallWidth,
+          .height = kSmallHeight}};
 }
 
 PlotSeries error_over_time(const BenchMethod& method, const SceneValues& scene, long chunk,
                            const std::vector<std::vector<runtime::Wide>>& track) {
-  PlotSeries series{.label = method.spec, .style = PlotStyle::lines};
-  runtime::Integrator integrator(method.loaded.library, starting_values(method, scene));
+  PlotSeries series{.label = method.spec, .points = {}, .style = PlotStyle::lines};
+  runtime::Integrator integrator(method.loaded.library, start_of_figure(method, scene));
   double time = 0.0;
   for (const std::vector<runtime::Wide>& exact : track) {
     if (integrator.advance(chunk, false).status != runtime::Status::done) break;
@@ -172,7 +222,7 @@ PlotSeries error_over_time(const BenchMethod& method, const SceneValues& scene, 
 }
 
 Figure state_over_time(const SceneValues& scene, const SourceText& source, const Bench& bench,
-                       const ReferenceRequest& request) {
+                       const ReferenceRequest& request, const std::optional<double>& floor) {
   const long steps = std::min(*scene.steps, std::lround(bench.time / to_double(*scene.h)));
   const long chunk = std::max(1L, steps / kTrack);
   const int count = static_cast<int>(std::min<long>(kTrack, steps / chunk));
@@ -182,39 +232,70 @@ Figure state_over_time(const SceneValues& scene, const SourceText& source, const
   const auto track = reference_track(rule, initial_values(rule.plugin, scene, *rule.loaded.library),
                                      times, kTrackSeconds, request.stop)
                          .states;
-  PlotPanel panel{.x_label = "t", .y_label = "|z - z*|", .logarithmic_y = true};
+  PlotPanel panel{.title = "",
+                  .x_label = "t",
+                  .y_label = "|z − z*|",
+                  .logarithmic_y = true,
+                  .series = {},
+                  .floor = floor};
   for (const BenchMethod& method : bench.methods) {
     if (method.refusal.empty())
       panel.series.push_back(error_over_time(method, scene, chunk, track));
   }
-  return {"state",
-          fmt::format("Distance from the reference solution over time, every method with h = {}.",
-                      runtime::number_text(to_double(*scene.h))),
-          {.panels = {panel}, .width = 600}};
+  return {.name = "state",
+          .caption =
+              fmt::format("Distance from the reference solution over time, every method with h = "
+                          "{}.",
+                          plain_number(to_double(*scene.h), 6)),
+          .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight + 60}};
+}
+
+// The method of the page at the scene's step among the others.
+void add_subject(const ReportSubject& subject, Observed observed, PlotPanel& panel) {
+  const std::optional<double> error = error_of(subject.row, observed);
+  if (!error || subject.row.samples.empty()) return;
+  panel.series.push_back({.label = "this page's step",
+                          .points = {{time_of(subject.row).seconds_per_time, *error}},
+                          .style = PlotStyle::mark,
+                          .colour = 4});
+}
+
+Figure errors_against_time(const ReportSubject& subject, const Bench& bench, Observed observed,
+                           bool large) {
+  PlotPanel panel = bench_panel(bench, observed);
+  add_subject(subject, observed, panel);
+  const bool is_energy = observed == Observed::energy;
+  return {.name = is_energy ? "bench_energy" : "bench_state",
+          .caption = is_energy ? "Energy error against run time: one point a step size."
+                               : "State error at the end against run time: one point a step size; "
+                                 "further left and further down is better.",
+          .plot = {.panels = {std::move(panel)},
+                   .width = large ? 1000 : kSmallWidth,
+                   .height = large ? 560 : kSmallHeight + 60},
+          .large = large};
 }
 
 }  // namespace
 
-ReportFigures report_figures(const BenchMethod& method, const SceneValues& scene,
-                             const SourceText& source, const Bench& bench,
-                             const ReferenceRequest& request) {
+ReportFigures report_figures(const ReportSubject& subject, const SourceText& source,
+                             const Bench& bench, const ReferenceRequest& request) {
+  const bool has_reference = !bench.reference.state.empty();
   ReportFigures result;
-  result.figures = portraits(method, scene);
-  result.figures.push_back(energy_over_time(method, scene, result.orbit));
-  result.figures.push_back(energy_at_first(method, scene));
-  if (!bench.reference.state.empty())
-    result.figures.push_back(state_over_time(scene, source, bench, request));
-  const Plot both = picture_of(bench);
-  const std::vector<std::pair<std::string, std::string>> names = {
-      {"bench_energy", "Energy error against run time: one point a step size."},
-      {"bench_state", "State error at the end against run time."}};
-  for (std::size_t i = 0; i < both.panels.size(); ++i) {
-    PlotPanel panel = both.panels[i];
-    panel.title.clear();
-    if (i == 1 && bench.reference.state.empty()) continue;
-    result.figures.push_back(
-        {names[i].first, names[i].second, {.panels = {std::move(panel)}, .width = 600}});
-  }
+  std::vector<Figure>& figures = result.figures;
+  figures.push_back(errors_against_time(subject, bench,
+                                        has_reference ? Observed::state : Observed::energy, true));
+  const std::optional<double> floor = figures.front().plot.panels.front().floor;
+  std::ranges::move(orbit_figures(*subject.method, *subject.scene), std::back_inserter(figures));
+  const EnergyWatch watch(subject);
+  result.orbit = watch.summary();
+  figures.push_back(watch.energy());
+  figures.push_back(energy_at_first(subject, result.orbit.run.energy_terms));
+  std::ranges::move(watch.conserved(), std::back_inserter(figures));
+  if (!has_reference) return result;
+  figures.push_back(state_over_time(*subject.scene, source, bench, request, floor));
+  // The last one is large where it would stand alone in its row.
+  const auto small = std::ranges::count(figures, false, &Figure::large);
+  figures.push_back(errors_against_time(subject, bench, Observed::energy, small % 2 == 0));
   return result;
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/output/bench_output.hpp"
 #include "app/output/plot.hpp"
+#include "app/studies/bench.hpp"
 #include "app/studies/reference.hpp"
 #include "generator/language/scene.hpp"
 #include "runtime/trajectory.hpp"
@@ -16,6 +16,7 @@ struct Figure {
   std::string name;     // of its files: "energy" for energy.svg, energy.png, energy.gp
   std::string caption;  // a sentence or two
   Plot plot;
+  bool large = false;  // as wide as the page, and drawn again for a narrow one
 };
 
 struct OrbitSummary {
@@ -26,14 +27,20 @@ struct OrbitSummary {
 
 struct ReportFigures {
   OrbitSummary orbit;
-  std::vector<Figure> figures;
+  std::vector<Figure> figures;  // the errors against run time first
 };
 
-// Integrates the scene with the method and draws the phase portrait, the energy error over all the
-// time and over its first steps, the state error of the bench's methods over its time, and the two
-// pictures of the bench.
-[[nodiscard]] ReportFigures report_figures(const BenchMethod& method, const SceneValues& scene,
-                                           const SourceText& source, const Bench& bench,
-                                           const ReferenceRequest& request);
+// What the page is about: a method, and its step on the bench.
+struct ReportSubject {
+  const BenchMethod* method = nullptr;
+  const SceneValues* scene = nullptr;
+  BenchRow row;  // of the scene's h, over the bench's time
+};
+
+// Integrates the scene with the method and draws the bench, the orbit in all planes of its space,
+// the energy error over all the time and over its first steps, what else is conserved, and the
+// state error of the bench's methods over its time.
+[[nodiscard]] ReportFigures report_figures(const ReportSubject& subject, const SourceText& source,
+                                           const Bench& bench, const ReferenceRequest& request);
 
 }  // namespace hamgen::app

@@ -5,55 +5,80 @@
 
 namespace hamgen::app {
 
-// Pictures stand on white paper, in the dark too: their colours were chosen for it.
+// Pictures have colours of their own for dark paper; see with_dark_form.
 inline constexpr std::string_view kReportStyle = R"(
-:root { color-scheme: light dark; --ink: #1b1b1b; --soft: #5c5c5c; --paper: #fdfdfb;
-  --line: #d9d8d2; --tint: #f3f2ec; --good: #1a6b3c; --bad: #a8321b; --open: #7a5b00; --shade: #0005; }
+:root { color-scheme: light dark; --ink: #1d1d1f; --soft: #5f5e5a; --paper: #fff; --line: #e2e0da;
+  --tint: #f6f5f1; --accent: #0072b2; --good: #1a6b3c; --bad: #a8321b; --open: #8a5a00;
+  --plain: #4a5568; --shade: #0004; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e6e4df; --soft: #a5a29a; --paper: #17181a;
-  --line: #3a3b3e; --tint: #222427; --good: #74c796; --bad: #f0907a; --open: #d9b95b; --shade: #fff5; } }
+  --line: #35373b; --tint: #202225; --accent: #5ab2ec; --good: #74c796; --bad: #f0907a;
+  --open: #e0b95c; --plain: #9fb0c8; --shade: #fff4; } }
 * { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink); line-height: 1.5;
-  font: 17px/1.5 Charter, 'Bitstream Charter', 'Source Serif Pro', Cambria, Georgia, serif; }
-main { max-width: 68rem; margin: 0 auto; padding: 2.5rem 1.25rem 4rem; }
-h1 { font-size: 2.1rem; font-weight: 600; margin: 0 0 .25rem; line-height: 1.15; }
-h2 { font-size: 1.25rem; font-weight: 600; margin: 2.75rem 0 .75rem; padding-top: .6rem;
-  border-top: 1px solid var(--line); }
-p, ul, dl { max-width: 42rem; }
-.lead, figcaption, .note { color: var(--soft); }
-.note, figcaption { font-size: .88rem; }
-.wide, .picture { overflow-x: auto; max-width: 100%;
+html { -webkit-text-size-adjust: 100%; }
+body { margin: 0; background: var(--paper); color: var(--ink);
+  font: 17px/1.55 'Iowan Old Style', 'Palatino Linotype', Palatino, 'TeX Gyre Pagella', P052,
+  'URW Palladio L', 'Book Antiqua', Georgia, serif; }
+main { max-width: 66rem; margin: 0 auto; padding: 3rem 1.25rem 4rem; }
+h1 { font-size: 2.3rem; font-weight: 600; margin: 0; line-height: 1.15; letter-spacing: -.01em;
+  overflow-wrap: anywhere; }
+h2 { font-size: 1.3rem; font-weight: 600; margin: 3.2rem 0 .8rem; line-height: 1.25; }
+p, ul { max-width: 44rem; margin: .7rem 0; }
+.lead, .origin, figcaption, .note { color: var(--soft); }
+.origin { margin: .2rem 0 0; font-size: .88rem; }
+.note, figcaption { font-size: .88rem; line-height: 1.45; }
+.answers { margin: 1.8rem 0 0; padding: .3rem 1.2rem; background: var(--tint);
+  border-left: 3px solid var(--accent); }
+.answers div { display: grid; grid-template-columns: 10.5rem 1fr; gap: .1rem 1rem; padding: .5rem 0; }
+.answers div + div { border-top: 1px solid var(--line); }
+dt { color: var(--soft); }
+dd { margin: 0; overflow-wrap: anywhere; min-width: 0; }
+.answers strong { font-weight: 600; }
+.wide { overflow-x: auto; max-width: 100%;
   background: linear-gradient(to right, var(--paper) 30%, transparent) left / 3rem 100%,
     linear-gradient(to left, var(--paper) 30%, transparent) right / 3rem 100%,
-    linear-gradient(to right, var(--shade), transparent) left / 1rem 100%,
-    linear-gradient(to left, var(--shade), transparent) right / 1rem 100%;
+    linear-gradient(to right, var(--shade), transparent) left / .6rem 100%,
+    linear-gradient(to left, var(--shade), transparent) right / .6rem 100%;
   background-repeat: no-repeat; background-attachment: local, local, scroll, scroll; }
-.more { display: none; }
-.formula { padding: .35rem 0; }
-math { font-size: 1.12em; }
-table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .25rem .9rem .25rem 0; text-align: left; vertical-align: top; }
-th { font-weight: 600; border-bottom: 1px solid var(--ink); white-space: nowrap; }
+math { font-family: Formula, 'TeX Gyre Pagella Math', 'Latin Modern Math', 'Cambria Math', math;
+  font-size: 1.04em; }
+.formula { overflow-x: auto; overflow-y: hidden; padding: .4rem 0 .4rem 1.5rem; text-indent: -1.5rem;
+  line-height: 2.1; }
+.formula math { font-size: 1.12em; text-indent: 0; }
+.value { white-space: nowrap; }
+table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums;
+  margin: .6rem 0; }
+th, td { padding: .28rem 1.1rem .28rem 0; text-align: left; vertical-align: top; }
+th { font-weight: 600; border-bottom: 1px solid var(--soft); white-space: nowrap; }
 td { border-bottom: 1px solid var(--line); }
 td.number, th.number { text-align: right; white-space: nowrap; }
 td.name { white-space: nowrap; }
+td.detail { color: var(--soft); min-width: 16rem; }
 tr.front td { font-weight: 600; }
+.verdict { font-size: .84em; white-space: nowrap; font-weight: 600; }
 .proved { color: var(--good); } .refuted { color: var(--bad); } .open { color: var(--open); }
-.proved, .refuted, .open { white-space: nowrap; font-weight: 600; }
-.figures { display: grid; gap: 1.75rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 29rem), 1fr)); }
-figure { margin: 0; }
-figure img { display: block; width: 100%; height: auto; background: #fff; border: 1px solid var(--line);
-  border-radius: 4px; padding: .25rem; }
-figcaption { margin-top: .4rem; }
-pre { background: var(--tint); border: 1px solid var(--line); border-radius: 4px; padding: .8rem 1rem;
-  overflow-x: auto; font: .78rem/1.45 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
-code { font-family: 'DejaVu Sans Mono', Menlo, Consolas, monospace; font-size: .85em;
+.tested { color: var(--accent); } .verdict.measured { color: var(--plain); font-weight: 400; }
+.figures { display: grid; gap: 2rem 2.2rem;
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 21rem), 1fr)); }
+.figures .large { grid-column: 1 / -1; }
+figure { margin: 1rem 0 0; min-width: 0; }
+.figures figure { margin: 0; }
+figure img { display: block; width: 100%; height: auto; }
+figcaption { margin-top: .5rem; max-width: 44rem; }
+details { margin: .8rem 0; }
+summary { cursor: pointer; color: var(--accent); width: fit-content; }
+summary math { color: inherit; }
+pre { background: var(--tint); padding: .9rem 1.1rem; overflow-x: auto; margin: .6rem 0;
+  font: .78rem/1.5 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
+code { font-family: 'DejaVu Sans Mono', Menlo, Consolas, monospace; font-size: .82em;
   overflow-wrap: anywhere; }
-summary { cursor: pointer; }
-/* Below this a picture would have letters of less than 11 pixels: it is scrolled instead, and so is a
-   table, both with a line that says so. */
-@media (max-width: 40rem) { .picture img { width: 36rem; max-width: none; }
-  .more { display: block; color: var(--soft); font-size: .8rem; margin: .2rem 0; } }
-@media print { .more { display: none; } body { font-size: 11pt; } main { padding: 0; max-width: none; } figure { break-inside: avoid; } }
+sup { line-height: 0; font-size: .72em; }
+footer { font-size: .88rem; color: var(--soft); }
+footer h2 { font-size: 1.05rem; }
+footer dl { margin: 0; } footer dl div { display: grid; grid-template-columns: 6rem 1fr; gap: 1rem; }
+@media (max-width: 44rem) { main { padding-top: 1.8rem; } h1 { font-size: 1.9rem; }
+  .answers div { grid-template-columns: 1fr; } }
+@media print { body { font-size: 10.5pt; } main { padding: 0; max-width: none; }
+  figure { break-inside: avoid; } h2 { break-after: avoid; } }
 )";
 
 }  // namespace hamgen::app

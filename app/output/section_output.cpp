@@ -6,6 +6,8 @@
 #include <map>
 
 #include "app/output/json_document.hpp"
+#include "app/output/kept_text.hpp"
+#include "app/output/math_symbol.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -18,12 +20,19 @@ long points_of(const Section& section) {
 }
 
 // Of the orbits that came to their end.
-double largest_error_of(const Section& section) {
+// Of the orbits that got through, relative to the scale of each; absolute where one has none.
+std::string energy_kept(const Section& section) {
   double largest = 0.0;
+  double scale = 0.0;
+  double relative = 0.0;
   for (const SectionOrbit& orbit : section.orbits) {
-    if (orbit.status == runtime::Status::done) largest = std::max(largest, orbit.largest_error);
+    if (orbit.status != runtime::Status::done) continue;
+    largest = std::max(largest, orbit.largest_error);
+    scale = std::max(scale, orbit.energy_scale);
+    if (orbit.energy_scale > 0.0)
+      relative = std::max(relative, orbit.largest_error / orbit.energy_scale);
   }
-  return largest;
+  return kept_text(relative > 0.0 ? relative * scale : largest, scale);
 }
 
 // An expression as the name of a column.
@@ -42,10 +51,10 @@ std::string of_scene(const SectionTitle& title) {
 
 std::string section_summary(const Section& section, const SectionTitle& title) {
   std::string text = fmt::format(
-      "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}, kept to {:.1e}\n"
+      "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}, kept to {}\n"
       "  orbits     {}, {} crossings\n",
-      of_scene(title), title.surface, title.scheme, title.h, title.energy,
-      largest_error_of(section), section.orbits.size(), points_of(section));
+      of_scene(title), title.surface, title.scheme, title.h, title.energy, energy_kept(section),
+      section.orbits.size(), points_of(section));
   if (section.unreachable > 0)
     text += fmt::format("  starts     no momentum has this energy at {} of {} that were tried\n",
                         section.unreachable, section.tried);
@@ -96,6 +105,7 @@ std::string section_json(const Section& section, const SectionTitle& title) {
                       {"status", runtime::to_text(orbit.status)},
                       {"steps", orbit.steps},
                       {"max_energy_error", orbit.largest_error},
+                      {"energy_scale", orbit.energy_scale},
                       {"points", points}});
   }
   return json_document({{"model", title.model},
@@ -113,8 +123,8 @@ std::string section_json(const Section& section, const SectionTitle& title) {
 Plot section_plot(const Section& section, const SectionTitle& title) {
   PlotPanel panel{
       .title = fmt::format("{}: {}, H = {:.6g}", title.model, title.surface, title.energy),
-      .x_label = title.first,
-      .y_label = title.second,
+      .x_label = plain_symbol(title.first),
+      .y_label = plain_symbol(title.second),
       .series = {}};
   for (std::size_t i = 0; i < section.orbits.size(); ++i) {
     PlotSeries series{.label = "", .points = {}, .style = PlotStyle::dots};

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/output/gnuplot.hpp"
+#include "app/output/math_symbol.hpp"
 #include "app/output/stress_output.hpp"
 #include "generator/base/quoted_text.hpp"
 
@@ -35,11 +37,14 @@ constexpr std::array<Shade, runtime::kStatuses> kFailures = {{{"", ""},
                                                               {"#AAAAAA", "out of time"},
                                                               {"#333333", "undefined", 2}}};
 
+// The state error of an orbit that is somewhere else on its torus: how large it is says nothing.
+constexpr Shade kLost = {"#4B3B78", "> 0.1 scales: phase lost"};
+constexpr double kLostError = 0.1;
 // Hatched: neither the palest error nor a failure, in grey print too.
 constexpr Shade kUnknown = {"#555555", "not known", 6};
-constexpr std::size_t kAllShades = kShades.size() + kFailures.size();
+constexpr std::size_t kAllShades = kShades.size() + kFailures.size() + 1;
 
-// Places in the list of shades, failures, unknown.
+// Places in the list of shades, failures, phase lost, unknown.
 std::size_t shade_of_error(double error, double scale) {
   const double relative = error / std::max(scale, 1e-300);
   for (std::size_t i = 0; i + 1 < kShades.size(); ++i) {
@@ -56,11 +61,14 @@ std::size_t energy_shade(const StressCell& cell) {
 
 std::size_t state_shade(const StressCell& cell) {
   if (cell.outcome != runtime::Status::done) return energy_shade(cell);
-  return cell.state_error ? shade_of_error(*cell.state_error, cell.state_scale) : kAllShades - 1;
+  if (!cell.state_error) return kAllShades - 1;
+  if (*cell.state_error > kLostError * std::max(cell.state_scale, 1e-300)) return kAllShades - 2;
+  return shade_of_error(*cell.state_error, cell.state_scale);
 }
 
 const Shade& shade(std::size_t i) {
   if (i < kShades.size()) return kShades[i];
+  if (i + 2 == kAllShades) return kLost;
   return i + 1 < kAllShades ? kFailures[i - kShades.size() + 1] : kUnknown;
 }
 
@@ -98,7 +106,7 @@ std::string range_text(char name, const StressAxis& axis, const std::vector<doub
 
 std::string axis_label(const StressAxis& axis) {
   if (axis.label == "h") return "h, in steps of the scene";
-  return axis.label == "scale" ? "scale of the initial state" : axis.label;
+  return axis.label == "scale" ? "scale of the initial state" : plain_symbol(axis.label);
 }
 
 // Which shades there are in any of the panels.
@@ -155,17 +163,18 @@ std::string stress_script(const StressMap& map, const std::string& output) {
   const bool png = output.ends_with(".png");
   const int width = panels.size() > 1 ? 940 : 620;
   std::string text = fmt::format(
-      "# Drawn by: gnuplot THIS_FILE\nset terminal {}\nset output {}\n"
+      "# Drawn by: gnuplot THIS_FILE\nset terminal {}\n{}"
       "set multiplot title {} noenhanced\n"
-      "set xlabel {} noenhanced\nset tics out nomirror\nset border 3\n",
+      "set encoding utf8\nset xlabel {} noenhanced\nset tics out nomirror\nset border 3\n",
       png ? fmt::format("pngcairo size {},600 font 'Sans,11' fontscale 1.3 background rgb 'white'",
                         width * 3 / 2)
           : fmt::format("svg size {},400 dynamic enhanced font 'Helvetica, Arial, sans-serif,12' "
                         "background rgb 'white'",
                         width),
-      gnuplot_path(output),
+      output_line(output),
       gnuplot_text(fmt::format("{}{}: {}, {} steps a cell", map.model,
-                               map.scene.empty() ? "" : ", " + map.scene, map.method, map.steps)),
+                               map.scene.empty() ? "" : ", " + map.scene, greek_text(map.method),
+                               map.steps)),
       gnuplot_text(axis_label(map.axes[0])));
   text += range_text('x', map.axes[0], borders(map.axes[0])) + range_text('y', down, borders(down));
   if (map.axes.size() == 1) text += "unset ytics\n";

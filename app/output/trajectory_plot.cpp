@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/output/math_symbol.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 
@@ -112,8 +113,8 @@ class TrajectoryPlotter {
 
   void across(const std::string& x, const std::string& y, bool square) {
     plot_.panels.push_back({.title = title(y + " over " + x),
-                            .x_label = x,
-                            .y_label = y,
+                            .x_label = plain_symbol(x),
+                            .y_label = plain_symbol(y),
                             .square = square,
                             .series = {series("", values_of(x), values_of(y), 0)}});
   }
@@ -125,13 +126,14 @@ class TrajectoryPlotter {
     const bool one = names.size() == 1;
     PlotPanel panel{.title = title(what.empty() ? names.front() : what),
                     .x_label = time,
-                    .y_label = one && names.front() != kEnergyErrorColumn ? names.front()
-                               : one                                      ? "H - H(0)"
-                                                                          : what,
+                    .y_label = one && names.front() != kEnergyErrorColumn
+                                   ? plain_symbol(names.front())
+                               : one ? "H - H(0)"
+                                     : what,
                     .series = {}};
     for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
-      panel.series.push_back(
-          series(one ? "" : names[i], times, values_of(names[i]), static_cast<int>(i)));
+      panel.series.push_back(series(one ? "" : plain_symbol(names[i]), times, values_of(names[i]),
+                                    static_cast<int>(i)));
     plot_.panels.push_back(std::move(panel));
   }
 

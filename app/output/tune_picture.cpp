@@ -6,11 +6,15 @@
 #include <cmath>
 #include <iterator>
 
+#include "app/output/gnuplot.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
 namespace {
+
+// Colours span at least this factor: a map with little to gain looks as flat as it is.
+constexpr double kLeastRange = 10.0;
 
 // About five ticks, at multiples of 1, 2 or 5 times a power of ten.
 double tick_distance(const MapAxis& axis) {
@@ -32,7 +36,8 @@ std::string map_range(const char* name, const MapAxis& axis) {
 // Powers of ten; where there would be fewer than three of them, five numbers of the range.
 std::string colour_ticks(const std::vector<double>& drawn) {
   if (drawn.empty()) return "";
-  const auto [low, high] = std::ranges::minmax(drawn);
+  const auto [low, highest] = std::ranges::minmax(drawn);
+  const double high = std::max(highest, kLeastRange * low);
   if (high > 1e3 * low) return "set format cb '10^{%T}'\n";
   constexpr int ticks = 5;
   std::string text;
@@ -41,7 +46,17 @@ std::string colour_ticks(const std::vector<double>& drawn) {
     text += fmt::format("{}'{:.2e}' {:.6g}", i == 0 ? "" : ", ", value, value);
     if (!(high > 1.001 * low)) break;
   }
-  return "set cbtics (" + text + ")\n";
+  return fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics ({})\n", low, high, text);
+}
+
+// Lines around what is within 5 %, half as much again, twice and ten times the least.
+std::string contour_text(const std::vector<double>& drawn) {
+  if (drawn.empty()) return "";
+  const double low = std::ranges::min(drawn);
+  return fmt::format(
+      "set contour base\nunset surface\nset cntrparam levels discrete {:.6g}, {:.6g}, {:.6g}, "
+      "{:.6g}\nset table $levels\nsplot $map using 1:2:3\nunset table\nunset contour\n",
+      1.05 * low, 1.5 * low, 2 * low, 10 * low);
 }
 
 // Black on a white rim: seen on every colour.
@@ -89,7 +104,7 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
   std::string text = fmt::format(
       "# Drawn by: gnuplot THIS_FILE\n"
       "set terminal {} enhanced font 'Sans,11' background rgb 'white'\n"
-      "set output {}\n"
+      "{}"
       "set encoding utf8\n"
       "set title {} noenhanced\n"
       "set xlabel \"b, β = b h{}\"\nset ylabel 'c, γ = c h'\n"
@@ -100,7 +115,7 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set rmargin at screen 0.79\nset lmargin at screen 0.12\n"
       "set tmargin at screen 0.92\nset bmargin at screen 0.25\n"
       "set key at screen 0.455,0.11 center top horizontal maxcols 2 noenhanced\n",
-      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", gnuplot_path(output),
+      svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", output_line(output),
       gnuplot_text(title), what_stays_bounded(map), svg ? 2 : 1);
   text += map_range("x", map.b) + map_range("y", map.c);
   std::vector<double> drawn;
@@ -137,7 +152,8 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
     }
     text += "\n";
   }
-  text += "EOD\nplot $map using 1:2:3 with image notitle";
+  text += "EOD\n" + contour_text(drawn) + "plot $map using 1:2:3 with image notitle";
+  if (!drawn.empty()) text += ", \\\n  $levels with lines lw 1.2 lc rgb '#FFFFFF' notitle";
   text += mark({}, 4, "midpoint rule");
   text += mark(map.fitted, 2, fmt::format("fitted: {:.5g}, {:.5g}", map.fitted.b, map.fitted.c));
   if (std::isfinite(least)) text += mark(best, 6, fmt::format("best cell: {:.3g}", least));

@@ -26,7 +26,7 @@ struct Bench {
   std::vector<BenchMethod> methods;
   std::vector<BenchRow> rows;
   ReferenceSolution reference;
-  std::optional<BenchAnswer> answer;
+  std::vector<BenchAnswer> answers;  // an answer a target
   runtime::Provenance provenance;
 };
 

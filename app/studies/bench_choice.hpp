@@ -13,6 +13,7 @@ enum class Observed { energy, state };
 
 [[nodiscard]] std::string_view to_text(Observed observed);  // "energy", "state"
 
+// Of the energy relative to its scale, of the state |z - z*|.
 [[nodiscard]] std::optional<double> error_of(const BenchRow& row, Observed observed);
 
 // Indices of the rows that no other row beats in both time and error, by growing time.

@@ -7,9 +7,9 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "app/studies/processor_time.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "runtime/processor_time.hpp"
 #include "runtime/trajectory.hpp"
 
 namespace hamgen::app {
@@ -29,6 +29,18 @@ constexpr long long kStepsAtOnce = 1 << 20;
 std::string outcome_of(const runtime::RunSummary& summary) {
   if (summary.status == runtime::Status::done) return "done";
   return fmt::format("{} in step {}", runtime::to_text(summary.status), summary.steps_done + 1);
+}
+
+// Euclidean, from the reference, of the components from `begin` on that are known of both.
+double part_error(const std::vector<runtime::Wide>& state, const std::vector<runtime::Wide>& exact,
+                  std::size_t begin) {
+  double sum = 0.0;
+  for (std::size_t i = begin; i < begin + state.size() / 2; ++i) {
+    if (!std::isfinite(state[i].hi)) continue;
+    const double error = runtime::difference(state[i], exact[i]);
+    sum += error * error;
+  }
+  return std::sqrt(sum);
 }
 
 // The sorted samples' value at a fraction of their number, between neighbours linear.
@@ -57,6 +69,11 @@ BenchMethod bench_method(const std::string& spec, const SourceText& source, cons
   return method;
 }
 
+std::optional<double> BenchRow::relative_energy_error() const {
+  if (!energy_error || !(energy_scale > 0.0)) return {};
+  return *energy_error / energy_scale;
+}
+
 BenchTime time_of(const BenchRow& row) {
   if (row.samples.empty()) return {};
   std::vector<double> sorted = row.samples;
@@ -71,10 +88,10 @@ BenchTime time_of(const BenchRow& row) {
 // The steps wait for nothing, so on an idle machine processor time is that of the wall clock.
 double processor_clock(const BenchMethod& method, const runtime::InitialValues& start, long steps) {
   runtime::Integrator integrator(method.loaded.library, start);
-  const double begin = thread_seconds();
+  const double begin = runtime::thread_seconds();
   for (long long left = steps; left > 0 && !is_stopped(method.stop); left -= kStepsAtOnce)
     static_cast<void>(integrator.advance(std::min(left, kStepsAtOnce), false));
-  return thread_seconds() - begin;
+  return runtime::thread_seconds() - begin;
 }
 
 double gradients_per_step(const Method& method, double iterations_per_step) {
@@ -125,10 +142,14 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
     row.energy_error = summary.energy->max_error();
     row.energy_spread = summary.energy->spread();
   }
-  if (!reference.state.empty())
+  row.energy_scale = summary.energy_terms;
+  if (!reference.state.empty()) {
+    const std::vector<runtime::Wide> state = whole_state(method.plugin, scene, integrator.state());
     row.state_error =
-        distance(known_state(method.plugin, whole_state(method.plugin, scene, integrator.state())),
-                 known_state(method.plugin, reference.state));
+        distance(known_state(method.plugin, state), known_state(method.plugin, reference.state));
+    row.q_error = part_error(state, reference.state, 0);
+    row.p_error = part_error(state, reference.state, state.size() / 2);
+  }
   row.once = clock(method, start, row.steps);
   row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
 }

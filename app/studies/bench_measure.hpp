@@ -47,13 +47,18 @@ struct BenchRow {
   double gradients_per_step = 0.0;       // see gradients_per_step
   std::optional<double> energy_error;    // max |H - H(0)| over all steps
   std::optional<double> energy_spread;   // max H - min H
+  double energy_scale = 0.0;             // see runtime::Judge::energy_terms
   std::optional<double> state_error;     // |z - z*| at the end, Euclidean
+  std::optional<double> q_error;         // the same of the coordinates alone, and of the momenta:
+  std::optional<double> p_error;         // they have units of their own
   std::vector<double> invariant_errors;  // max over about 200 states
   double once = 0.0;                     // run time of all steps [s], a first measurement
   std::vector<double> samples;           // the same, one a round
   long runs_per_sample = 1;
 
   [[nodiscard]] bool ok() const { return outcome == "done"; }
+  // The energy error of its scale; empty if either is not known.
+  [[nodiscard]] std::optional<double> relative_energy_error() const;
 };
 
 // Medians of the samples per step of the run, and how far they scatter.

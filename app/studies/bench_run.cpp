@@ -83,22 +83,29 @@ void measure_all_times(const BenchRequest& request, Bench& bench) {
 }
 
 // No step is finer than a 64th of the finest that was asked for.
-void add_steps_for_target(const BenchRequest& request, Bench& bench) {
+void add_steps_for_targets(const BenchRequest& request, Bench& bench) {
   constexpr double furthest = 64;
   const double length = std::fabs(to_double(request.time));
   double least = HUGE_VAL;
   for (const Rational& h : request.steps) least = std::min(least, std::fabs(to_double(h)));
   Work work(request.on_progress, "target");
-  add_refined_rows(bench, {.target = request.target,
-                           .time = request.time,
-                           .finest = std::max(least / furthest, length / kMostSteps),
-                           .measure =
-                               [&](BenchRow& row) {
-                                 measure_errors(bench.methods[row.method], request.scene,
-                                                bench.reference, row, request.clock);
-                                 return !is_stopped(request.stop);
-                               },
-                           .on_progress = work.fraction()});
+  const auto tell = work.fraction();
+  const auto count = static_cast<double>(request.targets.size());
+  for (std::size_t i = 0; i < request.targets.size() && !is_stopped(request.stop); ++i) {
+    const auto on_progress = [&tell, count, i](double part) {
+      tell((static_cast<double>(i) + part) / count);
+    };
+    add_refined_rows(bench, {.target = request.targets[i],
+                             .time = request.time,
+                             .finest = std::max(least / furthest, length / kMostSteps),
+                             .measure =
+                                 [&](BenchRow& row) {
+                                   measure_errors(bench.methods[row.method], request.scene,
+                                                  bench.reference, row, request.clock);
+                                   return !is_stopped(request.stop);
+                                 },
+                             .on_progress = on_progress});
+  }
 }
 
 }  // namespace
@@ -117,11 +124,11 @@ Bench run_bench(const BenchRequest& request) {
   bench.reference = reference_of(request);
   if (bench.reference.state.empty()) bench.observed = Observed::energy;
   measure_all_errors(request, bench);
-  if (request.target > 0.0) add_steps_for_target(request, bench);
+  if (!request.targets.empty()) add_steps_for_targets(request, bench);
   measure_all_times(request, bench);
-  if (request.target > 0.0)
-    bench.answer = BenchAnswer{.target = request.target,
-                               .row = quickest_within(bench.rows, bench.observed, request.target)};
+  for (const double target : request.targets)
+    bench.answers.push_back(
+        {.target = target, .row = quickest_within(bench.rows, bench.observed, target)});
   return bench;
 }
 

@@ -24,8 +24,8 @@ struct BenchRequest {
   Rational time;                // of each run
   std::vector<Rational> steps;  // their sizes, changed a little where they do not divide the time
   Observed observed = Observed::state;
-  double target = 0.0;  // the error to reach; 0: none
-  long rounds = 9;      // samples of each time
+  std::vector<double> targets;  // errors to reach
+  long rounds = 9;              // samples of each time
   CompilerChoice compiler;
   RunClock clock = processor_clock;  // what is chosen by time is chosen by this one
   StopFlag stop = nullptr;

@@ -135,6 +135,7 @@ Chaos chaos(const ChaosRequest& request) {
   const runtime::Judge judge(request.library, request.start.parameters, request.start.state,
                              request.start.defined_everywhere);
   Chaos result{.samples = {}, .spectrum = {}, .deviations = deviations.count()};
+  result.energy_scale = judge.energy_terms();
   long next = std::min(kFirstSample, request.steps);
   while (result.steps < request.steps && result.status == runtime::Status::done) {
     if (result.steps % kStepsOfAProgress == 0) {

@@ -11,11 +11,11 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
-#include "app/studies/processor_time.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "runtime/extrapolation.hpp"
+#include "runtime/processor_time.hpp"
 #include "runtime/sha256.hpp"
 #include "runtime/tool_error.hpp"
 
@@ -90,11 +90,11 @@ double largest_difference(const std::vector<runtime::Wide>& x,
 ReferenceTrack compute_track(const std::shared_ptr<const runtime::Library>& library,
                              const runtime::InitialValues& start,
                              const std::vector<Rational>& times, double seconds, StopFlag stop) {
-  const double begin = thread_seconds();
+  const double begin = runtime::thread_seconds();
   std::atomic<bool> late = false;
   runtime::ExtrapolationOptions options{.stop = &late};
   options.on_progress = [&](double) {
-    late = late || thread_seconds() - begin > seconds || is_stopped(stop);
+    late = late || runtime::thread_seconds() - begin > seconds || is_stopped(stop);
   };
   ReferenceTrack track;
   runtime::InitialValues coarse = start;

@@ -31,7 +31,7 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
   const runtime::EventLocator locator(
       request.library, start, [&](auto at) { return axes(at)[0].hi; }, request.direction);
   const auto begin = axes(state);
-  SectionOrbit orbit;
+  SectionOrbit orbit{.energy_scale = integrator.judge().energy_terms()};
   orbit.first = begin[1].hi;
   orbit.second = begin[2].hi;
   std::vector<runtime::Wide> before = state;

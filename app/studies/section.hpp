@@ -51,6 +51,7 @@ struct SectionOrbit {
   runtime::Status status = runtime::Status::done;
   long steps = 0;
   double largest_error = 0.0;  // |H - H(start)| after a step
+  double energy_scale = 0.0;   // see runtime::Judge::energy_terms
   std::vector<SectionPoint> points;
 };
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/studies/processor_time.hpp"
 #include "app/studies/stress.hpp"
+#include "runtime/processor_time.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kFarAway = 1e6;  // farther than any bounded motion of interest
 std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::Library>& library,
                                            const runtime::InitialValues& start,
                                            const StressLimits& limits, StressCell& cell) {
-  const double begin = thread_seconds();
+  const double begin = runtime::thread_seconds();
   runtime::Integrator integrator(library, start);
   const runtime::Judge& judge = integrator.judge();
   cell.energy_scale = judge.energy_scale();
@@ -45,7 +45,7 @@ std::vector<runtime::Wide> run_stress_cell(const std::shared_ptr<const runtime::
       cell.outcome = Status::stopped;
       break;
     }
-    if (thread_seconds() - begin > limits.time.count()) {
+    if (runtime::thread_seconds() - begin > limits.time.count()) {
       cell.outcome = Status::out_of_time;
       break;
     }

@@ -16,7 +16,7 @@
 
 #include "app/studies/bench_measure.hpp"
 #include "app/studies/initial_data.hpp"
-#include "app/studies/processor_time.hpp"
+#include "runtime/processor_time.hpp"
 #include "app/studies/setting.hpp"
 #include "benchmarks/cost/command_cost.hpp"
 #include "benchmarks/cost/cost_models.hpp"
@@ -54,9 +54,9 @@ struct Contender {
 };
 
 double timed(const std::function<void()>& work) {
-  const double begin = app::thread_seconds();
+  const double begin = runtime::thread_seconds();
   work();
-  return app::thread_seconds() - begin;
+  return runtime::thread_seconds() - begin;
 }
 
 SourceText source_of(const StepRow& row) {

@@ -19,7 +19,10 @@ set linetype 7 lc rgb '#000000' lw 1.6 pt 8
 set linetype 8 lc rgb '#7F6000' lw 1.6 pt 12
 set linetype 9 lc rgb '#999999' lw 1.6 pt 10
 set linetype cycle 9
+# Numbers on an axis as one writes them; behind it goes `set ytics add ('0' 0)`.
+powers = '%.1t·10^{%T}'
 terminal(width, height) = sprintf("pngcairo size %d,%d enhanced font 'Sans,15' linewidth 1.4 pointscale 1.2 background rgb 'white'", width, height)
 # The title of a block: its comment line.
-name(file, i) = system(sprintf("awk '/^#/ { if (n++ == %d) print substr($0, 3) }' '%s'", i, file))
+greek = 'gsub(/alpha/, "α"); gsub(/beta/, "β"); gsub(/gamma/, "γ")'
+name(file, i) = system(sprintf("awk '/^#/ { if (n++ == %d) { %s; print substr($0, 3) } }' '%s'", i, greek, file))
 blocks(file) = int(system(sprintf("grep -c '^#' '%s'", file)))

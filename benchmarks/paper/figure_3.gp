@@ -9,7 +9,7 @@ set key off
 set xrange [-3.3:3.3]
 set yrange [-0.46:0.46]
 do for [k = 0:1] {
-  set title k == 0 ? '(alpha, beta, gamma) = (1/2, 0, 0)' : '(alpha, beta, gamma) = (0.1, 0.3, 0.3)'
+  set title k == 0 ? '(α, β, γ) = (1/2, 0, 0)' : '(α, β, γ) = (0.1, 0.3, 0.3)'
   plot for [i = 0:3] file index 8 + i with lines lt 9 lw 1.2, \
        for [i = 0:3] file index 4*k + i with points lt i + 1 pt 7 ps 0.35
 }

@@ -9,9 +9,10 @@ set lmargin at screen 0.085
 set rmargin at screen 0.315
 set title 'energy error over one period'
 set xlabel 't'
-set ylabel 'H - H(0)' offset 1,0
-set format y '%.1e'
+set ylabel 'H − H(0)' offset 1,0
+set format y powers
 set ytics 5e-13
+set ytics add ('0' 0)
 set xrange [0:122]
 set yrange [-1.2e-12:1.9e-12]
 # Below its panel: wherever it stood inside, curves would run through it.
@@ -22,14 +23,15 @@ set ytics autofreq
 unset grid
 set border 15
 set palette defined (0 '#00204d', 0.35 '#31688e', 0.7 '#5ec962', 1 '#fde725')
-set xlabel 'beta'
-set ylabel 'gamma' offset 1,0
+set xlabel 'β'
+set ylabel 'γ' offset 1,0
 set lmargin at screen 0.40
 set rmargin at screen 0.60
 set title 'log10 of the spread'
-set format x '%.0e'
+set format x '%.0t·10^{%T}'
 set format y '%.3f'
 set xtics 2e-4
+set xtics add ('0' 0)
 set cbtics 1
 set autoscale x
 set autoscale y
@@ -39,10 +41,12 @@ plot data . 'figure_6_wide.dat' using 1:2:(log10($5)) with image
 set lmargin at screen 0.745
 set rmargin at screen 0.93
 set title 'close to the best pair'
-set xlabel 'beta - best'
-set ylabel 'gamma - best' offset -0.5,0
-set format y '%.0e'
+set xlabel 'β − best'
+set ylabel 'γ − best' offset -0.5,0
+set format y '%.0t·10^{%T}'
+set ytics add ('0' 0)
 set xtics 4e-10
+set xtics add ('0' 0)
 set format cb '%.1f'
 set cbtics 0.2
 plot data . 'figure_6_narrow.dat' using 3:4:(log10($5)) with image

@@ -11,7 +11,7 @@
 
 #include "app/studies/bench_measure.hpp"
 #include "app/studies/initial_data.hpp"
-#include "app/studies/processor_time.hpp"
+#include "runtime/processor_time.hpp"
 #include "app/studies/scheme_spec.hpp"
 #include "benchmarks/peers/peer.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -152,9 +152,9 @@ void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& sta
     if (!done || !std::isfinite(result.state_error)) continue;
     const auto once = [peer, &flow, &start, time, setting] {
       std::vector<double> state = start;
-      const double begin = app::thread_seconds();
+      const double begin = runtime::thread_seconds();
       peer.integrate(flow, state, time, setting, {});
-      return app::thread_seconds() - begin;
+      return runtime::thread_seconds() - begin;
     };
     const int runs = static_cast<int>(std::clamp(std::ceil(2e-3 / once()), 1.0, 1e4));
     result.sample = [once, runs] {

@@ -38,8 +38,10 @@ class Bracket {
     for (std::size_t i = 0; i < 2 * n_; ++i) {
       for (std::size_t j = 0; j < 2 * n_; ++j) {
         const GiNaC::ex entry = invariant_[i].diff(variables[j]).expand();
-        for (const GiNaC::symbol& x : variables) quadratic_ &= !entry.has(x);
         linear_ &= entry.is_zero();
+        // Not ex::has: a real symbol that was copied as a symbol is found in nothing.
+        if (!entry.is_zero())
+          for (const GiNaC::symbol& x : variables) quadratic_ &= entry.diff(x).is_zero();
         form_.push_back(entry);
       }
     }

@@ -36,7 +36,9 @@ Bench bench(BenchOptions options, const Costs& costs = {}) {
   return app::run_bench(request);
 }
 
-const BenchRow& answer_of(const Bench& bench) { return bench.rows.at(bench.answer->row.value()); }
+const BenchRow& answer_of(const Bench& bench) {
+  return bench.rows.at(bench.answers.at(0).row.value());
+}
 const std::string& method_of(const Bench& bench, const BenchRow& row) {
   return bench.methods.at(row.method).spec;
 }

@@ -43,6 +43,13 @@ TEST(Bench, ErrorsFallWithTheOrderOfTheMethod) {
     EXPECT_NEAR(ratio(0, error), 4.0, 0.2) << error;
     EXPECT_NEAR(ratio(2, error), 2.0, 0.2) << error;
   }
+  for (const json& row : result["rows"]) {
+    EXPECT_DOUBLE_EQ(
+        row["max_relative_energy_error"].get<double>() * result["energy_scale"].get<double>(),
+        row["max_energy_error"].get<double>());
+    EXPECT_DOUBLE_EQ(std::hypot(row["q_error"].get<double>(), row["p_error"].get<double>()),
+                     row["state_error"].get<double>());
+  }
   EXPECT_EQ(result["rows"][0]["steps"], 100);
   EXPECT_TRUE(result["rows"][0]["ns_per_step"].is_number());
 }

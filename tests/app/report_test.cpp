@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "runtime/process.hpp"
 #include "runtime/tool_error.hpp"
@@ -33,17 +34,95 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
   for (const char* part :
        {"<math", "symplectic", "proved", "max |H − H(0)|", "ns/step", "The emitted step", "cost",
         "torn out", "hamgen generate", "Linear stability", "theta = 2 atan(h w/2)",
-        "The modified Hamiltonian", "h<sup>4</sup>"})
+        "The modified Hamiltonian", "h<sup>4</sup>", "<th class='number'>q error</th>"})
     EXPECT_TRUE(contains(page, part)) << part;
   for (const char* name :
        {"portrait", "energy", "energy_zoom", "state", "bench_energy", "bench_state"}) {
     for (const char* ending : {".svg", ".png", ".gp"})
       EXPECT_TRUE(std::filesystem::exists(directory + "/" + name + ending)) << name << ending;
-    EXPECT_TRUE(contains(page, std::string("<figure id='") + name + "'>")) << name;
+    EXPECT_TRUE(contains(page, std::string("<figure id='") + name + "'")) << name;
   }
   // Nothing is fetched from anywhere.
   for (const char* part : {"http://", "https://", "<script", "<link", "@import"})
     EXPECT_FALSE(contains(page, part)) << part;
+  // It is for others too: no folder of this machine.
+  for (const char* part : {"/tmp/", HAMGEN_SOURCE_DIR, scratch.path("").c_str()})
+    EXPECT_FALSE(contains(page, part)) << part;
+  // Every picture has a form for dark paper, and every script draws into the folder it is in.
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const std::string path = entry.path().string();
+    if (entry.path().extension() == ".svg") {
+      EXPECT_TRUE(contains(read(path), "prefers-color-scheme: dark")) << path;
+    }
+    if (entry.path().extension() == ".gp") {
+      EXPECT_TRUE(contains(read(path), "set output '" + entry.path().stem().string() + ".svg'"))
+          << path;
+    }
+  }
+  const std::filesystem::path drawn = directory + "/portrait.svg";
+  const auto size = std::filesystem::file_size(drawn);
+  std::filesystem::remove(drawn);
+  runtime::ProcessRequest request;
+  request.command = {"sh", "-c", "cd \"$0\" && gnuplot portrait.gp", directory};
+  ASSERT_TRUE(runtime::run_process(request).succeeded());
+  // Without the dark form, which the command puts in.
+  EXPECT_GT(std::filesystem::file_size(drawn), size / 2);
+}
+
+std::string without_pictures(std::string page) {
+  for (std::size_t at; (at = page.find("'data:")) != std::string::npos;)
+    page.erase(at, page.find('\'', at + 1) + 1 - at);
+  return page;
+}
+
+// The five lines, then the picture of errors against time, then the rest; tables behind folds.
+TEST(Report, AnswersFirst) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  const Result result =
+      report(scratch.write("m.ham", pendulum), directory, {"--json", "--target", "1e-4"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string page = read(directory + "/report.html");
+  std::size_t before = page.find("<h1>");
+  for (const char* part : {"<dt>Method</dt>", "<strong>implicit-midpoint</strong>, order 2",
+                           "<dt>Conserves</dt>", "the symplectic form", "<dt>Reached</dt>",
+                           "of its scale", "<dt>For a state error 10<sup>−4</sup></dt>",
+                           "take <strong>", "<code>hamgen run m.ham --scheme", " --h ",
+                           "<dt>Left out</dt>", "<figure id='bench_state' class='large'>",
+                           "<h2>The system</h2>", "<h2>What it does</h2>"}) {
+    const std::size_t at = page.find(part, before);
+    ASSERT_NE(at, std::string::npos) << part;
+    before = at;
+  }
+  for (std::size_t at = page.find("<table"); at != std::string::npos;
+       at = page.find("<table", at + 1)) {
+    const bool is_small = contains(page.substr(at, 120), "error</th><th>quickest") ||
+                          contains(page.substr(at, 120), "terms to");
+    const bool is_folded = page.rfind("<details>", at) != std::string::npos &&
+                           (page.rfind("</details>", at) == std::string::npos ||
+                            page.rfind("</details>", at) < page.rfind("<details>", at));
+    EXPECT_TRUE(is_small || is_folded) << page.substr(at, 200);
+  }
+  // Numbers are written in one way.
+  const std::string text =
+      page.substr(page.find("<main>"), page.find("<details>") - page.find("<main>"));
+  EXPECT_FALSE(std::regex_search(without_pictures(text), std::regex("[0-9]e[-+][0-9]")));
+  // The same as values.
+  const json values = json::parse(result.out);
+  EXPECT_EQ(values["scheme"], "implicit-midpoint");
+  EXPECT_EQ(values["order"], 2);
+  EXPECT_EQ(values["directory"], directory);
+  EXPECT_EQ(values["answers"][0]["target"], 1e-4);
+  EXPECT_TRUE(values["answers"][0]["command"].get<std::string>().starts_with("hamgen run "));
+  const json& energy = values["reached"]["energy"];
+  EXPECT_DOUBLE_EQ(energy["max_relative_error"].get<double>() * energy["scale"].get<double>(),
+                   energy["max_error"].get<double>());
+  EXPECT_GT(values["reached"]["after"]["q_error"].get<double>(), 0.0);
+  EXPECT_EQ(values["figures"][0]["name"], "bench_state");
+  bool is_proved = false;
+  for (const json& each : values["proof"])
+    is_proved = is_proved || (each["property"] == "symplectic" && each["verdict"] == "proved");
+  EXPECT_TRUE(is_proved) << values["proof"];
 }
 
 TEST(Report, KeepsUserTextOutOfMarkupAndScripts) {
@@ -57,7 +136,7 @@ TEST(Report, KeepsUserTextOutOfMarkupAndScripts) {
   ASSERT_EQ(result.status, 0) << result.err;
   const std::string page = read(directory + "/report.html");
   EXPECT_TRUE(contains(page, "&lt;script&gt;alert(&#39;&amp;&#39;)&lt;/script&gt;</p>")) << page;
-  EXPECT_TRUE(contains(page, "/&lt;i&gt;&#39;\n.ham</code>"));
+  EXPECT_TRUE(contains(page, "<code>&lt;i&gt;&#39;\n.ham</code>"));
   for (const char* part : {"<script", "<b>", "<i>", "\r"})
     EXPECT_FALSE(contains(page, part)) << part;
   for (const char* name : {"/portrait.svg", "/portrait.png"})
@@ -90,8 +169,8 @@ TEST(Report, TakesStepsThatTheSceneDoesNotHaveAndSaysWhereItWasMeasured) {
   const Result result = report(model, directory, {"--h", "0.1", "--steps", "100"});
   ASSERT_EQ(result.status, 0) << result.err;
   const std::string page = read(directory + "/report.html");
-  for (const char* part : {"Step size 0.1, 100 steps.", "Every method to t = 10,", " threads",
-                           "-O3", "<td>date</td>", ">±</th>", " %</td>"})
+  for (const char* part : {"100 steps of h = 0.1.", "Every method to t = 10,", " threads", "-O3",
+                           "<dt>date</dt>", ">±</th>", " %</td>"})
     EXPECT_TRUE(contains(page, part)) << part;
 }
 
@@ -110,24 +189,32 @@ std::string as_attribute(const std::string& page) {
   return text;
 }
 
-// A page with the report in two frames, 400 and 1280 pixels wide, that says what it sees of each:
-// width of the contents, pictures, and how many of those are drawn, and the smallest text.
+// A page with the report in three frames, as wide as a telephone, a tablet and a screen, that says
+// what it sees of each: width of the contents, pictures, how many of those are drawn and how many
+// letters they have as large as they must be, the font of formulas, and the smallest text.
 std::string probe_page(const std::string& page) {
   std::string text = "<!DOCTYPE html><meta charset='utf-8'><body>\n";
-  for (const char* width : {"400", "1280"})
+  for (const char* width : {"390", "820", "1400"})
     text += std::string("<iframe style='border:0' width='") + width + "' height='900' srcdoc=\"" +
             as_attribute(page) + "\"></iframe>\n";
   return text + R"(<pre id='seen'></pre><script>
-window.addEventListener('load', () => {
+const drawnWidth = image => Number(atob(image.currentSrc.split(',')[1]).match(/viewBox="0 0 ([0-9]+)/)[1]);
+window.addEventListener('load', async () => {
   const seen = [];
   for (const frame of document.querySelectorAll('iframe')) {
     const page = frame.contentDocument;
+    await page.fonts.ready;
     const images = [...page.images];
-    const text = [...page.querySelectorAll('p, td, th, li, figcaption, pre')];
+    const text = [...page.querySelectorAll('p, td, th, li, dt, dd, figcaption, pre')];
+    const boxes = [...page.querySelectorAll('main, figure, dl, h1, h2')];
     seen.push({width: frame.clientWidth, contents: page.documentElement.scrollWidth,
+      outside: boxes.filter(b => b.getBoundingClientRect().right > frame.clientWidth).length,
       pictures: images.length,
       drawn: images.filter(i => i.complete && i.naturalWidth > 0 && i.clientWidth > 200).length,
+      shrunk: images.map(i => [i.clientWidth, drawnWidth(i)]).filter(([shown, drawn]) => shown < 0.74 * drawn),
       formulas: page.querySelectorAll('math').length,
+      font: [...page.fonts].filter(f => f.family == 'Formula' && f.status == 'loaded').length,
+      open: page.querySelectorAll('details[open]').length,
       smallest: Math.min(...text.map(e => parseFloat(frame.contentWindow.getComputedStyle(e).fontSize)))});
   }
   document.getElementById('seen').textContent = JSON.stringify(seen);
@@ -169,11 +256,15 @@ TEST(Report, ShowsInABrowserWideAndNarrow) {
   const std::size_t first = begin + std::string("<pre id=\"seen\">").size();
   const json seen =
       json::parse(result.output.substr(first, result.output.find("</pre>", first) - first));
-  ASSERT_EQ(seen.size(), 2u);
+  ASSERT_EQ(seen.size(), 3u);
   for (const json& frame : seen) {
     EXPECT_LE(frame["contents"].get<int>(), frame["width"].get<int>()) << frame;
     EXPECT_GE(frame["pictures"].get<int>(), 6) << frame;
     EXPECT_EQ(frame["drawn"], frame["pictures"]) << frame;
+    EXPECT_EQ(frame["outside"], 0) << frame;
+    EXPECT_TRUE(frame["shrunk"].empty()) << frame;  // letters of 15 pixels stay above 11
+    EXPECT_EQ(frame["font"], 1) << "the font of formulas is not there: " << frame;
+    EXPECT_EQ(frame["open"], 0) << frame;
     EXPECT_GE(frame["formulas"].get<int>(), 5) << frame;
     EXPECT_GE(frame["smallest"].get<double>(), 12.0) << frame;
   }

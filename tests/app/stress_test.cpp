@@ -198,7 +198,7 @@ TEST(Stress, APictureAppearsWholeOrNotAtAll) {
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"gnuplot", "m.gp"}));
   const Result whole = hamgen(command, {path, "END=</svg>"});
   EXPECT_EQ(whole.err, "");
-  EXPECT_EQ(read(picture), "<svg></svg>");
+  EXPECT_TRUE(read(picture).starts_with("<svg>") && read(picture).ends_with("</svg>"));
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"gnuplot", "m.gp", "m.svg"}));
 }
 

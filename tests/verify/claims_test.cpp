@@ -39,6 +39,18 @@ TEST(Claims, OfAnInvariantAreProvedOrRefutedByAPoint) {
   EXPECT_EQ(verdict(shipped("stiff_fpu"), {}, "I invariant"), Verdict::refuted);
 }
 
+// A polynomial of higher degree is not taken for a quadratic form, whatever its second derivatives
+// at a point are: here H itself, which no member conserves.
+TEST(Claims, AQuarticInvariantIsNotAQuadraticForm) {
+  const SourceText source = make_source("quartic.ham",
+                                        "coordinate q\nmomentum p\nH = p^2/2 + q^4/4\n"
+                                        "invariant I = p^2/2 + q^4/4\n");
+  for (const char* scheme : {"implicit-midpoint", "gauss-4", "stormer-verlet", "kahan-li-6"}) {
+    EXPECT_EQ(verdict(source, {.scheme = scheme}, "I conserved by the step"), Verdict::not_decided)
+        << scheme;
+  }
+}
+
 // C^T M + M C = 0 is enough for every H; for one it is not needed.
 TEST(Claims, ThatAQuadraticInvariantIsLostHaveAWitnessOfThisSystem) {
   const Request general{.alpha = "3/10", .beta = "1/10"};

@@ -1,8 +1,8 @@
-#include "app/studies/processor_time.hpp"
+#include "runtime/processor_time.hpp"
 
 #include <ctime>
 
-namespace hamgen::app {
+namespace hamgen::runtime {
 
 double thread_seconds() {
   timespec now{};
@@ -10,4 +10,4 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace hamgen::app
+}  // namespace hamgen::runtime

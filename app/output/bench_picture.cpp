@@ -1,0 +1,65 @@
+#include "app/output/bench_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/output/plain_number.hpp"
+
+namespace hamgen::app {
+namespace {
+
+double bench_floor(const Bench& bench, Observed observed) {
+  constexpr double half_unit = std::numeric_limits<double>::epsilon() / 2;
+  if (observed == Observed::energy) return half_unit;
+  double square = 0.0;
+  for (const runtime::Wide& value : bench.reference.state) square += value.hi * value.hi;
+  return std::max(bench.reference.error, half_unit * std::sqrt(square));
+}
+
+// Not by time: where a solver fails to converge quickly, a larger step takes longer.
+std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method) {
+  std::vector<const BenchRow*> rows;
+  for (const BenchRow& row : bench.rows) {
+    if (row.method == method) rows.push_back(&row);
+  }
+  std::ranges::sort(rows, {}, [](const BenchRow* row) { return row->steps; });
+  return rows;
+}
+
+}  // namespace
+
+PlotPanel bench_panel(const Bench& bench, Observed observed) {
+  PlotPanel panel{.title = "",
+                  .x_label = "processor time for a unit of time [s]",
+                  .y_label = observed == Observed::energy
+                                 ? "energy error, relative"
+                                 : fmt::format("|z − z*| at t = {}", plain_number(bench.time, 6)),
+                  .logarithmic_x = true,
+                  .logarithmic_y = true,
+                  .series = {},
+                  .floor = bench_floor(bench, observed)};
+  for (std::size_t m = 0; m < bench.methods.size(); ++m) {
+    PlotSeries series{.label = bench.methods[m].spec, .points = {}};
+    for (const BenchRow* row : rows_by_step(bench, m)) {
+      const std::optional<double> error = error_of(*row, observed);
+      if (error && !row->samples.empty())
+        series.points.push_back({time_of(*row).seconds_per_time, *error});
+    }
+    if (!series.points.empty()) panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+Plot bench_picture(const Bench& bench) {
+  Plot plot{.panels = {}, .width = 660, .height = 500};
+  for (const Observed observed : {Observed::energy, Observed::state}) {
+    plot.panels.push_back(bench_panel(bench, observed));
+    plot.panels.back().title = fmt::format("{}: {} error", bench.model, to_text(observed));
+  }
+  return plot;
+}
+
+}  // namespace hamgen::app

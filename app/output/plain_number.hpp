@@ -1,0 +1,16 @@
+// Numbers as people write them: "0.0125", "1060", "9.6 times ten to the power of -5".
+#pragma once
+
+#include <string>
+
+namespace hamgen::app {
+
+// A power of ten in Unicode: "10⁻⁶".
+[[nodiscard]] std::string power_of_ten(int exponent);
+
+// So many significant digits, without a power of ten from 1e-3 to 1e5; "–" for what is not finite.
+// In plain text the power is 10⁻⁵, in HTML it has <sup>.
+[[nodiscard]] std::string plain_number(double value, int digits);
+[[nodiscard]] std::string html_number(double value, int digits);
+
+}  // namespace hamgen::app

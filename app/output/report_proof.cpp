@@ -1,0 +1,165 @@
+// What the report says of proofs, of linear stability and of the modified Hamiltonian.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/output/math_markup.hpp"
+#include "app/output/plain_number.hpp"
+#include "app/output/report_parts.hpp"
+#include "generator/base/diagnostic.hpp"
+#include "generator/base/quoted_text.hpp"
+
+namespace hamgen::app {
+namespace {
+
+constexpr std::size_t kLongestFormula = 600;   // characters, shown at once
+constexpr std::size_t kLongestFolded = 4'000;  // behind a fold
+
+std::string findings_table(const Proof& proof) {
+  std::string text = "<div class='wide'><table class='findings'>\n";
+  for (const Finding& finding : proof)
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td class='detail'>{}</td></tr>\n",
+                        html_text(finding.property), verdict_markup(finding.verdict),
+                        html_text(finding.detail));
+  return text + "</table></div>\n";
+}
+
+// "12 proved, 1 tested, 2 not decided".
+std::string verdict_counts(const Proof& proof) {
+  std::string text;
+  for (const Verdict verdict : {Verdict::proved, Verdict::tested, Verdict::refuted,
+                                Verdict::not_decided, Verdict::measured}) {
+    const auto count = std::ranges::count(proof, verdict, &Finding::verdict);
+    if (count > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, verdict_markup(verdict));
+  }
+  return text;
+}
+
+std::string oscillations(const LinearStability& linear) {
+  const std::vector<double>& w = linear.frequencies;
+  if (w.empty()) return "the linear part of the motion has no oscillation";
+  if (w.size() == 1)
+    return fmt::format("the linear part of the motion is an oscillation with ω = {}",
+                       html_number(w.front(), 4));
+  return fmt::format("the linear part of the motion is {} oscillations, ω = {} to {}", w.size(),
+                     html_number(w.front(), 4), html_number(w.back(), 4));
+}
+
+std::string bounded_phrase(const LinearStability& linear) {
+  if (linear.frequencies.empty()) return "";
+  const std::string verdict = verdict_markup(linear.verdict);
+  if (linear.verdict == Verdict::refuted)
+    return fmt::format(" At h = {} the step makes it grow without bound ({}).",
+                       html_number(linear.h, 4), verdict);
+  if (!holds(linear.verdict))
+    return fmt::format(" Whether the step keeps it bounded at h = {} is {}.",
+                       html_number(linear.h, 4), verdict);
+  std::string where;
+  if (linear.bounded_for_every_h) where = ", as at every h";
+  if (!linear.bounded_for_every_h && linear.largest_h)
+    where = fmt::format(", as up to h = {}", html_number(*linear.largest_h, 4));
+  return fmt::format(" At h = {} the step keeps it bounded{} ({}).", html_number(linear.h, 4),
+                     where, verdict);
+}
+
+// What the numbers mean, in sentences.
+std::string linear_text(const LinearPoint& point) {
+  const LinearStability& linear = point.stability;
+  std::string text = fmt::format("<p>At the {} {}.", html_text(point.place), oscillations(linear));
+  text += bounded_phrase(linear);
+  if (linear.growing > 0)
+    text += fmt::format(" {}, up to exp({} t): that is the system's doing, not the step's.",
+                        linear.growing == 1
+                            ? "One direction grows of its own accord"
+                            : fmt::format("{} directions grow of their own accord", linear.growing),
+                        html_number(linear.growth_rate, 4));
+  if (linear.iteration_radius)
+    text += fmt::format(" Fixed-point iteration would {}: its factor is {} an iteration.",
+                        *linear.iteration_radius < 1.0 ? "converge" : "not converge",
+                        html_number(*linear.iteration_radius, 2));
+  return text + "</p>\n";
+}
+
+std::string term_text(std::size_t power, const Expression& term) {
+  const std::size_t length = to_text(term).size();
+  const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
+  if (length <= kLongestFormula) return formula_line(name, math_formula(term));
+  if (length <= kLongestFolded)
+    return folded(inline_formula(name) + ", written out", formula_line(name, math_formula(term)));
+  return fmt::format(
+      "<p class='note'>{} is long: <code>hamgen verify --terms</code> prints "
+      "it.</p>\n",
+      inline_formula(name));
+}
+
+std::string variation_text(const ModifiedEnergy& modified) {
+  std::vector<double> variations;
+  for (const std::size_t power : modified.powers())
+    variations.push_back(modified.orbit->variations[power]);
+  const bool falls =
+      std::ranges::adjacent_find(variations, std::less_equal<>()) == variations.end();
+  const char* const finding =
+      variations.size() < 2 || variations.back() < 1e-30 ? ""
+      : falls
+          ? ": each further term takes the variation down"
+          : ": further terms do not take the variation down, h is too large for the series here";
+  std::string text = fmt::format(
+      "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div "
+      "class='wide'><table>\n<tr><th>terms to</th>"
+      "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
+      modified.orbit->steps, html_number(modified.orbit->h, 6), finding);
+  for (const std::size_t power : modified.powers())
+    text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{}</td></tr>\n", power,
+                        html_number(modified.orbit->variations[power], 4));
+  return text + "</table></div>\n";
+}
+
+}  // namespace
+
+std::string proof_section(const ReportContent& content) {
+  std::string text =
+      fmt::format("<h2>What is proved</h2>\n<p>{}.</p>\n", verdict_counts(content.proof)) +
+      folded("Every property, and how it was decided", findings_table(content.proof));
+  if (content.linear.empty()) return text;
+  text += "<h2>Linear stability</h2>\n";
+  Proof lines;
+  for (const LinearPoint& point : content.linear) {
+    text += linear_text(point);
+    for (Finding& line : findings(point)) lines.push_back(std::move(line));
+  }
+  return text + folded("The numbers behind this", findings_table(lines));
+}
+
+std::string modified_section(const ReportContent& content) {
+  if (!content.modified) return "";
+  const ModifiedEnergy& modified = *content.modified;
+  std::string text =
+      "<h2>The modified Hamiltonian</h2>\n<p>What the step conserves instead of H, as a formal "
+      "series in h.</p>\n";
+  std::string sum;
+  std::string terms;
+  for (const std::size_t power : modified.powers()) {
+    const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
+    sum += power == 0 ? std::string("<mi>H</mi>")
+                      : fmt::format("<mo>+</mo><msup><mi>h</mi><mn>{}</mn></msup>{}", power, name);
+    if (power > 0) terms += term_text(power, modified.terms[power]);
+  }
+  text += fmt::format(
+      "<div class='formula'><math displaystyle='true'><mrow><mover accent='true'><mi>H</mi>"
+      "<mo>˜</mo></mover><mo>=</mo>{}<mo>+</mo><mo>…</mo></mrow></math></div>\n{}",
+      sum, terms);
+  return modified.orbit ? text + variation_text(modified) : text;
+}
+
+std::string verdict_markup(Verdict verdict) {
+  constexpr std::array<std::string_view, 5> classes = {"proved", "tested", "refuted", "open",
+                                                       "measured"};
+  constexpr std::array<std::string_view, 5> signs = {"✓", "≈", "✗", "?", "·"};
+  const auto i = static_cast<std::size_t>(verdict);
+  return fmt::format("<span class='verdict {}'>{} {}</span>", classes.at(i), signs.at(i),
+                     to_text(verdict));
+}
+
+}  // namespace hamgen::app
