@@ -1,5 +1,5 @@
 // The cache of compiled plugins and of what was computed with them: one file KEY.so or KEY.txt
-// each, in a directory nobody else can write.
+// each, and KEY.about that says what it is of, in a directory nobody else can write.
 #pragma once
 
 #include <chrono>
@@ -48,6 +48,19 @@ std::filesystem::path publish_object(const Cache& cache, const std::string& key,
 [[nodiscard]] std::optional<std::string> find_text(const Cache& cache, const std::string& key);
 void publish_text(const Cache& cache, const std::string& key, std::string_view text);
 
+// What an entry is of, for people.  A line end in a field becomes a blank.
+struct CacheRecord {
+  std::string model, scheme;
+  std::string made;  // the day, 2026-01-31; filled in where it is written
+  bool operator==(const CacheRecord&) const = default;
+};
+
+// Beside an entry, if there is none yet.  Throws ToolError.
+void publish_record(const Cache& cache, const std::string& key, const CacheRecord& record);
+
+// Nothing if there is none, as of an entry of an earlier version, or it is damaged or no record.
+[[nodiscard]] std::optional<CacheRecord> find_record(const Cache& cache, const std::string& key);
+
 struct CacheEntry {
   std::string key;
   std::string extension;  // ".so" or ".txt"
@@ -65,7 +78,7 @@ inline constexpr std::uintmax_t kCacheLimit = 256u << 20;  // bytes
 // Most recently used first.  All three leave files alone that hamgen did not make.
 [[nodiscard]] std::vector<CacheEntry> list_cache(const Cache& cache);
 
-// Removes everything, also what interrupted compilations left.
+// Removes everything, also what interrupted compilations left, and records without an entry.
 CacheRemoval clear_cache(const Cache& cache);
 
 // Removes the least recently used entries until `limit` bytes remain, and left-overs older than a

@@ -24,6 +24,7 @@ struct PluginSource {
   std::string name = "plugin.cpp";  // shown in the compiler's messages
   bool uses_eigen = false;
   bool uses_quadmath = false;
+  std::string model, scheme;  // for the list of the cache only; may be empty
 };
 
 struct CompileOptions {
