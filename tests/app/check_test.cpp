@@ -96,7 +96,7 @@ TEST(CheckAsJson, IsADocumentWhateverTheBytes) {
 }
 
 // A mistake in an option's text has its place there; one that has no place says so.
-TEST(CheckForEditors, SaysWhatIsWrongWithOptions) {
+TEST(CheckAsJson, SaysWhatIsWrongWithOptions) {
   const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham";
   const auto said = [&model](const std::vector<std::string>& options) {
     std::vector<std::string> words = {"check", "--json", model};
@@ -120,7 +120,7 @@ TEST(CheckForEditors, SaysWhatIsWrongWithOptions) {
   EXPECT_TRUE(contains(size["help"].get<std::string>(), "--scene NAME"));
 }
 
-TEST(ShowForPrograms, SaysWhatTheModelDeclares) {
+TEST(ShowAsJson, SaysWhatTheModelDeclares) {
   const Result result =
       hamgen({"show", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--json", "--stage", "plan"});
   ASSERT_EQ(result.status, 0) << result.err;

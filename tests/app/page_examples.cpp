@@ -131,14 +131,14 @@ void lay_out(const std::string& page, const Scratch& scratch) {
     std::filesystem::create_directory_symlink(HAMGEN_SOURCE_DIR + std::string("/") + folder,
                                               scratch.path(folder));
   for (const PageBlock& block : blocks_of(read(page))) {
-    if (block.mark != "ham") continue;
-    std::string name;
-    std::string model;
+    std::string system;
+    std::string text;
     for (const std::string& line : block.lines) {
-      if (line.starts_with("system ")) name = words(line)[1];
-      model += line + "\n";
+      if (line.starts_with("system ")) system = words(line)[1];
+      text += line + "\n";
     }
-    if (!name.empty()) scratch.write(name + ".ham", model);
+    if (block.mark == "ham" && !system.empty()) scratch.write(system + ".ham", text);
+    if (block.mark == "cpp" && contains(text, "int main()")) scratch.write("main.cpp", text);
   }
 }
 

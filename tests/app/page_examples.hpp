@@ -15,7 +15,8 @@ namespace hamgen::app_test {
 void expect_page_is_true(const std::string& page, const std::string& directory, std::size_t least);
 
 // What the commands of a page need: links to the folders of the sources that it names, and the
-// models that it shows in blocks marked `ham`, each as its system's name says.
+// models that it shows in blocks marked `ham`, each as its system's name says; main.cpp of its
+// program.
 void lay_out(const std::string& page, const Scratch& scratch);
 
 // Runs every command of the page's blocks marked `sh`, in which a backslash continues a line; they

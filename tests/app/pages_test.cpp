@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "tests/app/hamgen_command.hpp"
@@ -17,8 +18,8 @@ const std::string docs = HAMGEN_SOURCE_DIR "/docs/";
 const std::set<std::string> with_own_tests = {"plugin.md"};
 // The others with commands, and how many at least.
 const std::map<std::string, std::size_t> pages = {
-    {"batch.md", 1},          {"certificates.md", 3}, {"command.md", 4}, {"ensemble.md", 4},
-    {"gallery.md", 12},       {"scaling.md", 2},      {"studies.md", 9}, {"tutorial.md", 12},
+    {"batch.md", 3},          {"certificates.md", 3}, {"command.md", 4}, {"ensemble.md", 4},
+    {"gallery.md", 12},       {"scaling.md", 2},      {"studies.md", 9}, {"tutorial.md", 14},
     {"specialisation.md", 2}, {"verification.md", 12}};
 
 TEST(Pages, WithCommandsAreAllRun) {
@@ -47,6 +48,60 @@ TEST(Pages, HaveNoCommandThatIsOnlyShown) {
       EXPECT_TRUE(is_synopsis || known.contains(block.first)) << page << ": " << block.first;
     }
   }
+}
+
+// "Runs of days" is "runs-of-days".
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (c >= 'A' && c <= 'Z') anchor += static_cast<char>(c - 'A' + 'a');
+    if (is_letter) anchor += c;
+    if (c == ' ') anchor += '-';
+  }
+  return anchor;
+}
+
+// The lines of a page outside its blocks.
+std::vector<std::string> prose(const std::string& page) {
+  std::vector<std::string> result;
+  bool inside = false;
+  for (const std::string& line : lines(read(page))) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first != std::string::npos && line.compare(first, 3, "```") == 0) {
+      inside = !inside;
+    } else if (!inside) {
+      result.push_back(line);
+    }
+  }
+  return result;
+}
+
+TEST(Pages, LinkToWhatIsThere) {
+  std::vector<std::filesystem::path> all = {HAMGEN_SOURCE_DIR "/README.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(docs)) {
+    if (entry.path().extension() == ".md") all.push_back(entry.path());
+  }
+  const std::regex link(R"re((\]\(|src=")([^)" #]*)(#[^)"]*)?[)"])re");
+  std::size_t links = 0;
+  for (const auto& page : all) {
+    for (const std::string& line : prose(page.string())) {
+      for (std::sregex_iterator it(line.begin(), line.end(), link), end; it != end; ++it) {
+        const std::string target = (*it)[2];
+        if (target.starts_with("http")) continue;
+        const std::filesystem::path file = target.empty() ? page : page.parent_path() / target;
+        EXPECT_TRUE(std::filesystem::exists(file)) << page << ": " << it->str();
+        ++links;
+        if (!(*it)[3].matched || file.extension() != ".md") continue;
+        bool found = false;
+        for (const std::string& each : prose(file.string()))
+          found = found || (each.starts_with("#") &&
+                            "#" + anchor_of(each.substr(each.find(' ') + 1)) == (*it)[3]);
+        EXPECT_TRUE(found) << page << ": no heading " << it->str();
+      }
+    }
+  }
+  EXPECT_GE(links, 100u);
 }
 
 // The pictures of the gallery are those that its commands draw.
