@@ -268,7 +268,10 @@ std::map<std::string, long> sizes_of(const std::vector<std::string>& set,
 
 Request request_of(const MethodOptions& options, const SceneOptions& scene,
                    const SourceText& source) {
-  if (!scene.scene.empty()) {
+  // A model without scenes has one without a name, where its initial state is given.
+  const bool is_unnamed =
+      scene.scene.empty() && !scene.initial.empty() && read_model(source).scenes.empty();
+  if (!scene.scene.empty() || is_unnamed) {
     Setting setting = read_setting(options, scene);
     const SceneValues values = scene_values(setting.model, setting.scene);
     take_gauge_at(values, setting.model, setting.request);

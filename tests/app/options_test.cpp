@@ -219,6 +219,20 @@ TEST(Options, OfLengthAgree) {
   EXPECT_TRUE(contains(time.err, "h is an axis")) << time.err;
 }
 
+// The command that a run of a model without scenes says it can be emitted with.
+TEST(Options, OfAnEmittedHeaderAreAcceptedWithoutAScene) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", two_oscillators);
+  const Result run =
+      hamgen({"run", model, "--initial", "x=1", "--h", "0.1", "--steps", "1", "--interpret"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::size_t begin = run.err.find("hamgen generate ");
+  ASSERT_NE(begin, std::string::npos) << run.err;
+  const Result emitted = shell(run.err.substr(begin, run.err.find('\n', begin) - begin));
+  EXPECT_EQ(emitted.status, 0) << emitted.err;
+  EXPECT_TRUE(contains(emitted.out, "y, py: they start at 0")) << emitted.out.substr(0, 2000);
+}
+
 // What is in the cache is other people's text: shown, and nothing else.
 TEST(CacheList, SaysWhatEachEntryIs) {
   const Scratch scratch;
