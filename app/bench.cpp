@@ -10,6 +10,7 @@
 #include "app/output/bench_output.hpp"
 #include "app/output/bench_picture.hpp"
 #include "app/output/draw_picture.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "runtime/atomic_file.hpp"
@@ -37,7 +38,10 @@ void write_files(const BenchCommand& options, const Bench& bench) {
   };
   if (!options.csv.empty()) write(options.csv, csv_text(bench));
   if (!options.plot.empty()) draw(options.plot);
-  if (options.output.empty()) return;
+  const OutputKind kind = output_kind(options.output);
+  if (kind == OutputKind::csv) write(options.output, csv_text(bench));
+  if (kind == OutputKind::json) write(options.output, json_text(bench));
+  if (kind != OutputKind::directory) return;
   const fs::path directory = options.output;
   write(directory / "bench.csv", csv_text(bench));
   write(directory / "bench.json", json_text(bench));
@@ -47,13 +51,17 @@ void write_files(const BenchCommand& options, const Bench& bench) {
 int bench(const BenchCommand& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  const OutputKind kind = output_kind(options.output);
+  require_one_document(options.json, kind);
   const Bench result = run_bench(read_bench(options.bench));
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
     return interrupted;
   }
   print_error(warning_text(result));
-  print(options.json ? json_text(result) : table_text(result));
+  print(options.json                   ? json_text(result)
+        : kind == OutputKind::standard ? csv_text(result)
+                                       : table_text(result));
   write_files(options, result);
   const bool all_reached =
       std::ranges::all_of(result.answers, [](const auto& each) { return each.row.has_value(); });
@@ -76,17 +84,20 @@ Command add_bench(CLI::App& app) {
                    "of all methods: rounding is not made up for");
   parser->add_option("--h", options->bench.h, "step sizes; default: around the scene's")
       ->type_name("H1,H2,...");
+  parser->add_option("--time", options->bench.time, "")->type_name("T");
   parser
-      ->add_option("--time", options->bench.time,
-                   "of each run; default: 2000 steps of the scene's h")
-      ->type_name("T");
+      ->add_option("--steps", options->bench.steps,
+                   "of each run, N of the scene's steps; default: 2000 of them")
+      ->type_name("N");
   parser->add_option("--target", options->bench.target, "which method reaches these errors soonest")
       ->type_name("E1,E2,...");
   parser->add_option("--observe", options->bench.observe, "the error that counts: state or energy")
       ->type_name("WHAT");
   parser->add_option("--rounds", options->bench.rounds, "samples of each time; default 9")
       ->type_name("N");
-  parser->add_option("-o,--output", options->output, "write bench.csv, .json, .gp and .svg there")
+  parser
+      ->add_option("-o,--output", options->output,
+                   "bench.csv, .json, .gp and .svg there; or FILE.csv, FILE.json")
       ->type_name("DIRECTORY");
   parser->add_option("--csv", options->csv, "the table as CSV")->type_name("FILE");
   parser->add_option("--plot", options->plot, "a picture, .svg or .png, and its script .gp")

@@ -39,6 +39,7 @@ void read_steps(const BenchOptions& options, BenchRequest& request) {
   SceneRequest wanted = request.setting.scene;
   // Given steps and time, the scene needs to have neither.
   if (!options.time.empty()) wanted.steps = "1";
+  if (!options.steps.empty()) wanted.steps = options.steps;
   const auto complete = [&] {
     request.scene = complete_scene(request.setting.model, wanted, options.length);
   };
@@ -61,6 +62,13 @@ void read_steps(const BenchOptions& options, BenchRequest& request) {
 }
 
 Rational run_length(const BenchOptions& options, const BenchRequest& request) {
+  if (!options.steps.empty()) {
+    if (!options.time.empty())
+      throw UsageError(fmt::format("--time {} and --steps {} both say how long\nhelp: drop one",
+                                   options.time, options.steps));
+    if (*request.scene.steps == 0) throw UsageError("--steps 0: there is nothing to measure");
+    return *request.scene.h * *request.scene.steps;
+  }
   if (options.time.empty()) return *request.scene.h * std::min(*request.scene.steps, kDefaultSteps);
   const Rational time = constant_option("--time", options.time);
   if (time == 0) throw UsageError("--time 0: there is nothing to measure");

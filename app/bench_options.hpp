@@ -12,7 +12,7 @@ namespace hamgen::app {
 struct BenchOptions {
   std::string model;
   SceneOptions scene;  // h and steps are in place of the scene's own
-  std::string schemes, h, time, target;
+  std::string schemes, h, time, steps, target;
   CompilerChoice compiler;
   std::string observe = "state";
   std::string rounds = "9";

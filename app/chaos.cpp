@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/output/chaos_output.hpp"
 #include "app/output/draw_picture.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
@@ -87,10 +88,17 @@ ChaosTitle title_of(const Loaded& loaded) {
           .coordinates = element_names(loaded.setting.model.coordinates)};
 }
 
-void write_chaos_files(const ChaosOptions& options, const std::string& csv,
+// The text for people, the document of --json, and the table.
+struct ChaosTexts {
+  std::string people, json, csv;
+};
+
+void write_chaos_files(const ChaosOptions& options, const ChaosTexts& texts,
                        const std::string& script) {
-  if (!options.output.empty()) {
-    runtime::atomic_write(options.output, csv);
+  const OutputKind kind = table_kind(options.output);
+  print(options.json ? texts.json : kind == OutputKind::standard ? texts.csv : texts.people);
+  if (kind == OutputKind::csv || kind == OutputKind::json) {
+    runtime::atomic_write(options.output, kind == OutputKind::csv ? texts.csv : texts.json);
     if (!options.quiet) print_error(options.output + "\n");
   }
   if (options.plot.empty()) return;
@@ -121,12 +129,10 @@ int run_map(const ChaosOptions& options, const Loaded& loaded, std::vector<Chaos
   }
   const ChaosMapTable map{&axes, &cells};
   const ChaosTitle title = title_of(loaded);
-  if (options.json) {
-    print(chaos_map_json(map, title));
-  } else {
-    print(chaos_map_text(map, indicator, title));
-  }
-  write_chaos_files(options, chaos_map_csv(map, title),
+  write_chaos_files(options,
+                    {.people = chaos_map_text(map, indicator, title),
+                     .json = chaos_map_json(map, title),
+                     .csv = chaos_map_csv(map, title)},
                     chaos_map_script(map, indicator, title, options.plot));
   return std::ranges::any_of(cells,
                              [](const ChaosCell& c) { return c.status == runtime::Status::done; })
@@ -154,12 +160,10 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
     degrees = orbit_frequencies(loaded.library.library, start, steps,
                                 static_cast<int>(std::min(count, 20L)), &interrupt_flag());
   const ChaosTitle title = title_of(loaded);
-  if (options.json) {
-    print(chaos_json(found, degrees, title));
-  } else {
-    print(chaos_text(found, title) + frequencies_text(degrees, title));
-  }
-  write_chaos_files(options, chaos_csv(found, title),
+  write_chaos_files(options,
+                    {.people = chaos_text(found, title) + frequencies_text(degrees, title),
+                     .json = chaos_json(found, degrees, title),
+                     .csv = chaos_csv(found, title)},
                     gnuplot_script(chaos_plot(found, title), options.plot));
   if (found.status == runtime::Status::stopped) return interrupted;
   return found.status == runtime::Status::done ? done : numerical_failure;
@@ -168,6 +172,7 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
 int run_chaos(const ChaosOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  require_one_document(options.json, table_kind(options.output));
   const Model model = read_setting(options.method, options.scene).model;
   const std::set<std::string> names = varied_names(model);
   std::vector<ChaosAxis> axes;
@@ -194,7 +199,7 @@ Command add_chaos(CLI::App& app) {
       ->type_name("COUNT");
   add_repeated(*parser, "--over", options->over,
                "an axis of a map: a parameter or variable; twice at most")
-      ->type_name("NAME=LOW:HIGH:COUNT");
+      ->type_name("NAME=LOW:HIGH:COUNT,...");
   parser->add_option("--indicator", options->indicator, "of a map: megno, lyapunov, fli or sali")
       ->type_name("NAME");
   add_step_option(*parser, options->scene);
@@ -204,7 +209,7 @@ Command add_chaos(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "the numbers as CSV; a picture, .svg or .png, and its .gp")
+                   "the numbers: .csv, .json; a picture: .svg, .png, and its .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet,

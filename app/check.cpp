@@ -84,11 +84,25 @@ nlohmann::ordered_json json_of(const Diagnostic& diagnostic, const Location& pla
           {"help", diagnostic.help}};
 }
 
+// Of options that make no sense: no place is meant.
+nlohmann::ordered_json json_of(const UsageError& error) {
+  const std::string text = error.what();
+  const std::size_t help = text.find("\nhelp: ");
+  Diagnostic said{
+      .severity = Severity::error, .span = {}, .message = text.substr(0, help), .help = ""};
+  if (help != std::string::npos) said.help = text.substr(help + 7);
+  return json_of(said, {.file = "", .begin = {1, 1}, .end = {1, 1}});
+}
+
 // For editors: everything that is said, as one document, and nothing else.
 int check_as_json(const SourceText& source, const MethodOptions& options,
                   const SceneOptions& scene) {
   nlohmann::ordered_json document = {{"model", source.path}, {"fine", false}};
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
+  const auto say = [&said](const auto& error) {
+    for (std::size_t i = 0; i < error.diagnostics().size(); ++i)
+      said.push_back(json_of(error.diagnostics()[i], error.locations()[i]));
+  };
   int status = done;
   try {
     const Request request = request_of(options, scene, source);
@@ -103,22 +117,28 @@ int check_as_json(const SourceText& source, const MethodOptions& options,
     document["invariants"] = counts.invariants;
     document["scenes"] = counts.scenes;
   } catch (const ModelError& error) {
-    for (std::size_t i = 0; i < error.diagnostics().size(); ++i)
-      said.push_back(json_of(error.diagnostics()[i], error.locations()[i]));
+    say(error);
     status = model_error;
+  } catch (const OptionError& error) {
+    say(error);
+    status = usage_error;
+  } catch (const UsageError& error) {
+    said.push_back(json_of(error));
+    status = usage_error;
   }
   document["diagnostics"] = std::move(said);
   print(json_document(document));
   return status;
 }
 
-int check(const MethodOptions& options, const SceneOptions& scene, bool json) {
+int check(const MethodOptions& options, const SceneOptions& scene, bool json, bool quiet) {
   const SourceText source = read_source(options.model);
   if (json) return check_as_json(source, options, scene);
   const Request request = request_of(options, scene, source);
   const Model model = check_model(source, request, [&](const std::vector<Diagnostic>& warnings) {
     print_error(render(warnings, source));
   });
+  if (quiet) return done;
   const Counts counts = counts_of(model);
   print(fmt::format("{}: fine: {}, {}, {}, {}\n", visible_text(options.model),
                     counted(counts.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
@@ -134,12 +154,14 @@ Command add_check(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
   const auto scene = std::make_shared<SceneOptions>();
   const auto json = std::make_shared<bool>(false);
+  const auto quiet = std::make_shared<bool>(false);
   CLI::App* parser = app.add_subcommand(
       "check", "says whether a model is fine: language, derivatives, scenes, plan of the step");
   add_method_options(*parser, *options);
   add_scene_choice(*parser, *scene);
-  parser->add_flag("--json", *json, "what is said, with its places, for editors");
-  return {parser, [options, scene, json] { return check(*options, *scene, *json); }};
+  parser->add_flag("--json", *json, "");
+  parser->add_flag("--quiet", *quiet, "what is said, with its places, for editors; mistakes only");
+  return {parser, [options, scene, json, quiet] { return check(*options, *scene, *json, *quiet); }};
 }
 
 }  // namespace hamgen::app

@@ -77,10 +77,10 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
   add_repeated(command, "--reference", options.reference,
                "where: q=1,w=50; default: the scene's initial state")
       ->type_name("NAME=VALUE,...");
-  add_repeated(command, "--fold", options.fold, "")->type_name("NAME");
+  add_repeated(command, "--fold", options.fold, "")->type_name("NAME,...");
   command
       .add_option("--solver", options.solver,
-                  "put a parameter's value in; newton, fixed-point or sweeps:K")
+                  "burn parameters' values in; newton, fixed-point, sweeps:K")
       ->type_name("NAME");
   command.add_option("--scalar", options.scalar, "")->type_name("TYPE");
   command.add_flag("--plain-sums", options.plain_sums,
@@ -90,8 +90,8 @@ void add_method_options(CLI::App& command, MethodOptions& options) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, "")->type_name("NAME");
   add_repeated(command, "--set", options.set,
-               "of the model, default: its first; a parameter or size of it")
-      ->type_name("NAME=VALUE");
+               "of the model, default: its first; parameters or sizes of it")
+      ->type_name("NAME=VALUE,...");
   add_repeated(command, "--initial", options.initial, "initial state, for example q=3.1,p=0")
       ->type_name("NAME=VALUE,...");
   command.add_flag("--whole", options.whole, "");
@@ -110,8 +110,8 @@ void add_observe_option(CLI::App& command, SceneOptions& options) {
 void add_scene_choice(CLI::App& command, SceneOptions& options) {
   command.add_option("--scene", options.scene, "leave out what this scene does not need")
       ->type_name("NAME");
-  add_repeated(command, "--set", options.set, "a size of the model; with --scene a parameter too")
-      ->type_name("NAME=VALUE");
+  add_repeated(command, "--set", options.set, "sizes of the model; with --scene parameters too")
+      ->type_name("NAME=VALUE,...");
   add_repeated(command, "--initial", options.initial, "with --scene: another initial state")
       ->type_name("NAME=VALUE,...");
   add_observe_option(command, options);
@@ -162,6 +162,15 @@ std::vector<Assignment> split_assignments(std::string_view option, std::string_v
   return assignments;
 }
 
+std::vector<std::string> listed(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists) {
+    for (const std::string_view piece : outermost_pieces(list))
+      names.emplace_back(without_blanks(piece));
+  }
+  return names;
+}
+
 long integer_value(const std::string& what, const std::string& text, long least) {
   constexpr long largest = 1'000'000'000'000'000;
   std::optional<Rational> value;
@@ -188,11 +197,8 @@ int modified_term_count(const std::string& option, const std::string& text) {
 }
 
 SizesAndRest split_sizes(const Model& model, const std::vector<std::string>& set) {
-  std::vector<Assignment> assignments;
-  for (const std::string& text : set) assignments.push_back(split_assignment("--set", text));
-  require_once("--set", assignments);
   SizesAndRest result;
-  for (const Assignment& assignment : assignments) {
+  for (const Assignment& assignment : all_assignments("--set", set)) {
     const auto& [name, value] = assignment;
     const bool is_size = std::ranges::any_of(
         model.sizes, [&name = name](const Size& size) { return size.name == name; });
@@ -220,7 +226,7 @@ Request request_of(const MethodOptions& options) {
   request.reference = all_assignments("--reference", options.reference);
   request.solver = options.solver;
   request.scalar = options.scalar;
-  request.fold = options.fold;
+  request.fold = listed(options.fold);
   request.plain_sums = options.plain_sums;
   return request;
 }
@@ -262,7 +268,10 @@ std::map<std::string, long> sizes_of(const std::vector<std::string>& set,
 
 Request request_of(const MethodOptions& options, const SceneOptions& scene,
                    const SourceText& source) {
-  if (!scene.scene.empty()) {
+  // A model without scenes has one without a name, where its initial state is given.
+  const bool is_unnamed =
+      scene.scene.empty() && !scene.initial.empty() && read_model(source).scenes.empty();
+  if (!scene.scene.empty() || is_unnamed) {
     Setting setting = read_setting(options, scene);
     const SceneValues values = scene_values(setting.model, setting.scene);
     take_gauge_at(values, setting.model, setting.request);
@@ -303,17 +312,14 @@ void specialise(const SceneOptions& options, const SceneValues& values,
     facts.values.observe.clear();
     facts.values.formulas.clear();
   }
-  for (const std::string& list : options.keep) {
-    for (const std::string_view piece : outermost_pieces(list)) {
-      const std::string name(without_blanks(piece));
-      if (!known.contains(name)) {
-        const std::string near = nearest(name, {known.begin(), known.end()});
-        throw UsageError(fmt::format("--keep {}: {} has no such variable or parameter{}", name,
-                                     model.name,
-                                     near.empty() ? "" : "; did you mean '" + near + "'?"));
-      }
-      facts.kept.insert(name);
+  for (const std::string& name : listed(options.keep)) {
+    if (!known.contains(name)) {
+      const std::string near = nearest(name, {known.begin(), known.end()});
+      throw UsageError(fmt::format("--keep {}: {} has no such variable or parameter{}", name,
+                                   model.name,
+                                   near.empty() ? "" : "; did you mean '" + near + "'?"));
     }
+    facts.kept.insert(name);
   }
   if (!options.whole) {
     setting.request.scene = std::move(facts);

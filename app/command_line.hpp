@@ -59,7 +59,7 @@ struct MethodOptions {
   std::string model;  // path of the .ham file
   std::string scheme, alpha, beta, gamma, gauge, order, solver, scalar;
   std::vector<std::string> reference;  // NAME=VALUE,... of the gauge
-  std::vector<std::string> fold;
+  std::vector<std::string> fold;       // NAME,...
   bool plain_sums = false;
 };
 
@@ -74,7 +74,7 @@ using Assignment = std::pair<std::string, std::string>;
 // Which run is meant; the texts are kept as typed.
 struct SceneOptions {
   std::string scene;
-  std::vector<std::string> set, initial;  // NAME=VALUE, NAME=VALUE,...
+  std::vector<std::string> set, initial;  // NAME=VALUE,...
   std::optional<std::string> h, steps;    // in place of the scene's
   std::optional<std::string> time;        // in place of steps
   bool whole = false;                     // leave in what the scene does not need
@@ -98,6 +98,8 @@ void add_step_option(CLI::App& command, SceneOptions& options);
 // before it, which becomes a list.
 [[nodiscard]] std::vector<Assignment> split_assignments(std::string_view option,
                                                         std::string_view text);
+// Of "a,b" and "c": a, b, c, at outermost commas.
+[[nodiscard]] std::vector<std::string> listed(const std::vector<std::string>& lists);
 // An integer such as "100" or "1e6" within [least, 1e15]; throws UsageError that begins with
 // `what`, the option and its value as typed.
 [[nodiscard]] long integer_value(const std::string& what, const std::string& text, long least);

@@ -125,6 +125,9 @@ std::string zsh_script(const CLI::App& app) {
             : list != values.end() ? fmt::format(":name:({})", fmt::join(list->second, " "))
             : name == "output"     ? ":file:_files"
                                    : fmt::format(":{}:", zsh_text(option->get_type_name()));
+        for (const std::string& letter : option->get_snames())
+          cases += fmt::format("      '-{}[{}]{}' \\\n", letter,
+                               zsh_text(option->get_description()), what);
         // "--name=[what it is]:value:" takes the value as the next word, too.
         cases += fmt::format("      '--{}{}[{}]{}' \\\n", name, takes ? "=" : "",
                              zsh_text(option->get_description()), what);
@@ -203,7 +206,7 @@ COMMAND [MODEL] [options]
 .SH COMMANDS
 {}.SH EXIT STATUS
 0 done; 1 numerical failure or a difference found; 2 usage; 3 model error; 4 tool failure (compiler,
-files); 5 proof failed; 130 interrupted.
+files); 5 proof failed; 6 out of time (\-\-seconds); 130 interrupted.
 .SH ENVIRONMENT
 .TP
 .B CXX

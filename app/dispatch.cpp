@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 
@@ -55,6 +56,40 @@ std::string suggestion(const CLI::App& command, const std::string& word) {
   return nearest(word.substr(0, word.find('=')), candidates);
 }
 
+bool has_option(const CLI::App& command, const std::string& name) {
+  return std::ranges::any_of(command.get_options(), [&name](const CLI::Option* option) {
+    return option->check_lname(name);
+  });
+}
+
+// The commands of the help that have the option: "run, bench and others".
+std::string commands_with(const CLI::App& app, const std::string& option) {
+  constexpr std::size_t shown = 3;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (!command->get_group().empty() && has_option(*command, option))
+      names.push_back(command->get_name());
+  }
+  const bool more = names.size() > shown;
+  if (more) names.resize(shown);
+  return fmt::format("{}{}", fmt::join(names, ", "), more ? " and others" : "");
+}
+
+// What would help where the word was not expected; empty if nothing is known.  An option that other
+// commands have is no slip of the pen: it is said whose it is, unless this one has its plural.
+std::string help_for(const CLI::App& app, const CLI::App& command, const std::string& word) {
+  const std::string near = suggestion(command, word);
+  const std::string option = word.substr(0, word.find('='));
+  if (option.starts_with("--") && near != option + "s" && near + "s" != option) {
+    const std::string others = commands_with(app, option.substr(2));
+    if (!others.empty()) {
+      const std::string own = command.get_parent() == nullptr ? "" : command.get_name() + " ";
+      return fmt::format("help: {} is an option of {}; see hamgen {}--help\n", option, others, own);
+    }
+  }
+  return near.empty() ? "" : fmt::format("help: did you mean '{}'?\n", near);
+}
+
 std::string explain(const CLI::ParseError& error, const CLI::App& app,
                     const std::vector<std::string>& words) {
   const CLI::App& command = chosen(app);
@@ -67,8 +102,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
     const std::vector<std::string> extras = command.remaining();
     const std::string word = extras.empty() ? words.front() : extras.front();
     text = fmt::format("hamgen: unexpected '{}'\n", word);
-    const std::string near = suggestion(command, word);
-    if (!near.empty()) return text + fmt::format("help: did you mean '{}'?\n", near);
+    const std::string help = help_for(app, command, word);
+    if (!help.empty()) return text + help;
   }
   const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
   return text + fmt::format("help: see hamgen {}--help\n", name);

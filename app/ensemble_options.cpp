@@ -94,7 +94,7 @@ EnsemblePlan read_plan(const EnsembleOptions& options, const Model& model) {
   if (!options.seed.empty())
     plan.seed =
         static_cast<std::uint64_t>(integer_value("--seed " + options.seed, options.seed, 0));
-  require_known(plan, options.method.fold, names);
+  require_known(plan, listed(options.method.fold), names);
   if (plan.size() > static_cast<double>(kMostTrajectories))
     throw UsageError(fmt::format(
         "these are {:.4g} trajectories, of which 100 bytes each would make {:.4g} TB; {:.0e} are "
@@ -165,9 +165,9 @@ int read_threads(const EnsembleOptions& options) {
 void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
   add_scene_options(parser, options.scene);
   add_repeated(parser, "--over", options.over, "evenly spaced values of a variable or parameter")
-      ->type_name("NAME=LOW:HIGH:COUNT");
+      ->type_name("NAME=LOW:HIGH:COUNT,...");
   add_repeated(parser, "--random", options.random, "uniform(a,b) or normal(mean,deviation)")
-      ->type_name("NAME=LAW");
+      ->type_name("NAME=LAW,...");
   parser.add_option("--draws", options.draws, "")->type_name("N");
   parser.add_option("--seed", options.seed, "")->type_name("S");
   parser.add_option("--from", options.from, "random values for each point; a CSV file of starts")

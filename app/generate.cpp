@@ -7,6 +7,7 @@
 
 #include "app/command_line.hpp"
 #include "app/output/difference.hpp"
+#include "app/output/json_document.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"
@@ -29,6 +30,8 @@ struct GenerateOptions {
   bool tangent = false;
   bool events = false;
   bool check = false;
+  bool json = false;
+  bool quiet = false;
 };
 
 std::string path_in(const std::string& directory, const OutputFile& file) {
@@ -113,12 +116,25 @@ int compare(const OutputFiles& files, const std::string& directory, const std::s
   return numerical_failure;
 }
 
-int write(const OutputFiles& files, const std::string& directory) {
+// Says which files there are and which have changed.
+int write(const OutputFiles& files, const std::string& directory, const GenerateOptions& options) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const OutputFile& file : files) {
     const std::string path = path_in(directory, file);
     const bool changed = runtime::atomic_write(path, file.text);
-    print_error(fmt::format("{}{}\n", path, changed ? "" : " (unchanged)"));
+    rows.push_back({{"path", path}, {"changed", changed}});
+    if (!options.quiet && !options.json)
+      print_error(fmt::format("{}{}\n", path, changed ? "" : " (unchanged)"));
   }
+  if (options.json) print(json_document(nlohmann::ordered_json{{"files", rows}}));
+  return done;
+}
+
+// The texts, for a program that asks.
+int print_as_json(const OutputFiles& files) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const OutputFile& file : files) rows.push_back({{"path", file.path}, {"text", file.text}});
+  print(json_document(nlohmann::ordered_json{{"files", rows}}));
   return done;
 }
 
@@ -141,6 +157,8 @@ std::string format_names() {
 }
 
 int generate_files(const GenerateOptions& options) {
+  if (options.check && options.json)
+    throw UsageError("--check and --json: what differs is said by a diff\nhelp: drop --json");
   if (options.check && options.output == "-")
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   const SourceText source = read_source(options.method.model);
@@ -169,7 +187,8 @@ int generate_files(const GenerateOptions& options) {
   if (one_file) files = under_one_name(files, options.output);
   const std::string directory = one_file ? "" : options.output;
   if (options.check) return compare(files, directory, options.output, source, request);
-  return options.output == "-" ? print_only_file(files) : write(files, directory);
+  if (options.output != "-") return write(files, directory, options);
+  return options.json ? print_as_json(files) : print_only_file(files);
 }
 
 }  // namespace
@@ -209,6 +228,8 @@ Command add_generate(CLI::App& app) {
                    "find the model's events too; compare with DIRECTORY, 1 and a diff");
   add_method_options(*parser, options->method);
   add_scene_choice(*parser, options->scene);
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the files as JSON; no names of files");
   return {parser, [options] { return generate_files(*options); }};
 }
 

@@ -110,8 +110,8 @@ Command add_plugin(CLI::App& app) {
       ->type_name("DIRECTORY")
       ->required();
   parser->group("");  // for programs: not listed in the help
-  add_repeated(*parser, "--set", options->scene.set, "a size of the model")
-      ->type_name("NAME=VALUE");
+  add_repeated(*parser, "--set", options->scene.set, "sizes of the model")
+      ->type_name("NAME=VALUE,...");
   add_method_options(*parser, options->method);
   return {parser, [options] { return run_plugin(*options); }};
 }

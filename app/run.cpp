@@ -167,7 +167,7 @@ void say(const RunReport& report, const RunOptions& options) {
 }
 
 void draw(const RunOptions& options, const NumberTable& rows, const RunReport& report) {
-  const std::string scene = report.scene->name.empty() ? "" : " " + report.scene->name;
+  const std::string scene = report.scene->name.empty() ? "" : ", scene " + report.scene->name;
   const Plot plot = trajectory_plot(rows, options.columns, report.plugin->model.name + scene);
   draw_picture({.picture = options.plot,
                 .script = std::filesystem::path(options.plot).replace_extension(".gp"),

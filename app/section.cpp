@@ -8,6 +8,7 @@
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/draw_picture.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/section_output.hpp"
 #include "app/output/terminal.hpp"
@@ -152,8 +153,11 @@ SceneValues scene_of(const Setting& setting) {
 }
 
 void write_files(const SectionOptions& options, const Section& section, const SectionTitle& title) {
-  if (!options.output.empty()) {
-    runtime::atomic_write(options.output, section_csv(section, title));
+  const OutputKind kind = table_kind(options.output);
+  if (kind == OutputKind::standard) print(section_csv(section, title));
+  if (kind == OutputKind::csv || kind == OutputKind::json) {
+    runtime::atomic_write(options.output, kind == OutputKind::csv ? section_csv(section, title)
+                                                                  : section_json(section, title));
     if (!options.quiet) print_error(options.output + "\n");
   }
   if (options.plot.empty()) return;
@@ -170,9 +174,10 @@ bool has_failed(const SectionOrbit& orbit) {
 
 int run_section(const SectionOptions& options) {
   if (!options.plot.empty()) require_picture_name("--plot", options.plot);
+  require_one_document(options.json, table_kind(options.output));
   const runtime::Direction direction = read_direction(options.direction);
   SceneOptions scene_options = options.scene;
-  if (!scene_options.steps) scene_options.steps = "1e6";
+  if (!scene_options.steps && !scene_options.time) scene_options.steps = "1e6";
   Setting setting = read_setting(options.method, scene_options);
   const Geometry g = geometry(options, setting.model);
   setting.scene.observe = fmt::format("{} = ({}) - ({}), {} = {}, {} = {}", kSurface, g.left,
@@ -244,14 +249,15 @@ Command add_section(CLI::App& app) {
   parser->add_option("--from", options->from, "where they start")
       ->type_name("A=LOW:HIGH,B=LOW:HIGH");
   parser->add_option("--h", options->scene.h, "")->type_name("H");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
   parser
       ->add_option("--steps", options->scene.steps,
-                   "default: the scene's step size; 1e6 for each orbit at most")
+                   "step size; most for an orbit, default 1e6 steps")
       ->type_name("N");
   parser->add_option("-o,--output", options->output, "")->type_name("FILE");
   parser
       ->add_option("--plot", options->plot,
-                   "the points as CSV; a picture, .svg or .png, and its .gp")
+                   "the points: .csv, .json; a picture: .svg, .png, and its .gp")
       ->type_name("FILE");
   parser->add_flag("--json", options->json, "");
   parser->add_flag("--quiet", options->quiet, "the points as JSON; no summary, no progress");

@@ -6,8 +6,11 @@
 #include <memory>
 
 #include "app/command_line.hpp"
+#include "app/output/json_document.hpp"
+#include "app/output/model_json.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -15,13 +18,20 @@ namespace {
 constexpr std::array<std::string_view, 6> stages = {"model", "mechanics", "equations",
                                                     "plan",  "program",   "origins"};
 
-int show(const MethodOptions& options, const SceneOptions& scene, const std::string& stage) {
+int show(const MethodOptions& options, const SceneOptions& scene, const std::string& stage,
+         bool json) {
   if (std::ranges::find(stages, stage) == stages.end())
     throw UsageError(fmt::format("--stage {}: no such stage\nhelp: the stages are {}", stage,
                                  fmt::join(stages, ", ")));
   const SourceText source = read_source(options.model);
-  std::string text = show_stage(source, request_of(options, scene, source), stage);
+  const Request request = request_of(options, scene, source);
+  std::string text = show_stage(source, request, stage);
   if (!text.ends_with('\n')) text += '\n';
+  if (json) {
+    const Model model = read_model(source, request.sizes);
+    text = json_document(nlohmann::ordered_json{
+        {"file", source.path}, {"stage", stage}, {"model", model_json(model)}, {"text", text}});
+  }
   print(text);
   return done;
 }
@@ -32,6 +42,7 @@ Command add_show(CLI::App& app) {
   const auto options = std::make_shared<MethodOptions>();
   const auto scene = std::make_shared<SceneOptions>();
   const auto stage = std::make_shared<std::string>("plan");
+  const auto json = std::make_shared<bool>(false);
   CLI::App* parser =
       app.add_subcommand("show", "prints what one stage of the pipeline makes of a model");
   parser
@@ -40,7 +51,8 @@ Command add_show(CLI::App& app) {
       ->type_name("NAME");
   add_method_options(*parser, *options);
   add_scene_choice(*parser, *scene);
-  return {parser, [options, scene, stage] { return show(*options, *scene, *stage); }};
+  parser->add_flag("--json", *json, "the text, and the model with its names, units and scenes");
+  return {parser, [options, scene, stage, json] { return show(*options, *scene, *stage, *json); }};
 }
 
 }  // namespace hamgen::app

@@ -1,6 +1,7 @@
 // hamgen stress: the step far outside comfort, cell by cell.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/draw_picture.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/stress_output.hpp"
 #include "app/output/terminal.hpp"
@@ -44,16 +46,35 @@ void write_stress_files(const StressOptions& options, const StressMap& map) {
   };
   if (!options.csv.empty()) write(options.csv, stress_csv(map));
   if (!options.plot.empty()) draw(options.plot);
-  if (options.output.empty()) return;
+  const OutputKind kind = output_kind(options.output);
+  if (kind == OutputKind::csv) write(options.output, stress_csv(map));
+  if (kind == OutputKind::json) write(options.output, stress_json(map));
+  if (kind != OutputKind::directory) return;
   const fs::path directory = options.output;
   write(directory / "stress.csv", stress_csv(map));
   write(directory / "stress.json", stress_json(map));
   if (options.plot.empty()) draw(directory / "stress.svg");
 }
 
-StressLimits read_limits(const StressOptions& options) {
+// The length of a cell, 1000 steps where nothing is said.  A time is as many steps in all cells
+// only where h is no axis.
+SceneOptions with_length(SceneOptions scene, const std::vector<StressAxis>& axes) {
+  if (scene.time) {
+    if (std::ranges::any_of(axes, [](const auto& axis) { return axis.label == "h"; }))
+      throw UsageError(fmt::format(
+          "--time {}: h is an axis of the map, and so many steps are too long or too short for "
+          "some cells\nhelp: say --steps N, or give two axes besides h: --vary A=1:2,B=1:2",
+          *scene.time));
+    return scene;
+  }
+  if (!scene.steps) scene.steps = "1000";
+  static_cast<void>(integer_value("--steps " + *scene.steps, *scene.steps, 1));
+  return scene;
+}
+
+StressLimits read_limits(const StressOptions& options, long steps) {
   StressLimits limits;
-  limits.steps = integer_value("--steps " + *options.scene.steps, *options.scene.steps, 1);
+  limits.steps = steps;
   limits.time = std::chrono::duration<double>(
       static_cast<double>(integer_value("--seconds " + options.seconds, options.seconds, 1)));
   limits.reference_time = std::chrono::duration<double>(static_cast<double>(integer_value(
@@ -66,21 +87,26 @@ int run_stress(const StressOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   StressRequest request;
-  request.limits = read_limits(options);
+  const OutputKind kind = output_kind(options.output);
+  require_one_document(options.json, kind);
   request.on_progress = progress_bars(options.quiet);
   request.axes = read_axes(options.vary);
-  request.setting =
-      read_setting(with_run_time_members(options.method, request.axes), options.scene);
+  const SceneOptions scene = with_length(options.scene, request.axes);
+  request.setting = read_setting(with_run_time_members(options.method, request.axes), scene);
   std::vector<std::string> varied;
   for (const StressAxis& axis : request.axes) varied.push_back(axis.label);
-  specialise(options.scene, complete_scene(request.setting.model, request.setting.scene), varied,
-             Observing::everything, request.setting);
+  const SceneValues values = complete_scene(request.setting.model, request.setting.scene);
+  if (*values.steps == 0) throw UsageError(fmt::format("--time {}: less than a step", *scene.time));
+  request.limits = read_limits(options, *values.steps);
+  specialise(scene, values, varied, Observing::everything, request.setting);
   const StressMap map = stress_map(request);
   if (interrupt_flag()) {
     print_error("hamgen: stopped; nothing was written\n");
     return interrupted;
   }
-  print(options.json ? stress_json(map) : stress_text(map));
+  print(options.json                   ? stress_json(map)
+        : kind == OutputKind::standard ? stress_csv(map)
+                                       : stress_text(map));
   write_stress_files(options, map);
   return done;
 }
@@ -89,22 +115,27 @@ int run_stress(const StressOptions& options) {
 
 Command add_stress(CLI::App& app) {
   const auto options = std::make_shared<StressOptions>();
-  options->scene.steps = "1000";
   CLI::App* parser =
       app.add_subcommand("stress", "maps where a step stays bounded, cell by cell of a grid");
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
   add_repeated(*parser, "--vary", options->vary,
-               "an axis: a parameter, h, scale, alpha, beta, gamma; twice at most")
-      ->type_name("NAME=LOW:HIGH[:COUNT]");
-  parser->add_option("--steps", options->scene.steps, "of each cell; default 1000")->type_name("N");
+               "axes, two at most: a parameter, h, scale, alpha, beta, gamma")
+      ->type_name("NAME=LOW:HIGH:COUNT,...");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser
+      ->add_option("--steps", options->scene.steps,
+                   "of each cell, where h is no axis; their number; default 1000")
+      ->type_name("N");
   parser->add_option("--seconds", options->seconds, "for each cell at most; default 1")
       ->type_name("N");
   parser
       ->add_option("--reference-seconds", options->reference_seconds,
                    "for all state errors; 0: none; default 10")
       ->type_name("N");
-  parser->add_option("-o,--output", options->output, "write stress.csv, .json, .gp and .svg there")
+  parser
+      ->add_option("-o,--output", options->output,
+                   "stress.csv, .json, .gp and .svg there; or FILE.csv, FILE.json")
       ->type_name("DIRECTORY");
   parser->add_option("--csv", options->csv, "")->type_name("FILE");
   parser

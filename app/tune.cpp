@@ -27,7 +27,7 @@ namespace {
 struct TuneOptions {
   MethodOptions method;  // of which there are the model and the scalar
   SceneOptions scene;
-  std::string time, map, map_beta, map_gamma;
+  std::string map, map_beta, map_gamma;
   CompilerChoice compiler;
   std::string form = "scalar";
   std::string samples = "1000";
@@ -37,7 +37,7 @@ struct TuneOptions {
   bool quiet = false;
 };
 
-constexpr long kMostTuningSteps = 5'000;  // unless --time says otherwise
+constexpr long kMostTuningSteps = 5'000;  // unless --time or --steps says otherwise
 
 GaugeForm form_of(const std::string& text) {
   if (text == "scalar") return GaugeForm::scalar;
@@ -63,13 +63,13 @@ TuneRequest tune_request(const TuneOptions& options) {
   request.shape = {.form = form_of(options.form), .n = static_cast<int>(degrees_of_freedom(model))};
   if (request.shape.n == 0)
     throw UsageError(fmt::format("{} has no coordinates", options.method.model));
-  if (!options.time.empty()) request.setting.scene.steps = "1";
   request.scene = complete_scene(model, request.setting.scene, "--time 10");
   // The coefficients are parameters of the step: what they move does not rest.
   specialise(options.scene, request.scene, {}, Observing::everything, request.setting);
   const Rational h = *request.scene.h;
-  request.time = options.time.empty() ? own_time(request.setting, request.scene)
-                                      : constant_option("--time", options.time);
+  const bool is_own = !options.scene.time && !options.scene.steps;
+  request.time =
+      is_own ? own_time(request.setting, request.scene) : Rational(h * *request.scene.steps);
   const double steps = to_double(Rational(request.time / h));
   if (!(steps > 0.0) || steps > 1e9)
     throw UsageError(
@@ -77,10 +77,11 @@ TuneRequest tune_request(const TuneOptions& options) {
                     "help: give another --time or --h",
                     to_double(request.time), to_double(h), steps));
   request.steps = std::max(1L, std::lround(steps));
-  if (options.time.empty()) request.steps = std::min(request.steps, kMostTuningSteps);
+  if (is_own) request.steps = std::min(request.steps, kMostTuningSteps);
   request.time = h * request.steps;
   request.setting.scene.h = hamgen::to_text(h);
   request.setting.scene.steps = std::to_string(request.steps);
+  request.setting.scene.time.reset();
   request.samples = integer_value("--samples " + options.samples, options.samples, 3);
   request.stop = &interrupt_flag();
   request.on_progress = progress_bars(options.quiet);
@@ -185,8 +186,9 @@ Command add_tune(CLI::App& app) {
   parser->add_option("MODEL", options->method.model, "a .ham file")->required();
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
-  parser->add_option("--time", options->time, "default: the scene's, at most 5000 steps")
-      ->type_name("T");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser->add_option("--steps", options->scene.steps, "default: the scene's, at most 5000 steps")
+      ->type_name("N");
   parser->add_option("--gauge-form", options->form, "scalar (default), diagonal or matrix")
       ->type_name("FORM");
   parser->add_option("--samples", options->samples, "points of the orbit to fit; default 1000")

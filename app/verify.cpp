@@ -32,6 +32,7 @@ struct VerifyOptions {
   std::string required;
   bool measure = false;
   bool json = false;
+  bool quiet = false;
   std::string emitted;      // a file; empty: the one that would be written
   std::string format;       // in this format
   std::string certificate;  // a file to write
@@ -235,7 +236,15 @@ int verify(const VerifyOptions& options) {
     rows.push_back(modified_json(modified, options.latex));
     text += modified_text(modified, options.latex);
   }
-  print(options.json ? json_document(rows) : text);
+  if (options.json) {
+    print(json_document(rows));
+  } else if (!options.quiet) {
+    print(text);
+  } else {
+    Proof refuted;
+    std::ranges::copy_if(proof, std::back_inserter(refuted), is_refuted);
+    if (!refuted.empty()) print(to_text(refuted));
+  }
   if (header) propose_command(proof, *header);
   require(proof, required);
   if (!options.certificate.empty()) write_certificate(options, setting, *header, proof);
@@ -254,7 +263,10 @@ Command add_verify(CLI::App& app) {
                    "print K terms of the modified Hamiltonian, as LaTeX");
   add_scene_options(*parser, options->scene);
   add_observe_option(*parser, options->scene);
-  add_step_option(*parser, options->scene);
+  parser->add_option("--h", options->scene.h, "")->type_name("H");
+  parser->add_option("--time", options->scene.time, "")->type_name("T");
+  parser->add_option("--steps", options->scene.steps, "of the run that is looked at; the scene's")
+      ->type_name("N");
   parser->add_option("--emitted", options->emitted, "")->type_name("FILE");
   parser->add_option("--format", options->format, "read this file, or a text of this format, back")
       ->type_name("NAME");
@@ -267,7 +279,8 @@ Command add_verify(CLI::App& app) {
       ->add_option("--require", options->required,
                    "else 5: symplectic (default),symmetric,order:P,conserves:NAME")
       ->type_name("LIST");
-  parser->add_flag("--json", options->json, "the findings as JSON");
+  parser->add_flag("--json", options->json, "");
+  parser->add_flag("--quiet", options->quiet, "the findings as JSON; nothing but what is refuted");
   return {parser, [options] { return verify(*options); }};
 }
 

@@ -1,6 +1,7 @@
 #include "runtime/cache.hpp"
 
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <ctime>
 #include <string_view>
 
 #include "runtime/atomic_file.hpp"
@@ -55,6 +57,22 @@ fs::path object_path(const Cache& cache, const std::string& key) {
 
 fs::path text_path(const Cache& cache, const std::string& key) {
   return cache.directory / (key + ".txt");
+}
+
+constexpr std::string_view kRecordEnding = ".about";
+constexpr std::uintmax_t kLargestRecord = 4096;  // bytes
+
+fs::path record_path(const Cache& cache, const std::string& key) {
+  return cache.directory / (key + std::string(kRecordEnding));
+}
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text.substr(0, kLargestRecord / 4);
+}
+
+bool is_record(const fs::directory_entry& entry) {
+  return entry.path().extension() == kRecordEnding && is_key(entry.path().stem().string());
 }
 
 // The sealed file, with its seal, if it is there, ours and undamaged; marks it as used now.
@@ -218,6 +236,39 @@ void publish_text(const Cache& cache, const std::string& key, std::string_view t
   if (::chmod(place.c_str(), 0600) != 0) throw file_error("write", place, errno);
 }
 
+void publish_record(const Cache& cache, const std::string& key, const CacheRecord& record) {
+  if (std::string problem = directory_problem(cache.directory); !problem.empty()) {
+    throw ToolError({.message = problem});
+  }
+  const fs::path place = record_path(cache, key);
+  std::error_code missing;
+  if (fs::is_regular_file(fs::symlink_status(place, missing))) return;
+  fs::remove(place, missing);  // a link would be followed
+  const std::string text = fmt::format("{}\n{}\n{:%Y-%m-%d}\n", one_line(record.model),
+                                       one_line(record.scheme), fmt::gmtime(std::time(nullptr)));
+  AtomicFile file(place);
+  file.write(text);
+  file.write(seal(key, text));
+  file.publish();
+  if (::chmod(place.c_str(), 0600) != 0) throw file_error("write", place, errno);
+}
+
+std::optional<CacheRecord> find_record(const Cache& cache, const std::string& key) {
+  const fs::path place = record_path(cache, key);
+  std::error_code missing;
+  const std::uintmax_t size = fs::file_size(place, missing);
+  if (missing || size > kLargestRecord) return {};
+  const std::optional<std::string> text = read_sealed(cache, key, place);
+  if (!text) return {};
+  std::vector<std::string> fields;
+  for (std::size_t begin = 0, end = 0; fields.size() < 3; begin = end + 1) {
+    end = text->find('\n', begin);
+    if (end == std::string::npos) return {};
+    fields.push_back(text->substr(begin, end - begin));
+  }
+  return CacheRecord{.model = fields[0], .scheme = fields[1], .made = fields[2]};
+}
+
 std::vector<CacheEntry> list_cache(const Cache& cache) {
   std::vector<CacheEntry> list;
   for (const fs::directory_entry& entry : entries_of(cache)) {
@@ -241,6 +292,7 @@ CacheRemoval clear_cache(const Cache& cache) {
   for (const fs::directory_entry& entry : entries_of(cache)) {
     std::error_code ignored;
     if (is_left_over(entry)) fs::remove_all(entry.path(), ignored);
+    if (is_record(entry)) fs::remove(entry.path(), ignored);
   }
   return prune_cache(cache, 0);
 }
@@ -260,6 +312,7 @@ CacheRemoval prune_cache(const Cache& cache, std::uintmax_t limit) {
     std::error_code failed;
     if (kept <= limit || !fs::remove(cache.directory / (entry.key + entry.extension), failed))
       continue;
+    fs::remove(record_path(cache, entry.key), failed);
     ++removal.entries;
     removal.bytes += entry.bytes;
   }

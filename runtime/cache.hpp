@@ -1,5 +1,5 @@
 // The cache of compiled plugins and of what was computed with them: one file KEY.so or KEY.txt
-// each, in a directory nobody else can write.
+// each, and KEY.about that says what it is of, in a directory nobody else can write.
 #pragma once
 
 #include <chrono>
@@ -14,10 +14,12 @@
 
 namespace hamgen::runtime {
 
+// A directory that is fit to be one, or why it is not.
 struct Cache {
   std::filesystem::path directory;  // absolute; empty if there is none
   std::string problem;              // why it is not used, as a warning; empty if it is usable
 
+  // Is there no problem?
   [[nodiscard]] bool usable() const { return problem.empty(); }
 };
 
@@ -46,18 +48,35 @@ std::filesystem::path publish_object(const Cache& cache, const std::string& key,
 
 // The same for a text, such as a reference solution.  A damaged one is not found.
 [[nodiscard]] std::optional<std::string> find_text(const Cache& cache, const std::string& key);
+// Throws ToolError.
 void publish_text(const Cache& cache, const std::string& key, std::string_view text);
 
-struct CacheEntry {
-  std::string key;
-  std::string extension;  // ".so" or ".txt"
-  std::uintmax_t bytes = 0;
-  std::filesystem::file_time_type last_used;
+// What an entry is of, for people.  A line end in a field becomes a blank.
+struct CacheRecord {
+  std::string model;   // the system's name
+  std::string scheme;  // the method's
+  std::string made;    // the day, 2026-01-31; filled in where it is written
+  bool operator==(const CacheRecord&) const = default;
 };
 
+// Beside an entry, if there is none yet.  Throws ToolError.
+void publish_record(const Cache& cache, const std::string& key, const CacheRecord& record);
+
+// Nothing if there is none, as of an entry of an earlier version, or it is damaged or no record.
+[[nodiscard]] std::optional<CacheRecord> find_record(const Cache& cache, const std::string& key);
+
+// A file of the cache.
+struct CacheEntry {
+  std::string key;                            // 64 hexadecimal digits
+  std::string extension;                      // ".so" or ".txt"
+  std::uintmax_t bytes = 0;                   // of the file
+  std::filesystem::file_time_type last_used;  // when it was found last
+};
+
+// What was removed.
 struct CacheRemoval {
-  std::size_t entries = 0;
-  std::uintmax_t bytes = 0;
+  std::size_t entries = 0;   // their number
+  std::uintmax_t bytes = 0;  // and their size
 };
 
 inline constexpr std::uintmax_t kCacheLimit = 256u << 20;  // bytes
@@ -65,7 +84,7 @@ inline constexpr std::uintmax_t kCacheLimit = 256u << 20;  // bytes
 // Most recently used first.  All three leave files alone that hamgen did not make.
 [[nodiscard]] std::vector<CacheEntry> list_cache(const Cache& cache);
 
-// Removes everything, also what interrupted compilations left.
+// Removes everything, also what interrupted compilations left, and records without an entry.
 CacheRemoval clear_cache(const Cache& cache);
 
 // Removes the least recently used entries until `limit` bytes remain, and left-overs older than a

@@ -12,24 +12,28 @@
 
 namespace hamgen::runtime {
 
+// A header beside the main text.
 struct SourceFile {
   std::string name;  // no directories
-  std::string text;
+  std::string text;  // all of it
 };
 
 // The main text may `#include "plugin.h"`, which is always there, and its own headers by name.
 struct PluginSource {
-  std::string text;
-  std::vector<SourceFile> headers;
+  std::string text;                 // one translation unit of C++20
+  std::vector<SourceFile> headers;  // that it includes by name
   std::string name = "plugin.cpp";  // shown in the compiler's messages
-  bool uses_eigen = false;
-  bool uses_quadmath = false;
+  bool uses_eigen = false;          // CompileOptions::eigen_include is on its path
+  bool uses_quadmath = false;       // libquadmath is linked
+  std::string model = {};           // its name, for the list of the cache only; may be empty
+  std::string scheme = {};          // the same
 };
 
+// How a plugin is compiled.
 struct CompileOptions {
-  std::vector<std::string> extra_flags;  // after the default ones
-  std::string eigen_include = "/usr/include/eigen3";
-  std::chrono::milliseconds time_limit = std::chrono::seconds(120);
+  std::vector<std::string> extra_flags;                              // after the default ones
+  std::string eigen_include = "/usr/include/eigen3";                 // a directory
+  std::chrono::milliseconds time_limit = std::chrono::seconds(120);  // of wall clock
   std::uint64_t memory_limit = std::uint64_t{8} << 30;  // bytes, of each process of the compiler
   const std::atomic<bool>* stop = nullptr;              // gives up the compilation when set
 };

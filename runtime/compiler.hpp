@@ -7,6 +7,7 @@
 
 namespace hamgen::runtime {
 
+// A program that compiles C++, with the arguments that belong to it.
 struct Compiler {
   // The program's absolute path, then the arguments that came with it (`CXX='ccache g++ -m64'`).
   std::vector<std::string> command;

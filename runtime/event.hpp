@@ -26,8 +26,14 @@ namespace hamgen::runtime {
 // The start with its step size times theta.
 [[nodiscard]] InitialValues with_part_of_step(InitialValues start, const Wide& theta);
 
-enum class Direction { rising, falling, both };
+// Which crossings of zero count, as time goes on.
+enum class Direction {
+  rising,   // from below
+  falling,  // from above
+  both
+};
 
+// A zero of a quantity within a step.
 struct Crossing {
   double fraction = 0.0;    // theta: of the step in which it is, in (0, 1]
   std::vector<Wide> state;  // 2n values
@@ -39,12 +45,14 @@ struct Crossing {
 // How they are told from each other: Note [several crossings in a step] of numerics/crossings.hpp.
 class EventLocator {
  public:
+  // Of 2n values, q then p.
   using Quantity = std::function<double(std::span<const Wide> state)>;
 
   // `start`: parameters and h of the run, whose state is not used.
   EventLocator(std::shared_ptr<const Library> library, InitialValues start, Quantity quantity,
                Direction direction);
 
+  // The quantity at a state.
   [[nodiscard]] double value(std::span<const Wide> state) const { return quantity_(state); }
   // Within the step from one state to the next, whose values are given, in the order of time.  A
   // value of zero belongs to the step that ends there.  Without those for which a step of part of

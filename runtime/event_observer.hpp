@@ -13,18 +13,20 @@ namespace hamgen::runtime {
 
 // A state of the orbit: that after so many steps and one of length `fraction` times h.
 struct EventPoint {
-  long long steps = 0;
+  long long steps = 0;      // whole ones before it
   double fraction = 0.0;    // in (0, 1]
   double time = 0.0;        // (steps + fraction) * h
   std::vector<Wide> state;  // 2n values: q then p
 };
 
+// A quantity whose zeros are looked for.
 struct ObservedEvent {
-  EventLocator::Quantity quantity;  // whose zeros are looked for
-  Direction direction = Direction::both;
+  EventLocator::Quantity quantity;                  // of the state
+  Direction direction = Direction::both;            // which zeros count
   std::function<bool(const EventPoint&)> on_event;  // true ends the run there
 };
 
+// Calls each event's function where it happens, to rounding and to the order of the steps.
 class EventObserver {
  public:
   // `start`: parameters and h of the run.

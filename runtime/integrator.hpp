@@ -13,6 +13,7 @@
 
 namespace hamgen::runtime {
 
+// What a run begins with.
 struct InitialValues {
   std::vector<Wide> parameters;  // parameter_count values
   Wide h;                        // the step; negative goes back in time
@@ -23,20 +24,22 @@ struct InitialValues {
 
 // Over the states after each step of one call.  All are finite.
 struct EnergyRange {
-  Wide min;
-  Wide max;
-  Wide last;
+  Wide min;   // the least H
+  Wide max;   // the largest
+  Wide last;  // that of the last state
 };
 
+// Of one call of Integrator::advance.
 struct Report {
-  Status status = Status::done;
-  long long steps_done = 0;
+  Status status = Status::done;          // done, or why the next step failed
+  long long steps_done = 0;              // by this call, each with a good state at its end
   long long iterations = 0;              // summed over the steps done
   int last_iterations = 0;               // of the step that failed, or the last one
   std::optional<double> last_increment;  // of that step; empty if it was not finite
   std::optional<EnergyRange> energy;     // empty if not watched, not finite, or no step was done
 };
 
+// One orbit, from its start on.  It belongs to one thread; any number of them may share a library.
 class Integrator {
  public:
   // Throws std::invalid_argument if a size is wrong or a value is not finite.
@@ -57,6 +60,7 @@ class Integrator {
   // Since the start.
   [[nodiscard]] long long steps_done() const { return steps_done_; }
 
+  // 2n values: q then p.
   [[nodiscard]] std::vector<Wide> state() const;
   // What rounding took from it: the sum of both, exactly, is what the next step starts from.
   [[nodiscard]] std::vector<Wide> carry() const;
@@ -64,10 +68,13 @@ class Integrator {
   [[nodiscard]] std::vector<double> rounded_state() const;
   // Of the state, with the digits of the scalar.
   [[nodiscard]] Wide energy() const;
+  // invariant_count values, of the state.
   [[nodiscard]] std::vector<Wide> invariants() const;
-
+  // The step size of the start.
   [[nodiscard]] Wide h() const { return start_.h; }
+  // The plugin that takes the steps.
   [[nodiscard]] const Library& library() const { return *library_; }
+  // What its errors are compared with.
   [[nodiscard]] const Judge& judge() const { return judge_; }
 
  private:

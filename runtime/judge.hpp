@@ -10,6 +10,7 @@
 
 namespace hamgen::runtime {
 
+// Tells a step that failed from one that escaped, and an error from a jump, in units of the start.
 class Judge {
  public:
   // Of the orbit that begins at `state` (2n values: q then p).  `defined_everywhere`: H and its
@@ -29,8 +30,9 @@ class Judge {
   // momenta also that of a mass of 1 that has all the energy of the scale as kinetic energy.
   [[nodiscard]] double size_of(std::span<const double> state) const;
 
-  // Ten energy scales: a larger error |H - H(0)| is a jump.
+  // Ten energy scales.
   [[nodiscard]] double jump_limit() const;
+  // Is an error |H - H(0)| larger than that limit?
   [[nodiscard]] bool is_jump(double energy_error) const { return energy_error > jump_limit(); }
   // The error is small beside |p H_p|/2 or |q H_q|/2 at the state.  A step that is unstable on a
   // quadratic H errs by their sum.

@@ -26,9 +26,13 @@ class Library {
   Library& operator=(const Library&) = delete;
   ~Library();
 
+  // The table of its C interface, which plugin.h declares.
   [[nodiscard]] const hamgen_plugin& plugin() const { return *plugin_; }
+  // n: a state has 2n values.
   [[nodiscard]] std::size_t degrees_of_freedom() const;
+  // Run-time parameters; those that were folded are not among them.
   [[nodiscard]] std::size_t parameter_count() const;
+  // What the plugin has besides H: the model's invariants, events and what is observed.
   [[nodiscard]] std::size_t invariant_count() const;
 
   // Has the scalar more digits than a double?
@@ -43,12 +47,14 @@ class Library {
   // Of doubles, rounded to double.
   [[nodiscard]] double energy(std::span<const double> parameters,
                               std::span<const double> state) const;
+  // The same of doubles, invariant_count values.
   [[nodiscard]] std::vector<double> invariants(std::span<const double> parameters,
                                                std::span<const double> state) const;
   // 2n values: H_q then H_p.
   [[nodiscard]] std::vector<double> gradient(std::span<const double> parameters,
                                              std::span<const double> state) const;
 
+  // Throws std::invalid_argument unless there are parameter_count parameters and 2n values.
   void check_sizes(std::size_t parameters, std::size_t state) const;
 
  private:

@@ -88,6 +88,8 @@ System load(const std::filesystem::path& model, const LoadOptions& options) {
   source.text = runtime::read_file(directory.path() / "plugin.cpp");
   source.uses_eigen = facts.uses_eigen;
   source.uses_quadmath = facts.uses_quadmath;
+  source.model = facts.name;
+  source.scheme = facts.scheme;
   runtime::CompileOptions compile;
   compile.stop = options.stop;
   const auto choice = options.compiler.empty() ? std::nullopt : std::optional(options.compiler);

@@ -24,6 +24,7 @@ namespace hamgen {
 
 struct SystemFacts;
 
+// How a model is loaded.
 struct LoadOptions {
   // As of `hamgen run`: {"--scheme", "gauss-4"}, {"--set", "N=100"} for a size.
   std::vector<std::string> method = {};
@@ -36,8 +37,14 @@ struct LoadOptions {
 // What the command said, as it would have on a terminal: the model's mistakes with their places.
 class LoadError : public std::runtime_error {
  public:
-  enum class Kind { usage, model };  // of the options; of the model
+  // Whose the mistake is.
+  enum class Kind {
+    usage,  // that of the options
+    model   // that of the model
+  };
+  // With all that the command said.
   LoadError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  // Whose the mistake is.
   [[nodiscard]] Kind kind() const { return kind_; }
 
  private:
@@ -49,14 +56,16 @@ class System;
 // The numbers a run starts from; names as in the model, "q", "m[2]".
 class Start {
  public:
-  // Of a coordinate, a momentum, a parameter, or "h".  Throw std::out_of_range naming it.
+  // Sets a coordinate, a momentum, a parameter, or "h".  Throws std::out_of_range naming it.
   Start& set(std::string_view name, double value);
+  // The same one's value, rounded to double.  Throws std::out_of_range.
   [[nodiscard]] double value(std::string_view name) const;
 
   // In the plugin's order, with the energy of the start where the method needs it.  Throws
   // std::invalid_argument if there is no step size, of a scene that has none.
   [[nodiscard]] runtime::InitialValues values() const;
-  [[nodiscard]] std::optional<long long> steps() const { return steps_; }  // the scene's
+  // How many the scene has, if it says.
+  [[nodiscard]] std::optional<long long> steps() const { return steps_; }
 
  private:
   friend class System;
@@ -68,18 +77,20 @@ class Start {
   std::optional<long long> steps_;
 };
 
+// What a run is asked for.
 struct RunOptions {
-  long long steps = 0;
-  long long every = 0;  // records; 0: none
-  bool watch_energy = true;
-  bool end_at_jump = true;
-  std::function<void(const runtime::Record&)> on_record = {};
-  std::vector<runtime::ObservedEvent> events = {};
-  const std::atomic<bool>* stop = nullptr;
+  long long steps = 0;       // at most; none by default
+  long long every = 0;       // records; 0: none
+  bool watch_energy = true;  // H after each step
+  bool end_at_jump = true;   // with the energy watched: where its error is ten times its scale
+  std::function<void(const runtime::Record&)> on_record = {};  // called for each record
+  std::vector<runtime::ObservedEvent> events = {};             // of the model or the program
+  const std::atomic<bool>* stop = nullptr;                     // ends the run when set
 };
 
+// What a run ended with.
 struct Trajectory {
-  runtime::RunSummary summary;
+  runtime::RunSummary summary;                  // what became of its steps
   std::vector<runtime::Wide> state;             // the last good one: q then p
   double time = 0.0;                            // of it
   std::optional<runtime::EventPoint> ended_by;  // an event: then state and time are its
@@ -89,16 +100,24 @@ struct Trajectory {
 // each thread integrates orbits of its own.
 class System {
  public:
+  // The system's, as the model says it.
   [[nodiscard]] const std::string& name() const;
+  // The method's: "gauss-8".
   [[nodiscard]] const std::string& scheme() const;
+  // The method's: the error of a step is of size h^(order + 1).
   [[nodiscard]] int order() const;
+  // Names, of the elements of arrays too: "q[1]".  In this order they are in a state.
   [[nodiscard]] const std::vector<std::string>& coordinates() const;
+  // Names, in the order of the coordinates they belong to.
   [[nodiscard]] const std::vector<std::string>& momenta() const;
+  // Names of what may be set at run time.
   [[nodiscard]] const std::vector<std::string>& parameters() const;
+  // Names, of the model's `invariant` statements.
   [[nodiscard]] const std::vector<std::string>& invariants() const;
+  // Names, of its `event` statements.
   [[nodiscard]] const std::vector<std::string>& events() const;
+  // Names, the first of which is meant where none is given.
   [[nodiscard]] const std::vector<std::string>& scenes() const;
-
   // Of a scene; of the first, or of the defaults, without a name.  Throws std::out_of_range.
   [[nodiscard]] Start start(std::string_view scene = {}) const;
   // One of the model's events, for RunOptions::events: with the parameters of the start.

@@ -39,6 +39,12 @@ BuildDirectory prepare(const PluginSource& source, const Cache& cache,
   return build;
 }
 
+// What the entry is of, where that is known.
+void record(const Cache& cache, const std::string& key, const PluginSource& source) {
+  if (source.model.empty()) return;
+  publish_record(cache, key, {.model = source.model, .scheme = source.scheme, .made = {}});
+}
+
 std::shared_ptr<const Library> load_cached(const Cache& cache, const std::string& key) {
   const std::optional<fs::path> object = find_object(cache, key);
   if (!object) return nullptr;
@@ -97,7 +103,14 @@ LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
 
   loaded.library = load_cached(checked, loaded.key);
   loaded.from_cache = loaded.library != nullptr;
-  if (loaded.from_cache) return loaded;
+  if (loaded.from_cache) {
+    try {
+      record(checked, loaded.key, source);  // of an entry that has none yet
+    } catch (const ToolError&) {
+      // It is found without.
+    }
+    return loaded;
+  }
 
   const auto begin = std::chrono::steady_clock::now();
   const auto [build, object] = compile(source, compiler, options, checked, loaded.warnings);
@@ -108,6 +121,7 @@ LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
   if (build.in_cache) {
     try {
       publish_object(checked, loaded.key, object);
+      record(checked, loaded.key, source);
       prune_cache(checked);
     } catch (const ToolError& error) {
       loaded.warnings.push_back(std::string("not kept in the cache: ") + error.what());

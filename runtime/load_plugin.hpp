@@ -13,12 +13,13 @@
 
 namespace hamgen::runtime {
 
+// A plugin, and how it came to be there.
 struct LoadedPlugin {
-  std::shared_ptr<const Library> library;
-  std::string key;
-  bool from_cache = false;
-  double compile_seconds = 0.0;       // 0 from the cache
-  std::vector<std::string> warnings;  // about the cache; one sentence each
+  std::shared_ptr<const Library> library;  // never null
+  std::string key;                         // of the cache
+  bool from_cache = false;                 // else it was compiled
+  double compile_seconds = 0.0;            // 0 from the cache
+  std::vector<std::string> warnings;       // about the cache; one sentence each
 };
 
 // Takes the object from the cache or compiles it and puts it there.  A cache that cannot be used

@@ -5,8 +5,9 @@
 
 namespace hamgen::runtime {
 
+// Of the runtime, of the steps of a run, and of the cells of a map.
 enum class Status {
-  done,
+  done,           // all steps that were asked for
   jumped,         // an energy error beyond the energy scale: a singularity was stepped across, or
                   // the step is far too large for this solution
   escaped,        // far away from where it began, with its energy kept beside the terms of H there;
@@ -18,6 +19,7 @@ enum class Status {
   out_of_time,    // its time was over before its steps
   undefined,      // there are no values to begin with: nothing was run
 };
+// How many there are.
 inline constexpr int kStatuses = 9;
 
 // "done", "jumped", "escaped", "not converged", "left the domain", "overflow", "stopped",

@@ -10,6 +10,7 @@
 
 namespace hamgen::runtime {
 
+// What failed.
 struct ToolFailure {
   std::string message;             // one sentence: what failed, on what
   std::string command;             // as one could type it in a shell; empty if no program was run
@@ -20,8 +21,10 @@ struct ToolFailure {
 // what() is the message, then the command and the output tail on lines of their own.
 class ToolError : public std::runtime_error {
  public:
+  // From all that is known of it.
   explicit ToolError(ToolFailure failure);
 
+  // Piece by piece.
   [[nodiscard]] const ToolFailure& failure() const { return failure_; }
 
  private:

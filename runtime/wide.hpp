@@ -9,9 +9,8 @@ namespace hamgen::runtime {
 // hi + lo, where hi is the double nearest to the number: 106 bits, 32 decimal digits.  Of a double
 // or a float lo is 0.
 struct Wide {
-  double hi = 0.0;
-  double lo = 0.0;
-
+  double hi = 0.0;  // the number, rounded to double
+  double lo = 0.0;  // what rounding took from it
   friend bool operator==(const Wide&, const Wide&) = default;
   // Of the numbers: what is nearest does not change their order.
   friend std::partial_ordering operator<=>(const Wide&, const Wide&) = default;

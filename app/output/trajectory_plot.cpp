@@ -29,14 +29,15 @@ class TrajectoryPlotter {
 
   Plot named(const std::string& columns) {
     for (const std::string_view piece : outermost_pieces(columns)) {
-      std::vector<std::string> names;
-      std::string text(without_blanks(piece));
-      for (std::size_t colon; (colon = text.find(':')) != std::string::npos;) {
-        names.push_back(text.substr(0, colon));
-        text.erase(0, colon + 1);
+      const std::string text(without_blanks(piece));
+      const bool is_column = find(text).has_value();  // as "H+p_t" is
+      const std::vector<std::string> curves =
+          is_column ? std::vector{text} : pieces_between(text, '+');
+      if (curves.size() > 1) {
+        together(curves);
+      } else {
+        add(pieces_between(text, ':'));
       }
-      names.push_back(text);
-      add(names);
     }
     return finish();
   }
@@ -46,10 +47,10 @@ class TrajectoryPlotter {
     const std::size_t n = state.size() / 2;
     const auto begin = state.begin();
     const auto middle = begin + static_cast<std::ptrdiff_t>(n);
-    if (n == 1) across(state[0], state[1], false);
+    if (n == 1) across({{state[0], state[1]}});
     if (n == 2 || n == 3) {
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = i + 1; j < n; ++j) across(state[i], state[j], true);
+        for (std::size_t j = i + 1; j < n; ++j) across({{state[i], state[j]}});
       }
     }
     if (n > 3) over_time({begin, middle}, "coordinates");
@@ -100,24 +101,85 @@ class TrajectoryPlotter {
     return names;
   }
 
-  // Rows that were left out between two make a line through them mean nothing.
+  // Rows that were left out between two make a line through them mean nothing, unless they are
+  // near.
   PlotSeries series(const std::string& label, const std::vector<double>& x,
                     const std::vector<double>& y, int colour) const {
+    const bool is_curve = table_.each == 1 || (is_near_to_next(x) && is_near_to_next(y));
     PlotSeries result{.label = label,
                       .points = {},
-                      .style = table_.each == 1 ? PlotStyle::lines : PlotStyle::dots,
+                      .style = is_curve ? PlotStyle::lines : PlotStyle::dots,
                       .colour = colour};
     for (std::size_t i = 0; i < x.size(); ++i) result.points.push_back({x[i], y[i]});
     return result;
   }
 
-  void across(const std::string& x, const std::string& y, bool square) {
-    plot_.panels.push_back({.title = title(y + " over " + x),
-                            .x_label = plain_symbol(x),
-                            .y_label = plain_symbol(y),
-                            .square = square,
-                            .series = {series("", values_of(x), values_of(y), 0)}});
+  // No value is farther from the next than so much of their range.
+  static bool is_near_to_next(const std::vector<double>& values) {
+    constexpr double near = 0.1;
+    if (values.empty()) return true;
+    double largest = 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i)
+      largest = std::max(largest, std::fabs(values[i] - values[i - 1]));
+    const auto [low, high] = std::ranges::minmax(values);
+    return largest <= near * (high - low);
   }
+
+  static std::vector<std::string> pieces_between(std::string text, char separator) {
+    std::vector<std::string> pieces;
+    for (std::size_t at; (at = text.find(separator)) != std::string::npos;) {
+      pieces.emplace_back(without_blanks(text.substr(0, at)));
+      text.erase(0, at + 1);
+    }
+    pieces.emplace_back(without_blanks(text));
+    return pieces;
+  }
+
+  struct Curve {
+    std::string x, y;
+  };
+
+  // One over another in one panel; two coordinates of a space have the same unit.
+  void across(const std::vector<Curve>& curves) {
+    const std::vector<std::string> state = state_names();
+    const std::size_t n = state.size() / 2;
+    const auto is_coordinate = [&](const std::string& name) {
+      return n > 1 && static_cast<std::size_t>(std::ranges::find(state, name) - state.begin()) < n;
+    };
+    const bool one = curves.size() == 1;
+    PlotPanel panel{.title = title(one ? curves[0].y + " over " + curves[0].x : "orbits"),
+                    .x_label = plain_symbol(curves[0].x) + (one ? "" : ", ..."),
+                    .y_label = plain_symbol(curves[0].y) + (one ? "" : ", ..."),
+                    .square = true,
+                    .series = {}};
+    for (const auto& [x, y] : curves) {
+      panel.square = panel.square && is_coordinate(x) && is_coordinate(y);
+      panel.series.push_back(
+          series(one ? "" : x, values_of(x), values_of(y), static_cast<int>(panel.series.size())));
+    }
+    plot_.panels.push_back(std::move(panel));
+  }
+
+  // "a:b" and "c:d", from "a:b+c:d"; or columns over time.
+  void together(const std::vector<std::string>& texts) {
+    if (texts.size() > kMostLines)
+      throw UsageError(fmt::format("--columns: {} curves in one picture; {} are the most",
+                                   texts.size(), kMostLines));
+    std::vector<Curve> curves;
+    for (const std::string& text : texts) {
+      const std::vector<std::string> axes = pieces_between(text, ':');
+      if (axes.size() == 2) curves.push_back({axes[0], axes[1]});
+    }
+    if (curves.empty() && std::ranges::none_of(texts, has_axes))
+      return over_time(texts, fmt::format("{}", fmt::join(texts, ", ")));
+    if (curves.size() != texts.size())
+      throw UsageError(fmt::format(
+          "--columns {}: curves in one picture are of one kind\nhelp: a:b+c:d, or a+b over time",
+          fmt::join(texts, "+")));
+    across(curves);
+  }
+
+  static bool has_axes(const std::string& text) { return text.find(':') != std::string::npos; }
 
   void over_time(const std::vector<std::string>& names, const std::string& what) {
     if (names.empty()) return;
@@ -175,7 +237,7 @@ class TrajectoryPlotter {
 
   void add(const std::vector<std::string>& names) {
     if (names.size() == 1) return over_time(names, "");
-    if (names.size() == 2) return across(names[0], names[1], false);
+    if (names.size() == 2) return across({{names[0], names[1]}});
     if (names.size() == 3) return along_diagonal(names);
     throw UsageError(fmt::format("--columns {}: more than three axes\nhelp: a, a:b or a:b:c",
                                  fmt::join(names, ":")));

@@ -55,6 +55,8 @@ runtime::PluginSource to_compile(const PluginSource& plugin) {
   source.text = plugin.text;
   source.uses_eigen = plugin.needs_eigen;
   source.uses_quadmath = plugin.needs_quadmath;
+  source.model = plugin.model.name;
+  source.scheme = plugin.scheme_name;
   return source;
 }
 

@@ -147,6 +147,14 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
   return reference;
 }
 
+// With what it is of, for the list of the cache.
+void keep(const runtime::Cache& cache, const std::string& key, const std::string& text,
+          const PluginSource& plugin) {
+  runtime::publish_text(cache, key, text);
+  runtime::publish_record(cache, key,
+                          {.model = plugin.model.name, .scheme = plugin.scheme_name, .made = {}});
+}
+
 }  // namespace
 
 ReferenceRule reference_rule(const SourceText& source, const ReferenceRequest& request) {
@@ -179,7 +187,7 @@ ReferenceSolution reference_solution(const SourceText& source, const SceneValues
   } else {
     reference = compute(rule.loaded, start, wide(time), request);
     if (reference.failure.empty() && cache.usable())
-      runtime::publish_text(cache, key, text_of({reference.error}, reference.state));
+      keep(cache, key, text_of({reference.error}, reference.state), rule.plugin);
   }
   reference.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -206,7 +214,7 @@ ReferenceTrack reference_track(const ReferenceRule& rule, const runtime::Initial
   if (!cache.usable() || is_stopped(stop)) return track;
   std::vector<runtime::Wide> all;
   for (const auto& state : track.states) all.insert(all.end(), state.begin(), state.end());
-  runtime::publish_text(cache, key, text_of(track.errors, all) + "#" + track.missing);
+  keep(cache, key, text_of(track.errors, all) + "#" + track.missing, rule.plugin);
   return track;
 }
 

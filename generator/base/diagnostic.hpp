@@ -56,6 +56,21 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The same, of a mistake inside an option's text: what is said of it, and where.
+class OptionError : public UsageError {
+ public:
+  explicit OptionError(const ModelError& error)
+      : UsageError(error.what()),
+        diagnostics_(error.diagnostics()),
+        locations_(error.locations()) {}
+  [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+  [[nodiscard]] const std::vector<Location>& locations() const { return locations_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+  std::vector<Location> locations_;
+};
+
 // A broken invariant of hamgen itself.
 [[noreturn]] void internal_error(std::string_view what,
                                  std::source_location where = std::source_location::current());

@@ -77,9 +77,9 @@ EndCondition read_end_condition(const Model& model, const std::string& option,
     result.event.text = one_line(source, {0, source.text.size()});
     check(result, model, symbols);
   } catch (const ModelError& error) {
-    throw UsageError(error.what());
+    throw OptionError(error);
   }
-  if (!mistakes.empty()) throw UsageError(ModelError(mistakes, source).what());
+  if (!mistakes.empty()) throw OptionError(ModelError(mistakes, source));
   return result;
 }
 

@@ -107,10 +107,10 @@ class SceneReader {
       try {
         list = parse_observed(source);
       } catch (const ModelError& error) {
-        throw UsageError(error.what());
+        throw OptionError(error);
       }
       check_observed(list, known_, symbols_);
-      if (!mistakes_.empty()) throw UsageError(ModelError(mistakes_, source).what());
+      if (!mistakes_.empty()) throw OptionError(ModelError(mistakes_, source));
     }
     for (const Observed& each : list) {
       const Symbol* symbol = symbols_.find(each.name);
@@ -140,12 +140,13 @@ class SceneReader {
     try {
       setting = parse_setting(source);
     } catch (const ModelError& error) {
-      throw UsageError(error.what());
+      throw OptionError(error);
     }
     const Symbol* symbol = symbols_.find(setting.name);
     if (symbol == nullptr && (setting.name == "h" || setting.name == "steps")) {
-      throw UsageError(fmt::format("{0} {1}={2}: {1} is no variable; set it with --{1} {2}", option,
-                                   name, value));
+      throw UsageError(
+          fmt::format("{0} {1}={2}: {1} is no variable\nhelp: `hamgen run` takes --{1} {2}", option,
+                      name, value));
     }
     const bool is_parameter = symbol != nullptr && symbol->kind == SymbolKind::parameter;
     const bool takes_both = option == "--reference";
@@ -155,7 +156,7 @@ class SceneReader {
                                    is_parameter ? "--set" : "--initial"));
     }
     check_setting(setting, known_, symbols_);
-    if (!mistakes_.empty()) throw UsageError(ModelError(mistakes_, source).what());
+    if (!mistakes_.empty()) throw OptionError(ModelError(mistakes_, source));
     overrides_.push_back({std::move(source), std::move(setting)});
   }
 
@@ -164,7 +165,7 @@ class SceneReader {
     try {
       return evaluate(node, lookup);
     } catch (const ConstantError& error) {
-      if (option != nullptr) throw UsageError(render(error.diagnostic, *option));
+      if (option != nullptr) throw OptionError(ModelError({error.diagnostic}, *option));
       mistakes_.push_back(error.diagnostic);
       return 0;
     }
@@ -240,7 +241,7 @@ class SceneReader {
         const SourceText source = make_source(option, *text);
         value = value_of(read, lookup_in(values_), &source);
       } catch (const ModelError& error) {
-        throw UsageError(error.what());
+        throw OptionError(error);
       }
       if (const std::string message = wrong(value); !message.empty()) {
         throw UsageError(fmt::format("{} {}: {}", option, *text, message));

@@ -35,6 +35,26 @@ std::string place_text(const Mechanics& mechanics, const Values& reference) {
   return text;
 }
 
+// A point where H'' has a value: one coordinate away from the origin, or all of them apart.
+std::string other_point(const Mechanics& mechanics, const Values& reference) {
+  const auto n = static_cast<std::size_t>(mechanics.degrees_of_freedom);
+  constexpr std::size_t most = 8;
+  for (const std::size_t moved : {std::size_t{1}, n}) {
+    Values point = reference;
+    std::string text;
+    for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
+      const std::string& name = mechanics.variables[i].name;
+      point[name] = i < moved ? static_cast<long>(i + 1) : 0L;
+      if (i < moved) text += fmt::format("{}{}={}", i == 0 ? "" : ",", name, i + 1);
+    }
+    const bool is_defined = std::ranges::all_of(mechanics.hessian, [&point](const auto& entry) {
+      return evaluate(entry.second, point).has_value();
+    });
+    if (is_defined && moved <= most) return ", for example --reference " + text;
+  }
+  return " with --reference";
+}
+
 // J H'' at the reference.
 RationalMatrix linear_part(const Mechanics& mechanics, const Values& reference) {
   const auto n = static_cast<std::size_t>(mechanics.degrees_of_freedom);
@@ -45,10 +65,10 @@ RationalMatrix linear_part(const Mechanics& mechanics, const Values& reference) 
     if (!value) {
       throw UsageError(fmt::format(
           "--gauge locally-exact: the second derivative of H by {} and {} is not defined {}\n"
-          "help: choose another point, for example --reference {}=1",
+          "help: choose another point{}",
           mechanics.variables[static_cast<std::size_t>(first)].name,
           mechanics.variables[static_cast<std::size_t>(second)].name,
-          place_text(mechanics, reference), mechanics.variables[0].name));
+          place_text(mechanics, reference), other_point(mechanics, reference)));
     }
     for (const auto& [i, j] : {std::pair(first, second), std::pair(second, first)}) {
       const auto row = static_cast<std::size_t>(i);

@@ -6,7 +6,7 @@ hamgen_generate(TARGET target MODEL model.ham
                 [SCENE name] [SET NAME=VALUE...] [INITIAL NAME=VALUE...] [OBSERVE list]
                 [WHOLE] [KEEP name...] [PLAIN_SUMS] [TANGENT] [EVENTS] [WATCH_MODIFIED k]
                 [REQUIRE list] [FORMAT cpp-header, c-header or cpp-plugin]
-                [NAMESPACE name] [SUPPORT own or shared] [PREFIX folder])
+                [NAMESPACE name] [SUPPORT own or shared] [BATCH w] [MATH own or libm] [PREFIX folder])
 
 Emits the integrator of a Hamiltonian as a header when the target is built, and again whenever the
 model or hamgen changes.  The header is named after the model and found by the target and by all
@@ -36,7 +36,7 @@ endif()
 
 function(hamgen_generate)
   set(one_value TARGET MODEL SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE SUPPORT
-                SCENE OBSERVE WATCH_MODIFIED REQUIRE FORMAT PREFIX)
+                SCENE OBSERVE WATCH_MODIFIED REQUIRE FORMAT BATCH MATH PREFIX)
   set(flags PLAIN_SUMS TANGENT EVENTS WHOLE)
   cmake_parse_arguments(PARSE_ARGV 0 arg "${flags}" "${one_value}" "FOLD;SIZES;SET;INITIAL;KEEP")
   if(arg_UNPARSED_ARGUMENTS)
@@ -88,7 +88,7 @@ function(hamgen_generate)
 
   set(options)
   foreach(option SCHEME ALPHA BETA GAMMA ORDER GAUGE REFERENCE SOLVER SCALAR NAMESPACE
-                 SUPPORT SCENE OBSERVE WATCH_MODIFIED REQUIRE)
+                 SUPPORT SCENE OBSERVE WATCH_MODIFIED REQUIRE BATCH MATH)
     if(DEFINED arg_${option})
       string(TOLOWER ${option} flag)
       string(REPLACE _ - flag ${flag})

@@ -95,5 +95,46 @@ TEST(CheckAsJson, IsADocumentWhateverTheBytes) {
   EXPECT_EQ(hamgen({"check", "--json", scratch.path("none.ham")}).status, 2);
 }
 
+// A mistake in an option's text has its place there; one that has no place says so.
+TEST(CheckAsJson, SaysWhatIsWrongWithOptions) {
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham";
+  const auto said = [&model](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"check", "--json", model};
+    words.insert(words.end(), options.begin(), options.end());
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_EQ(result.err, "");
+    return checked(result)["diagnostics"].at(0);
+  };
+  const nlohmann::json name = said({"--scene", "paper", "--set", "esp=1"});
+  EXPECT_EQ(name["file"], "--set");
+  EXPECT_EQ(name["message"], "unknown name 'esp'");
+  EXPECT_EQ(name["column"], 1);
+  EXPECT_EQ(name["end_column"], 4);
+  const nlohmann::json text = said({"--scene", "paper", "--set", "eps=1+"});
+  EXPECT_EQ(text["column"], 6);
+  const nlohmann::json scene = said({"--scene", "papre"});
+  EXPECT_EQ(scene["file"], "");
+  EXPECT_TRUE(contains(scene["message"].get<std::string>(), "did you mean 'paper'?"));
+  const nlohmann::json size = said({"--set", "eps=1"});
+  EXPECT_TRUE(contains(size["help"].get<std::string>(), "--scene NAME"));
+}
+
+TEST(ShowAsJson, SaysWhatTheModelDeclares) {
+  const Result result =
+      hamgen({"show", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--json", "--stage", "plan"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json document = nlohmann::json::parse(result.out);
+  EXPECT_EQ(document["stage"], "plan");
+  EXPECT_TRUE(contains(document["text"].get<std::string>(), "solver: Newton"));
+  const nlohmann::json& model = document["model"];
+  EXPECT_EQ(model["system"], "pendulum");
+  EXPECT_EQ(model["coordinates"].at(0)["unit"], "rad");
+  EXPECT_EQ(model["parameters"].at(0)["name"], "eps");
+  EXPECT_EQ(model["parameters"].at(0)["values"].at(0), "0.03");
+  EXPECT_EQ(model["scenes"].at(0)["name"], "paper");
+  EXPECT_EQ(model["scenes"].at(0)["h"], "0.1");
+}
+
 }  // namespace
 }  // namespace hamgen::app_test

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "runtime/process.hpp"
 #include "tests/app/hamgen_command.hpp"
@@ -49,6 +50,39 @@ TEST(Completion, AndManualNameEveryCommandAndNoHiddenOne) {
   }
   EXPECT_TRUE(contains(manual, "\\-\\-watch\\-modified K\n")) << manual;
   EXPECT_FALSE(contains(manual, ".SS hamgen man"));
+}
+
+// Every option of every help is in each of them.
+TEST(Completion, AndManualHaveEveryOption) {
+  const std::string manual = hamgen({"man"}).out;
+  const std::string zsh = hamgen({"completion", "zsh"}).out;
+  const std::string bash = hamgen({"completion", "bash"}).out;
+  const std::regex named("--[a-z-]+");
+  std::size_t options = 0;
+  for (const char* command : {"check", "generate", "run", "bench", "stress", "section", "list"}) {
+    const std::string begin = std::string("\n.SS hamgen ") + command + "\n";
+    ASSERT_TRUE(contains(manual, begin));
+    const std::size_t from = manual.find(begin) + begin.size();
+    const std::string page = manual.substr(from, manual.find("\n.S", from) - from);
+    const std::size_t zsh_from = zsh.find(std::string("\n    ") + command + ") _arguments");
+    const std::string zsh_part = zsh.substr(zsh_from, zsh.find(";;", zsh_from) - zsh_from);
+    const std::size_t bash_from = bash.find(std::string("\n    ") + command + ") words=\"");
+    const std::string bash_part = bash.substr(bash_from, bash.find(";;", bash_from) - bash_from);
+    for (const std::string& line : lines(hamgen({command, "--help"}).out)) {
+      const std::string left = line.substr(0, line.find("  ", 3));
+      if (!line.starts_with("  -")) continue;
+      for (std::sregex_iterator it(left.begin(), left.end(), named), end; it != end; ++it) {
+        const std::string option = it->str();
+        EXPECT_TRUE(contains(page, std::regex_replace(option, std::regex("-"), "\\-")))
+            << command << ' ' << option;
+        EXPECT_TRUE(contains(zsh_part, "'" + option)) << command << ' ' << option;
+        EXPECT_TRUE(contains(bash_part, option)) << command << ' ' << option;
+        ++options;
+      }
+    }
+  }
+  EXPECT_GE(options, 100u);
+  EXPECT_TRUE(contains(zsh, "'-o["));
 }
 
 }  // namespace

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <sstream>
 #include <vector>
-
-#include "tests/app/hamgen_command.hpp"
 
 namespace hamgen::app_test {
 namespace {
@@ -19,20 +18,54 @@ struct Example {
   std::vector<std::string> output;  // "..." stands for any number of lines
 };
 
-// The blocks marked `console`; a line that begins with "$ " starts an example.
-std::vector<Example> examples(const std::string& text) {
-  std::vector<Example> result;
+struct PageBlock {
+  std::string mark;  // behind the three ticks
+  std::vector<std::string> lines;
+};
+
+std::vector<PageBlock> blocks_of(const std::string& text) {
+  std::vector<PageBlock> blocks;
   bool inside = false;
   for (const std::string& line : lines(text)) {
     if (line.starts_with("```")) {
-      inside = line == "```console";
-    } else if (inside && line.starts_with("$ ")) {
-      result.push_back({line.substr(2), {}});
-    } else if (inside && !result.empty()) {
-      result.back().output.push_back(line);
+      inside = !inside;
+      if (inside) blocks.push_back({line.substr(3), {}});
+    } else if (inside) {
+      blocks.back().lines.push_back(line);
+    }
+  }
+  return blocks;
+}
+
+// Of the blocks marked `console`; a line that begins with "$ " starts an example.
+std::vector<Example> examples(const std::string& text) {
+  std::vector<Example> result;
+  for (const PageBlock& block : blocks_of(text)) {
+    if (block.mark != "console") continue;
+    for (const std::string& line : block.lines) {
+      if (line.starts_with("$ ")) {
+        result.push_back({line.substr(2), {}});
+      } else if (!result.empty()) {
+        result.back().output.push_back(line);
+      }
     }
   }
   return result;
+}
+
+// Of the blocks marked `sh`.
+std::vector<std::string> shell_commands(const std::string& text) {
+  std::vector<std::string> commands;
+  for (const PageBlock& block : blocks_of(text)) {
+    bool goes_on = false;
+    for (const std::string& line : block.lines) {
+      if (block.mark != "sh") continue;
+      if (!goes_on) commands.emplace_back();
+      goes_on = line.ends_with('\\');
+      commands.back() += goes_on ? line.substr(0, line.size() - 1) : line;
+    }
+  }
+  return commands;
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -91,6 +124,45 @@ void expect_page_is_true(const std::string& page, const std::string& directory, 
     EXPECT_TRUE(output_agrees(example.output, printed)) << "$ " << example.command << '\n'
                                                         << result.out << result.err;
   }
+}
+
+void lay_out(const std::string& page, const Scratch& scratch) {
+  for (const char* folder : {"hamiltonians", "generated", "docs", "scripts", "tests"})
+    std::filesystem::create_directory_symlink(HAMGEN_SOURCE_DIR + std::string("/") + folder,
+                                              scratch.path(folder));
+  for (const PageBlock& block : blocks_of(read(page))) {
+    std::string system;
+    std::string text;
+    for (const std::string& line : block.lines) {
+      if (line.starts_with("system ")) system = words(line)[1];
+      text += line + "\n";
+    }
+    if (block.mark == "ham" && !system.empty()) scratch.write(system + ".ham", text);
+    if (block.mark == "cpp" && contains(text, "int main()")) scratch.write("main.cpp", text);
+  }
+}
+
+void expect_commands_work(const std::string& page, const std::string& directory) {
+  for (const std::string& command : shell_commands(read(page))) {
+    const Result result = shell(command, directory);
+    EXPECT_EQ(result.status, 0) << "$ " << command << '\n' << result.out << result.err;
+  }
+}
+
+std::size_t number_of_commands(const std::string& page) {
+  return examples(read(page)).size() + shell_commands(read(page)).size();
+}
+
+std::vector<SilentBlock> silent_blocks(const std::string& page) {
+  std::vector<SilentBlock> silent;
+  for (const PageBlock& block : blocks_of(read(page))) {
+    if (block.mark == "console" || block.mark == "sh" || block.lines.empty()) continue;
+    const bool has_command = std::ranges::any_of(block.lines, [](const std::string& line) {
+      return line.starts_with("hamgen ") || line.starts_with("$ ");
+    });
+    if (has_command) silent.push_back({block.mark, block.lines.front()});
+  }
+  return silent;
 }
 
 }  // namespace hamgen::app_test

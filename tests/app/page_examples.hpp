@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
+
+#include "tests/app/hamgen_command.hpp"
 
 namespace hamgen::app_test {
 
@@ -10,5 +13,24 @@ namespace hamgen::app_test {
 // with this build's hamgen, and compares what it prints with what the page shows: numbers to a part
 // in a thousand, "..." for any number of lines.  The page has at least so many of them.
 void expect_page_is_true(const std::string& page, const std::string& directory, std::size_t least);
+
+// What the commands of a page need: links to the folders of the sources that it names, and the
+// models that it shows in blocks marked `ham`, each as its system's name says; main.cpp of its
+// program.
+void lay_out(const std::string& page, const Scratch& scratch);
+
+// Runs every command of the page's blocks marked `sh`, in which a backslash continues a line; they
+// succeed.
+void expect_commands_work(const std::string& page, const std::string& directory);
+
+// How many commands the page shows in blocks marked `console` and `sh`.
+[[nodiscard]] std::size_t number_of_commands(const std::string& page);
+
+// The blocks that hold a command of hamgen and are not run: the line of each one's fence, with what
+// stands behind the three ticks and the first line of the block.
+struct SilentBlock {
+  std::string mark, first;
+};
+[[nodiscard]] std::vector<SilentBlock> silent_blocks(const std::string& page);
 
 }  // namespace hamgen::app_test

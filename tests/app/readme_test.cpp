@@ -15,6 +15,16 @@ TEST(Readme, ShowsWhatTheCommandsPrint) {
   expect_page_is_true(HAMGEN_SOURCE_DIR "/README.md", HAMGEN_SOURCE_DIR, 5);
 }
 
+// The lines of the step are those of the checked-in header, together.
+TEST(Readme, ShowsTheHeartOfTheEmittedStep) {
+  const std::string page = read(HAMGEN_SOURCE_DIR "/README.md");
+  const std::size_t begin = page.find("  for (int iteration = 1;; ++iteration) {");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string shown = page.substr(begin, page.find("```", begin) - begin);
+  EXPECT_GE(lines(shown).size(), 10u);
+  EXPECT_TRUE(contains(read(HAMGEN_SOURCE_DIR "/generated/pendulum.hpp"), shown)) << shown;
+}
+
 // The model of the page is that of its folder, and its commands do what it says.
 TEST(Tutorial, ShowsWhatTheCommandsPrint) {
   const Scratch scratch;

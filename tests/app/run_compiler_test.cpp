@@ -137,6 +137,7 @@ TEST(Cache, ListsAndClears) {
   const Result listed = hamgen({"cache"}, own);
   EXPECT_EQ(listed.status, 0);
   EXPECT_TRUE(contains(listed.out, "1 compiled integrator,")) << listed.out;
+  EXPECT_TRUE(contains(listed.out, "  pendulum, implicit-midpoint  ")) << listed.out;
   EXPECT_EQ(hamgen({"cache", "prune"}, own).status, 0);
   EXPECT_EQ(hamgen({"cache", "clear"}, own).status, 0);
   EXPECT_TRUE(contains(hamgen({"cache", "list"}, own).out, "0 compiled integrators,"));

@@ -156,7 +156,7 @@ TEST(Tune, RefusesWhatMakesNoSense) {
   };
   refused({kPendulum, "--gauge-form", "round"}, "there are scalar, diagonal and matrix");
   refused({kPendulum, "--time", "0"}, "give another --time or --h");
-  refused({kPendulum, "--time", "-10"}, "give another --time or --h");
+  refused({kPendulum, "--time", "-10"}, "go in opposite directions");
   refused({kPendulum, "--samples", "2"}, "--samples 2");
   refused({kHenonHeiles, "--map", "m.png", "--gauge-form", "matrix"}, "--gauge-form scalar");
   // Before anything is computed: nothing is printed.

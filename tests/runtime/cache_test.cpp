@@ -242,5 +242,47 @@ TEST_F(CacheTest, ListsPrunesTheOldestAndClears) {
   EXPECT_EQ(text_of(cache.directory / "notes.txt"), "mine");
 }
 
+TEST_F(CacheTest, NamesWhatItKeepsAndTrustsNoRecord) {
+  const Cache cache = open_cache(cache_path());
+  PluginSource source = oscillator();
+  const std::string key = load_plugin(source, find_compiler(), {}, cache).key;
+  EXPECT_FALSE(find_record(cache, key).has_value());  // nobody said what it is
+  source.model = "two\nlines";
+  source.scheme = "stormer-verlet";
+  const LoadedPlugin again = load_plugin(source, find_compiler(), {}, cache);
+  EXPECT_EQ(again.key, key);
+  EXPECT_TRUE(again.from_cache);
+  const auto record = find_record(cache, key);
+  ASSERT_TRUE(record.has_value());
+  EXPECT_EQ(record->model, "two lines");
+  EXPECT_EQ(record->scheme, "stormer-verlet");
+  EXPECT_EQ(record->made.size(), 10u);
+  EXPECT_EQ(list_cache(cache).size(), 1u);
+
+  const fs::path place = cache.directory / (key + ".about");
+  const std::string good = text_of(place);
+  std::string changed = good;
+  changed[0] = 'T';
+  for (const std::string& bad : {std::string(), good.substr(1), good.substr(0, good.size() - 1),
+                                 changed, std::string(1 << 20, 'x')}) {
+    write_text(place, bad);
+    EXPECT_FALSE(find_record(cache, key).has_value());
+    EXPECT_TRUE(load_plugin(source, find_compiler(), {}, cache).from_cache);
+  }
+  // Of another entry, or a link to a file that is not the cache's: that stays what it is.
+  const std::string other(64, 'a');
+  write_text(cache.directory / (other + ".about"), good);
+  EXPECT_FALSE(find_record(cache, other).has_value());
+  write_text(root() / "mine", good);
+  fs::remove(place);
+  fs::create_symlink(root() / "mine", place);
+  EXPECT_FALSE(find_record(cache, key).has_value());
+  publish_record(cache, key, {.model = "m", .scheme = "s", .made = {}});
+  EXPECT_EQ(find_record(cache, key)->model, "m");
+  EXPECT_EQ(text_of(root() / "mine"), good);
+  clear_cache(cache);
+  EXPECT_EQ(count_entries(cache.directory), 0u);
+}
+
 }  // namespace
 }  // namespace hamgen::runtime

@@ -76,6 +76,14 @@ TEST(LocallyExact, APlaceWhereTheLinearPartIsNotDefinedIsRefused) {
             "--gauge locally-exact: the second derivative of H by x and x is not defined at the "
             "origin\nhelp: choose another point, for example --reference x=1");
   EXPECT_EQ(refusal(kepler, locally_exact({{"x", "1"}})), "accepted");
+  // Where one coordinate away from the origin is not enough.
+  const SourceText bodies = model(
+      "coordinate x[1..3]\nmomentum p[1..3]\nH = sum(i = 1..3, p[i]^2/2) - sum(i = 1..2, "
+      "j = i+1..3, 1/abs(x[i] - x[j]))");
+  const std::string refused = refusal(bodies, locally_exact());
+  EXPECT_NE(refused.find("--reference x[1]=1,x[2]=2,x[3]=3"), std::string::npos) << refused;
+  EXPECT_EQ(refusal(bodies, locally_exact({{"x[1]", "1"}, {"x[2]", "2"}, {"x[3]", "3"}})),
+            "accepted");
 }
 
 TEST(LocallyExact, ALinearPartThatIsNotDiagonalisableIsRefused) {

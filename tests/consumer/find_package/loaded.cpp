@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "runtime/integrator.hpp"
-#include "runtime/load_plugin.hpp"
+#include "hamgen/integrator.hpp"
+#include "hamgen/load_plugin.hpp"
 
 namespace {
 

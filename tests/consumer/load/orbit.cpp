@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "runtime/load.hpp"
+#include "hamgen/load.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/load.hpp"
+#include "hamgen/load.hpp"
 
 namespace {
 
