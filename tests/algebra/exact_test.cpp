@@ -60,6 +60,21 @@ TEST(Exact, ThreeDoublesHoldAHundredAndFiftyBits) {
   }
 }
 
+// 2^(2 10^11) would not fit into the memory.
+TEST(Exact, PowersThatAreTooLongAreRefusedBeforeTheyAreMade) {
+  EXPECT_EQ(integer_power(Rational(-2, 3), 3), Rational(-8, 27));
+  EXPECT_EQ(integer_power(Rational(-2, 3), -3), Rational(-27, 8));
+  EXPECT_TRUE(integer_power(2, 4095));  // 4096 bits
+  EXPECT_FALSE(integer_power(2, 4096));
+  EXPECT_EQ(integer_power(-1, 1000000001), Rational(-1));
+  Integer huge = 1;
+  mpz_setbit(huge.get_mpz_t(), 50'000'000);
+  for (const long exponent : {4096L, -4096L}) {
+    EXPECT_FALSE(integer_power(Rational(huge), exponent));
+    EXPECT_FALSE(integer_power(Rational(Integer(1), huge), exponent));
+  }
+}
+
 TEST(Literal, OfADoubleIsTheShortestThatReadsBack) {
   const ScalarType& scalar = find_scalar("double");
   EXPECT_EQ(literal(decimal("0.1"), scalar), "0.1");
