@@ -98,6 +98,19 @@ TEST(EmittedMethods, AreTheMathematics) {
   }
 }
 
+// y has the slope of a K whose Hessian is not that of the Newton before it: it is to take the
+// solution with the last increment.
+TEST(EmittedMethods, WhatFollowsASimplifiedNewtonIsTheMathematics) {
+  const Mechanics mechanics =
+      mechanics_of("coordinate x, y\nmomentum px, py\nH = (px^2 + 1)*(x^2 + 1) + py*x\n");
+  const Scheme scheme = scheme_of({.name = "", .text = "", .order = 8}, mechanics);
+  const Program program = program_of(mechanics, scheme, "");
+  ASSERT_NE(to_text(program.plan).find("simplified Newton of size 2 on x, px\n"), std::string::npos)
+      << to_text(program.plan);
+  const Finding finding = prove(mechanics, scheme, program);
+  EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;
+}
+
 TEST(EmittedMethods, EveryMutationIsRefuted) {
   int equivalent = 0;
   int total = 0;
