@@ -21,4 +21,7 @@ using Coefficients = std::vector<Expression>;
 // half_1, ..., half_k, last, last, half_k, ..., half_1 with last = 1/2 - sum.
 [[nodiscard]] Coefficients even_palindrome(Coefficients half);
 
+// Its own adjoint: kicks and drifts are the same in reverse.
+[[nodiscard]] bool is_symmetric(const Splitting& method);
+
 }  // namespace hamgen

@@ -19,8 +19,7 @@ bool is_palindrome(const Coefficients& values) {
 
 Scheme splitting(std::string name, int order, Splitting method, std::string source,
                  std::string needs = kSeparable) {
-  const bool symmetric = method.kicks.size() != method.drifts.size() &&
-                         is_palindrome(method.kicks) && is_palindrome(method.drifts);
+  const bool symmetric = is_symmetric(method);
   auto count = [](std::size_t n, const char* what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
   };
@@ -104,6 +103,11 @@ Scheme mclachlan_4() {
 }
 
 }  // namespace
+
+bool is_symmetric(const Splitting& method) {
+  return method.kicks.size() != method.drifts.size() && is_palindrome(method.kicks) &&
+         is_palindrome(method.drifts);
+}
 
 std::vector<Scheme> splittings() {
   std::vector<Scheme> list{

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <regex>
 
 #include "generator/formats/scalar.hpp"
 
@@ -60,6 +61,21 @@ TEST(Exact, ThreeDoublesHoldAHundredAndFiftyBits) {
   }
 }
 
+// 2^(2 10^11) would not fit into the memory.
+TEST(Exact, PowersThatAreTooLongAreRefusedBeforeTheyAreMade) {
+  EXPECT_EQ(integer_power(Rational(-2, 3), 3), Rational(-8, 27));
+  EXPECT_EQ(integer_power(Rational(-2, 3), -3), Rational(-27, 8));
+  EXPECT_TRUE(integer_power(2, 4095));  // 4096 bits
+  EXPECT_FALSE(integer_power(2, 4096));
+  EXPECT_EQ(integer_power(-1, 1000000001), Rational(-1));
+  Integer huge = 1;
+  mpz_setbit(huge.get_mpz_t(), 50'000'000);
+  for (const long exponent : {4096L, -4096L}) {
+    EXPECT_FALSE(integer_power(Rational(huge), exponent));
+    EXPECT_FALSE(integer_power(Rational(Integer(1), huge), exponent));
+  }
+}
+
 TEST(Literal, OfADoubleIsTheShortestThatReadsBack) {
   const ScalarType& scalar = find_scalar("double");
   EXPECT_EQ(literal(decimal("0.1"), scalar), "0.1");
@@ -67,6 +83,41 @@ TEST(Literal, OfADoubleIsTheShortestThatReadsBack) {
   EXPECT_EQ(literal(Rational(1, 3), scalar), "(1.0 / 3.0)");
   EXPECT_EQ(literal(decimal("1e-320"), scalar), "1e-320");
   EXPECT_EQ(literal(decimal("123456789012345678901"), scalar), "123456789012345683968.0");
+}
+
+Rational two_to(long exponent) {
+  Rational result(1);
+  if (exponent >= 0) {
+    mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  } else {
+    mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  }
+  return result;
+}
+
+// Integers of at most 64 bits times powers of two: a sum of two for quad.
+TEST(Literal, BeyondTheRangeOfDoubleIsTheNearestNumberInHexadecimal) {
+  const std::regex part("0x([0-9a-f]+)p(-?[0-9]+)L");
+  for (const char* name : {"long-double", "quad"}) {
+    const ScalarType& scalar = find_scalar(name);
+    for (int k = 0; k < 40; ++k) {
+      Rational value = Rational(2 * k + 1, 3) * decimal("1e-290");
+      if (k % 2 != 0) value = -1 / value * decimal("1e20");
+      const std::string text = literal(value, scalar);
+      Rational sum = 0;
+      for (std::sregex_iterator it(text.begin(), text.end(), part), end; it != end; ++it) {
+        const Integer mantissa((*it)[1].str(), 16);
+        EXPECT_LE(mpz_sizeinbase(mantissa.get_mpz_t(), 2), 64U) << text;
+        sum += mantissa * two_to(std::stol((*it)[2]));
+      }
+      if (text.starts_with('-')) sum = -sum;
+      // 2^last <= |value| < 2^(last + 1): the unit of its last digit is 2^(last + 1 - digits).
+      long last = 0;
+      while (abs(value) < two_to(last)) --last;
+      while (abs(value) >= two_to(last + 1)) ++last;
+      EXPECT_LE(abs(sum - value), two_to(last - scalar.digits)) << name << " " << text;
+    }
+  }
 }
 
 TEST(Literal, HasASuffixInFloatAndLongDouble) {

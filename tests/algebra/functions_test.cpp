@@ -183,6 +183,18 @@ TEST(Functions, periodic_functions_keep_their_digits_at_large_arguments) {
             -0.8522008497671888017727);
 }
 
+// sin(n + 1/3) = sin(n) cos(1/3) + cos(n) sin(1/3), where n alone has more than 60 digits.
+TEST(Functions, periodic_functions_see_the_fraction_behind_a_long_integer) {
+  const auto value = [](const char* name, const Rational& x) {
+    return evaluate_function(name, std::span(&x, 1)).value();
+  };
+  const Rational n = parse_decimal("1e80").value();
+  const Rational third(1, 3);
+  const Rational sum =
+      value("sin", n) * value("cos", third) + value("cos", n) * value("sin", third);
+  EXPECT_LT(abs(value("sin", n + third) - sum), parse_decimal("1e-55").value());
+}
+
 // The first 50 digits of pi, and of the square root of 2.
 TEST(Functions, constants_have_fifty_digits) {
   const Rational tiny = parse_decimal("1e-49").value();
@@ -200,6 +212,17 @@ TEST(Powers, exist_where_they_are_real) {
   EXPECT_FALSE(evaluate_power(0, -1));
   EXPECT_FALSE(evaluate_power(-8, Rational(1, 3)));
   EXPECT_DOUBLE_EQ(to_double(evaluate_power(10, Rational(1, 3)).value()), std::cbrt(10.0));
+}
+
+TEST(Powers, of_negative_numbers_that_are_too_long_to_be_exact_alternate) {
+  const Rational tiny = parse_decimal("1e-50").value();
+  for (const unsigned long exponent : {5001UL, 5002UL}) {
+    Integer exact;
+    mpz_pow_ui(exact.get_mpz_t(), Integer(-3).get_mpz_t(), exponent);
+    const Rational value = evaluate_power(-3, exponent).value();
+    EXPECT_NE(value, exact) << exponent;
+    EXPECT_LT(abs(value / exact - 1), tiny) << exponent;
+  }
 }
 
 }  // namespace

@@ -89,9 +89,9 @@ TEST(Derivation, ConstantsThatTurnComplexAfterCancellingAreMistakesWithAPlace) {
 
 // d|u| = u u'/|u| and d^2|u| = u u''/|u|, for u that is real only where H has a value.
 TEST(Derivation, OfAnAbsoluteValueKnowsThatItsArgumentIsReal) {
-  for (const char* u :
-       {"log(q)", "acosh(2*q)", "asin(q)", "atanh(q)", "asinh(q)", "(1 - sqrt(q^2 + p^2))",
-        "(q - sqrt(p^2 + 1))", "(q - log(p))", "(-exp(log(q)*sqrt(p)))", "(-sqrt(q)^log(p))"}) {
+  for (const char* u : {"log(q)", "acosh(2*q)", "asin(q)", "atanh(q)", "asinh(q)",
+                        "(1 - sqrt(q^2 + p^2))", "(q - sqrt(p^2 + 1))", "(q - log(p))",
+                        "(-exp(log(q)*sqrt(p)))", "exp(asin(q)*atanh(p))", "(-sqrt(q)^log(p))"}) {
     const std::string text = u;
     const Mechanics of_abs = derived("coordinate q\nmomentum p\nH = p^2 + abs(" + text + ")\n");
     const Mechanics plain = derived("coordinate q\nmomentum p\nH = " + text + "\n");

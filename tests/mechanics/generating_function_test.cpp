@@ -68,6 +68,83 @@ TEST(GeneratingSeries, OfTheOscillatorIsThatOfTheTangent) {
   }
 }
 
+// Coefficients of 1, h, h^2, ...
+using InStep = std::vector<Rational>;
+constexpr std::size_t most_terms = 11;
+
+InStep times(const InStep& a, const InStep& b) {
+  InStep result(most_terms);
+  for (std::size_t i = 0; i < most_terms; ++i)
+    for (std::size_t j = 0; i + j < most_terms; ++j) result[i + j] += a[i] * b[j];
+  return result;
+}
+
+InStep over(const InStep& a, const InStep& b) {
+  InStep result(most_terms);
+  for (std::size_t i = 0; i < most_terms; ++i) {
+    Rational rest = a[i];
+    for (std::size_t j = 0; j < i; ++j) rest -= result[j] * b[i - j];
+    result[i] = rest / b[0];
+  }
+  return result;
+}
+
+InStep sum_of(const InStep& a, const InStep& b, const Rational& factor) {
+  InStep result = a;
+  for (std::size_t i = 0; i < most_terms; ++i) result[i] += factor * b[i];
+  return result;
+}
+
+std::string text_of_series(const InStep& a) {
+  std::string text = "0";
+  for (std::size_t i = 0; i < most_terms; ++i)
+    text += " + (" + a[i].get_str() + ")*h^" + std::to_string(i);
+  return text;
+}
+
+// For H = (p^2 + q^2)/2 the flow is the rotation exp(h J), so that S = z A z/2 with
+// A = ((I/2) cot(h/2) + C J)^-1, C J = [[gamma, alpha - 1/2], [alpha - 1/2, -beta]].
+TEST(GeneratingSeries, OfTheOscillatorIsExactForAGaugeWithEveryPowerOfTheStep) {
+  InStep sine(most_terms);
+  InStep cosine(most_terms);
+  Rational power = 1;  // (1/2)^k/k! with the signs of cos + sin
+  for (std::size_t k = 0; k < most_terms; ++k) {
+    (k % 2 == 0 ? cosine : sine)[k] = power;
+    power *= Rational(k % 2 == 0 ? 1 : -1, 2 * (static_cast<long>(k) + 1));
+  }
+  const InStep tangent = over(sum_of(sine, sine, 1), cosine);  // 2 tan(h/2)
+  InStep offset(most_terms);                                   // alpha - 1/2
+  InStep beta(most_terms);
+  InStep gamma(most_terms);
+  for (long k = 0; k < static_cast<long>(most_terms); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    offset[i] = Rational(1, 3 + k);
+    beta[i] = Rational(k % 3 - 1, 2 + k);
+    gamma[i] = Rational(k + 2, 7);
+  }
+  InStep one(most_terms);
+  one[0] = 1;
+  const InStep q_part = sum_of(one, times(beta, tangent), -1);
+  const InStep p_part = sum_of(one, times(gamma, tangent), 1);
+  const InStep mixed = times(offset, tangent);
+  const InStep scale = over(tangent, sum_of(times(q_part, p_part), times(mixed, mixed), -1));
+
+  const Mechanics m = mechanics_of("coordinate q\nmomentum p\nH = (p^2 + q^2)/2\n");
+  const Gauge gauge{"1/2 + " + text_of_series(offset), text_of_series(beta), text_of_series(gamma)};
+  const auto terms = series(m, scheme_of(m, gauge).member().c, static_cast<int>(most_terms) - 1,
+                            SeriesForm::expanded);
+  const Expression q = m.variable(0);
+  const Expression p = m.variable(1);
+  const InStep of_qq = times(scale, q_part);
+  const InStep of_pp = times(scale, p_part);
+  const InStep of_qp = times(scale, mixed);
+  for (std::size_t k = 1; k < most_terms; ++k) {
+    const Expression known = (Expression(of_qq[k]) * q * q + Expression(of_pp[k]) * p * p) / 2 -
+                             Expression(of_qp[k]) * q * p;
+    EXPECT_TRUE(same(terms[k - 1], known)) << k << ": " << to_text(terms[k - 1] - known);
+  }
+}
+
 TEST(GeneratingFunction, RefusesAGaugeWithoutASeriesInTheStep) {
   const Mechanics m = mechanics_of(pendulum);
   const SparseMatrix c = scheme_of(m, {"1/2", "1/h", "0"}).member().c;

@@ -6,6 +6,7 @@
 #include "generator/algebra/derivative.hpp"
 #include "generator/algebra/latex.hpp"
 #include "generator/algebra/polynomial.hpp"
+#include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/generating_function.hpp"
 #include "tests/mechanics/formal_step.hpp"
 
@@ -44,6 +45,21 @@ TEST(ModifiedHamiltonian, HasTheKnownSecondTermForAGaugeProportionalToTheStep) {
                           m.second_derivative(1, 1) * by_q * by_q;
   const auto terms = modified_hamiltonian(m, scheme_of(m, {"1/2", "h/5", "-h/7"}).member().c, 0, 3);
   EXPECT_TRUE(same_terms(terms[2], gauge - bend / Expression(24))) << to_text(terms[2]);
+}
+
+// That of the midpoint is H - (h^2/24) H''(J grad H, J grad H) + O(h^4).
+TEST(ModifiedHamiltonian, OfTheMidpointBeginsWithTheCurvatureAlongTheFlow) {
+  for (const char* text : {"coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n",
+                           "coordinate q\nmomentum p\nH = p^2/2 - cos(q) + p*q^3\n",
+                           "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + x*py*(1 + y^2) "
+                           "- y*px + x^2*y\n"}) {
+    const Mechanics m = mechanics_of(text);
+    const NamedExpression curvature = energy_curvature(m).front();
+    EXPECT_EQ(curvature.name, "energy_curvature");
+    EXPECT_TRUE(same_terms(modified_hamiltonian(m, {}, 0, 3)[2],
+                           curvature.value / Expression(Rational(-24))))
+        << text << to_text(curvature.value);
+  }
 }
 
 // With K of order R, Ht departs from H at h^R only.

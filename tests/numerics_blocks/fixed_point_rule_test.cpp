@@ -47,6 +47,25 @@ TYPED_TEST(FixedPointRule, WhatStandsStillFarFromRoundingFails) {
   EXPECT_EQ(this->template stop<1>([](int) { return 5000.0; }, Verdict::failed), 500);
 }
 
+// The increments that one step ends with are far below those that the next one begins with.
+TYPED_TEST(FixedPointRule, WhatWasReachedInAStepIsForgottenInTheNext) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::template FixedPoint<2> rule;
+  for (int step = 0; step < 3; ++step) {
+    rule.begin();
+    Verdict verdict = Verdict::go_on;
+    int iteration = 0;
+    for (double units = 2000; verdict == Verdict::go_on; units = units > 1 ? units / 2 : 1) {
+      typename TypeParam::Moved distance;
+      distance.add(typename TestFixture::Number(units) * TypeParam::unit, 0);
+      distance.add(0, 1);
+      verdict = rule(distance, ++iteration);
+    }
+    EXPECT_EQ(verdict, Verdict::done);
+    EXPECT_GT(iteration, 11) << step;  // 2000/2^11 is below 1
+  }
+}
+
 // One iteration without progress is luck: 3000, 1500, 1500, 750, 750, ...
 TYPED_TEST(FixedPointRule, OneStallIsNoEnd) {
   const auto halting = [](int i) { return 3000.0 / (1 << (i / 2)); };

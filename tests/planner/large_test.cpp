@@ -131,6 +131,11 @@ TEST(LargePlan, TheMatrixFollowsThePattern) {
   EXPECT_TRUE(contains(ring, "bandwidth 2, the ring folded flat")) << ring;
   const std::string pairs = solver(" - sum(i = 1..N-1, j = i+1..N, cos(q[i] - q[j]))", "100");
   EXPECT_TRUE(contains(pairs, "dense Newton of size 100")) << pairs;
+  // 40 that pull at 40 others: with both triangles a third of the matrix, with one a sixth.
+  const std::string halves = solver(" - sum(i = 1..40, j = 61..100, cos(q[i] - q[j]))", "100");
+  EXPECT_TRUE(contains(halves, "dense Newton of size 100")) << halves;
+  const std::string fewer = solver(" - sum(i = 1..30, j = 71..100, cos(q[i] - q[j]))", "100");
+  EXPECT_TRUE(contains(fewer, "sparse Newton of size 100")) << fewer;
   const std::string torus = solver(" - sum(i = 1..N, cos(q[i+20] - q[i]))", "400");
   EXPECT_TRUE(contains(torus, "sparse Newton of size 400")) << torus;
 }

@@ -51,6 +51,17 @@ TEST(Plan, SymplecticEulerOnASeparableHamiltonianNeedsNoSolver) {
   expect_no_solver(b);
 }
 
+// The last increment corrects it to as many digits.  Where it is linear with constant coefficients
+// it is cheaper to compute.
+TEST(Plan, AGradientOfTheIterationIsNotEvaluatedOnceMoreAtItsEnd) {
+  const std::string solve = outcome(one + "H = cosh(p) - cos(q)\n").solve;
+  EXPECT_EQ(count(solve, "std::sinh("), 1) << solve;
+  EXPECT_EQ(count(solve, "std::sin("), 1) << solve;
+  const std::string root = outcome(one + "H = sqrt(1 + p^2) + exp(q)\n").solve;
+  EXPECT_EQ(count(root, "std::sqrt("), 1) << root;
+  EXPECT_EQ(count(root, "std::exp("), 1) << root;
+}
+
 TEST(Plan, TheMembersAlphaZeroAndOneAreTheEulerSchemes) {
   const std::string text = one + "H = p^2/2 - cos(q)\n";
   for (const auto& [alpha, named] : {std::pair{"0", euler_a}, std::pair{"1", euler_b}}) {

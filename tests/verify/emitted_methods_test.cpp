@@ -98,6 +98,25 @@ TEST(EmittedMethods, AreTheMathematics) {
   }
 }
 
+// y has the slope of a K whose Hessian is not that of the Newton before it: it is to take the
+// solution with the last increment.
+TEST(EmittedMethods, WhatFollowsASimplifiedNewtonIsTheMathematics) {
+  const Mechanics mechanics =
+      mechanics_of("coordinate x, y\nmomentum px, py\nH = px^2/2 + x^3/3 + py*x\n");
+  const auto of_order = [](int order) { return Case{.name = "", .text = "", .order = order}; };
+  const Scheme scheme = scheme_of(of_order(6), mechanics);
+  StepEquations equations = discretise(mechanics, scheme);
+  const StepEquations shorter = discretise(mechanics, scheme_of(of_order(4), mechanics));
+  equations.function->hessian = shorter.function->hessian;
+  equations.function->hessian_order = 4;
+  equations.mechanics.hessian = shorter.function->hessian;
+  const Program program = build_program(plan_solve(equations, ""));
+  ASSERT_NE(to_text(program.plan).find("simplified Newton of size 2 on x, px\n"), std::string::npos)
+      << to_text(program.plan);
+  const Finding finding = prove(mechanics, scheme, program);
+  EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;
+}
+
 TEST(EmittedMethods, EveryMutationIsRefuted) {
   int equivalent = 0;
   int total = 0;

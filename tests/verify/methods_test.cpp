@@ -1,6 +1,7 @@
 // What algebra says of splittings, compositions and tableaus, on plain coefficients.
 #include <gtest/gtest.h>
 
+#include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
@@ -91,6 +92,28 @@ TEST(Composition, TheTripleJumpHasOrderFourAndItsLeadingError) {
       << find(proof, "order").detail;
   const Composition wrong{midpoint.member(), {q(1, 3), q(1, 3), q(1, 3)}};
   EXPECT_EQ(find(prove_composition(wrong, 4), "order").property, "order 2");
+}
+
+// To 34 digits of the coefficients; order and symmetry are found from them alone.
+TEST(TheList, OfSplittingsAndCompositionsClaimsWhatIsProved) {
+  const Scheme midpoint = family_member(1, {{q(1, 2)}}, {{Expression(0)}}, {{Expression(0)}});
+  const auto expect_claims = [](const Scheme& scheme, const Proof& proof) {
+    EXPECT_EQ(find(proof, "order").property, "order " + std::to_string(scheme.order))
+        << scheme.name << ": " << find(proof, "order").detail;
+    EXPECT_EQ(find(proof, "symmetric").verdict,
+              scheme.symmetric ? Verdict::proved : Verdict::refuted)
+        << scheme.name;
+  };
+  for (const Scheme& scheme : compositions()) {
+    auto composition = std::get<Composition>(scheme.method);
+    composition.base = midpoint.member();
+    expect_claims(scheme, prove_composition(composition, scheme.order));
+  }
+  for (const Scheme& scheme : splittings()) {
+    const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
+    expect_claims(scheme,
+                  prove_splitting(std::get<Splitting>(scheme.method), scheme.order, nystrom));
+  }
 }
 
 TEST(Member, AMatrixOutsideTheAlgebraIsRefutedWithTheEntry) {
