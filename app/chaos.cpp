@@ -63,9 +63,9 @@ struct Loaded {
 
 // The step with its tangent map, of all of the model: a deviation need not stay where the orbit
 // does.
-Loaded load(const ChaosOptions& options, const std::vector<std::string>& names) {
+Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std::string>& names) {
   Loaded loaded;
-  loaded.setting = read_setting(options.method, options.scene);
+  loaded.setting = std::move(setting);
   loaded.scene = complete_scene(loaded.setting.model, loaded.setting.scene);
   take_gauge_at(loaded.scene, loaded.setting.model, loaded.setting.request);
   specialise(options.scene, loaded.scene, names, Observing::everything, loaded.setting);
@@ -173,15 +173,15 @@ int run_chaos(const ChaosOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   require_one_document(options.json, table_kind(options.output));
-  const Model model = read_setting(options.method, options.scene).model;
-  const std::set<std::string> names = varied_names(model);
+  Setting setting = read_setting(options.method, options.scene);
+  const std::set<std::string> names = varied_names(setting.model);
   std::vector<ChaosAxis> axes;
   for (const std::string& text : options.over) {
     for (const std::string_view piece : outermost_pieces(text))
       axes.push_back(read_axis(std::string(piece), names));
   }
   if (axes.size() > 2) throw UsageError("--over: two axes at most");
-  const Loaded loaded = load(options, {names.begin(), names.end()});
+  const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()});
   return axes.empty() ? run_orbit(options, loaded) : run_map(options, loaded, std::move(axes));
 }
 

@@ -136,6 +136,18 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& name,
   return command.add_option(name, values, help)->expected(1)->take_all()->allow_extra_args(false);
 }
 
+namespace {
+
+std::vector<std::string_view> pieces_of_list(std::string_view option, std::string_view text) {
+  const std::vector<std::string_view> pieces = outermost_pieces(text);
+  if (pieces.size() > 1 && std::ranges::any_of(pieces, &std::string_view::empty))
+    throw UsageError(
+        fmt::format("{} {}: nothing stands beside a comma\nhelp: drop the comma", option, text));
+  return pieces;
+}
+
+}  // namespace
+
 Assignment split_assignment(std::string_view option, std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = without_blanks(text.substr(0, equals));
@@ -148,7 +160,7 @@ Assignment split_assignment(std::string_view option, std::string_view text) {
 
 std::vector<Assignment> split_assignments(std::string_view option, std::string_view text) {
   std::vector<std::vector<std::string>> groups;  // "NAME=VALUE", then what belongs to its list
-  for (const std::string_view piece : outermost_pieces(text)) {
+  for (const std::string_view piece : pieces_of_list(option, text)) {
     if (piece.find('=') != std::string_view::npos || groups.empty()) groups.emplace_back();
     groups.back().emplace_back(piece);
   }
@@ -162,13 +174,12 @@ std::vector<Assignment> split_assignments(std::string_view option, std::string_v
   return assignments;
 }
 
-std::vector<std::string> listed(const std::vector<std::string>& lists) {
-  std::vector<std::string> names;
+std::vector<std::string> listed(std::string_view option, const std::vector<std::string>& lists) {
+  std::vector<std::string> pieces;
   for (const std::string& list : lists) {
-    for (const std::string_view piece : outermost_pieces(list))
-      names.emplace_back(without_blanks(piece));
+    for (const std::string_view piece : pieces_of_list(option, list)) pieces.emplace_back(piece);
   }
-  return names;
+  return pieces;
 }
 
 long integer_value(const std::string& what, const std::string& text, long least) {
@@ -226,7 +237,7 @@ Request request_of(const MethodOptions& options) {
   request.reference = all_assignments("--reference", options.reference);
   request.solver = options.solver;
   request.scalar = options.scalar;
-  request.fold = listed(options.fold);
+  request.fold = listed("--fold", options.fold);
   request.plain_sums = options.plain_sums;
   return request;
 }
@@ -312,7 +323,7 @@ void specialise(const SceneOptions& options, const SceneValues& values,
     facts.values.observe.clear();
     facts.values.formulas.clear();
   }
-  for (const std::string& name : listed(options.keep)) {
+  for (const std::string& name : listed("--keep", options.keep)) {
     if (!known.contains(name)) {
       const std::string near = nearest(name, {known.begin(), known.end()});
       throw UsageError(fmt::format("--keep {}: {} has no such variable or parameter{}", name,

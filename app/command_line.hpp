@@ -98,8 +98,10 @@ void add_step_option(CLI::App& command, SceneOptions& options);
 // before it, which becomes a list.
 [[nodiscard]] std::vector<Assignment> split_assignments(std::string_view option,
                                                         std::string_view text);
-// Of "a,b" and "c": a, b, c, at outermost commas.
-[[nodiscard]] std::vector<std::string> listed(const std::vector<std::string>& lists);
+// Of "a,b" and "c": a, b, c, at outermost commas.  Throws UsageError naming the option where
+// nothing stands between two.
+[[nodiscard]] std::vector<std::string> listed(std::string_view option,
+                                              const std::vector<std::string>& lists);
 // An integer such as "100" or "1e6" within [least, 1e15]; throws UsageError that begins with
 // `what`, the option and its value as typed.
 [[nodiscard]] long integer_value(const std::string& what, const std::string& text, long least);

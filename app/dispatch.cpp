@@ -28,10 +28,20 @@ void refuse_empty_values(const std::vector<std::string>& words) {
   }
 }
 
-// "help run" is "run --help".
-std::vector<std::string> with_help_as_option(std::vector<std::string> words) {
+// "help run" is "run --help", "run --version" is "--version".
+std::vector<std::string> as_options(std::vector<std::string> words, const CLI::App& app) {
+  if (words.size() == 2 && words[1] == "--version") return {"--version"};
   if (words.empty() || words[0] != "help") return words;
   words.erase(words.begin());
+  if (!words.empty() && words[0] == "help") return {"--help"};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (!words.empty() && words[0][0] != '-' && std::ranges::find(names, words[0]) == names.end()) {
+    const std::string near = nearest(words[0], names);
+    throw UsageError(
+        fmt::format("help {}: no such command\nhelp: {}", words[0],
+                    near.empty() ? "see hamgen --help" : fmt::format("did you mean '{}'?", near)));
+  }
   words.emplace_back("--help");
   return words;
 }
@@ -126,7 +136,7 @@ int run_command(const std::vector<std::string>& words, Crew& crew) {
   use_short_help(app);
   try {
     refuse_empty_values(words);
-    const std::vector<std::string> asked = with_help_as_option(words);
+    const std::vector<std::string> asked = as_options(words, app);
     app.parse(
         std::vector<std::string>(asked.rbegin(), asked.rend()));  // it takes them from the end
   } catch (const CLI::CallForHelp&) {

@@ -94,7 +94,7 @@ EnsemblePlan read_plan(const EnsembleOptions& options, const Model& model) {
   if (!options.seed.empty())
     plan.seed =
         static_cast<std::uint64_t>(integer_value("--seed " + options.seed, options.seed, 0));
-  require_known(plan, listed(options.method.fold), names);
+  require_known(plan, listed("--fold", options.method.fold), names);
   if (plan.size() > static_cast<double>(kMostTrajectories))
     throw UsageError(fmt::format(
         "these are {:.4g} trajectories, of which 100 bytes each would make {:.4g} TB; {:.0e} are "

@@ -33,7 +33,7 @@ std::vector<WatchedEvent> watched_events(const WatchOptions& options, const Mode
     for (const ModelEvent& each : model.events)
       events.push_back(watch({.event = each}, false, model, scene));
   }
-  for (const std::string& text : listed(options.until))
+  for (const std::string& text : listed("--until", options.until))
     events.push_back(watch(read_end_condition(model, "--until", text), true, model, scene));
   return events;
 }

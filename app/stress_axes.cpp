@@ -66,7 +66,7 @@ bool mentions_word(const std::string& text, const std::string& word) {
 
 std::vector<StressAxis> read_axes(const std::vector<std::string>& vary) {
   std::vector<StressAxis> axes;
-  for (const std::string& text : listed(vary)) axes.push_back(axis_of(text));
+  for (const std::string& text : listed("--vary", vary)) axes.push_back(axis_of(text));
   const bool has_h = std::ranges::any_of(axes, [](const auto& axis) { return axis.label == "h"; });
   if (axes.size() < 2 && !has_h) axes.insert(axes.begin(), axis_of("h=1e-4:1e3"));
   if (axes.size() > 2)

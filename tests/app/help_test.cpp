@@ -37,6 +37,15 @@ TEST(Help, TellsTheVersion) {
   EXPECT_EQ(result.out, "hamgen 0.1.0\n");
 }
 
+TEST(Help, IsThereHoweverOneAsks) {
+  const std::string own = hamgen({"run", "--help"}).out;
+  EXPECT_EQ(hamgen({"help", "run"}).out, own);
+  EXPECT_EQ(hamgen({"run", "-h"}).out, own);
+  EXPECT_EQ(hamgen({"help", "help"}).out, hamgen({"--help"}).out);
+  for (const std::string& command : commands)
+    EXPECT_EQ(hamgen({command, "--version"}).out, "hamgen 0.1.0\n");
+}
+
 void expect_usage_error(const std::vector<std::string>& arguments, std::string_view part) {
   const Result result = hamgen(arguments);
   EXPECT_EQ(result.status, 2) << result.err;
@@ -53,6 +62,7 @@ TEST(Usage, IsSaidWithAWayOut) {
   expect_usage_error({"run", "--alpha=", "a.ham"}, "--alpha= has no value");
   expect_usage_error({"run", "no_such_file.ham"}, "no_such_file.ham");
   expect_usage_error({"list", "scheme"}, "functions, schemes, solvers and formats");
+  expect_usage_error({"help", "rum"}, "did you mean 'run'?");
   expect_usage_error({"cache", "burn"}, "list, clear and prune");
 }
 

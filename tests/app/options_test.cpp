@@ -195,6 +195,16 @@ TEST(Options, TakeListsByCommas) {
   const Result twice = hamgen({"run", model, "--set", "a=1,a=2"});
   EXPECT_EQ(twice.status, 2);
   EXPECT_TRUE(contains(twice.err, "a is set twice")) << twice.err;
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--set", "a=1,"},
+                                                {"--initial", "x=1,,y=2"},
+                                                {"--fold", ",a"},
+                                                {"--keep", "x,"},
+                                                {"--until", "x < 0,"}}) {
+    const Result empty = hamgen({"run", model, words[0], words[1]});
+    EXPECT_EQ(empty.status, 2);
+    EXPECT_TRUE(contains(empty.err, words[0] + " " + words[1] + ": nothing stands beside a comma"))
+        << empty.err;
+  }
 }
 
 // A time is as many whole steps as it has room for, in every command.
@@ -231,6 +241,17 @@ TEST(Options, OfAnEmittedHeaderAreAcceptedWithoutAScene) {
   const Result emitted = shell(run.err.substr(begin, run.err.find('\n', begin) - begin));
   EXPECT_EQ(emitted.status, 0) << emitted.err;
   EXPECT_TRUE(contains(emitted.out, "y, py: they start at 0")) << emitted.out.substr(0, 2000);
+}
+
+// Every command that reads a model reads it from standard input, once.
+TEST(Options, ADashIsStandardInput) {
+  const Scratch scratch;
+  scratch.write("m.ham", pendulum);
+  for (const char* command : {"check -", "show -", "generate -", "run - --interpret", "verify -",
+                              "chaos - --steps 9", "list schemes --for -"}) {
+    const Result result = shell(std::string("hamgen ") + command + " < m.ham", scratch.path("."));
+    EXPECT_EQ(result.status, 0) << command << '\n' << result.err;
+  }
 }
 
 // What is in the cache is other people's text: shown, and nothing else.
