@@ -115,11 +115,11 @@ ExactSum in_scalar(const runtime::Wide& value, int scalar_digits) {
 }
 
 void require_certifiable(const Request& method, const Model& model, const Scheme& scheme) {
-  if (method.solver.starts_with("sweeps"))
+  if (method.solver->kind == SolverWish::Kind::sweeps)
     throw UsageError(
         fmt::format("--solver {} leaves the step unsolved: there is no exact map that it is "
                     "near to\nhelp: drop --solver",
-                    method.solver));
+                    method.solver.text()));
   StepCertifier::require_possible(model, scheme);
 }
 

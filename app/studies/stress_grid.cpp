@@ -15,13 +15,14 @@ namespace hamgen::app {
 namespace {
 
 // alpha, beta or gamma as one number; empty for a list or an expression in E0.
-std::optional<double> member_number(const std::string& text, double fallback,
+std::optional<double> member_number(const GaugeFormula& formula,
                                     const std::vector<std::string>& names,
                                     const std::map<std::string, Rational>& values) {
-  if (text.empty()) return fallback;
+  if (!formula.is_uniform()) return std::nullopt;
+  const auto& [text, node] = formula.rows[0][0];
   try {
-    return to_double(evaluate_constant(read_expression("member", text, names),
-                                       make_source("member", text), values));
+    require_names(node, "member", text, names);
+    return to_double(evaluate_constant(node, make_source("member", text), values));
   } catch (const ModelError&) {
     return std::nullopt;
   }
@@ -111,9 +112,9 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
   for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = scene.parameters[i];
   names.push_back("h");
   values["h"] = *scene.h;
-  const auto a = member_number(method.alpha, alpha, names, values);
-  const auto b = member_number(method.beta, 0.0, names, values);
-  const auto c = member_number(method.gamma, 0.0, names, values);
+  const auto a = method.alpha.empty() ? alpha : member_number(*method.alpha, names, values);
+  const auto b = member_number(*method.beta, names, values);
+  const auto c = member_number(*method.gamma, names, values);
   if (!a || !b || !c) return std::nullopt;
   const double h = start->h.hi;
   return Linear{.h_omega = std::fabs(h) * std::sqrt(*found->second),
@@ -124,7 +125,7 @@ std::vector<std::array<double, 2>> StressGrid::linear_bound() {
   if (axes_.size() < 2) return {};
   const Request& chosen = setting_.request;
   const bool is_midpoint = (chosen.scheme.empty() || chosen.scheme == "implicit-midpoint") &&
-                           (chosen.alpha + chosen.beta + chosen.gamma).empty();
+                           chosen.alpha.empty() && chosen.beta.empty() && chosen.gamma.empty();
   if (is_midpoint) return {};  // bounded for every h omega
   constexpr int across = 160;
   constexpr int up = 80;
