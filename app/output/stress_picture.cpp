@@ -38,7 +38,7 @@ constexpr std::array<Shade, runtime::kStatuses> kFailures = {{{"", ""},
                                                               {"#333333", "undefined", 2}}};
 
 // The state error of an orbit that is somewhere else on its torus: how large it is says nothing.
-constexpr Shade kLost = {"#4B3B78", "> 0.1 scales: phase lost"};
+constexpr Shade kLost = {"#4B3B78", "phase lost (> 0.1)"};
 constexpr double kLostError = 0.1;
 // Hatched: neither the palest error nor a failure, in grey print too.
 constexpr Shade kUnknown = {"#555555", "not known", 6};

@@ -49,14 +49,28 @@ std::string colour_ticks(const std::vector<double>& drawn) {
   return fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics ({})\n", low, high, text);
 }
 
-// Lines around what is within 5 %, half as much again, twice and ten times the least.
+// Lines of level at multiples of the least value: few per cent where the range is small, else
+// powers of ten and their halves.
 std::string contour_text(const std::vector<double>& drawn) {
   if (drawn.empty()) return "";
-  const double low = std::ranges::min(drawn);
+  const auto [low, high] = std::ranges::minmax(drawn);
+  std::vector<double> factors = {1.05, 1.2, 1.5, 2.0, 5.0};
+  if (high > kLeastRange * low) {
+    factors.clear();
+    for (double power = 1.0; power * low < high; power *= 10.0) {
+      for (const double factor : {1.0, 3.0}) factors.push_back(factor * power);
+    }
+  }
+  std::string levels;
+  for (const double factor : factors) {
+    if (factor > 1.0 && factor * low < high)
+      levels += fmt::format("{}{:.6g}", levels.empty() ? "" : ", ", factor * low);
+  }
+  if (levels.empty()) return "";
   return fmt::format(
-      "set contour base\nunset surface\nset cntrparam levels discrete {:.6g}, {:.6g}, {:.6g}, "
-      "{:.6g}\nset table $levels\nsplot $map using 1:2:3\nunset table\nunset contour\n",
-      1.05 * low, 1.5 * low, 2 * low, 10 * low);
+      "set contour base\nunset surface\nset cntrparam levels discrete {}\n"
+      "set table $levels\nsplot $map using 1:2:3\nunset table\nunset contour\n",
+      levels);
 }
 
 // Black on a white rim: seen on every colour.
@@ -152,8 +166,9 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
     }
     text += "\n";
   }
-  text += "EOD\n" + contour_text(drawn) + "plot $map using 1:2:3 with image notitle";
-  if (!drawn.empty()) text += ", \\\n  $levels with lines lw 1.2 lc rgb '#FFFFFF' notitle";
+  const std::string contours = contour_text(drawn);
+  text += "EOD\n" + contours + "plot $map using 1:2:3 with image notitle";
+  if (!contours.empty()) text += ", \\\n  $levels with lines lw 1.2 lc rgb '#FFFFFF' notitle";
   text += mark({}, 4, "midpoint rule");
   text += mark(map.fitted, 2, fmt::format("fitted: {:.5g}, {:.5g}", map.fitted.b, map.fitted.c));
   if (std::isfinite(least)) text += mark(best, 6, fmt::format("best cell: {:.3g}", least));

@@ -16,7 +16,6 @@
 
 #include "app/studies/bench_measure.hpp"
 #include "app/studies/initial_data.hpp"
-#include "runtime/processor_time.hpp"
 #include "app/studies/setting.hpp"
 #include "benchmarks/cost/command_cost.hpp"
 #include "benchmarks/cost/cost_models.hpp"
@@ -24,6 +23,7 @@
 #include "benchmarks/peers/peer.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
+#include "runtime/processor_time.hpp"
 
 namespace hamgen::cost_table {
 namespace {

@@ -11,12 +11,12 @@
 
 #include "app/studies/bench_measure.hpp"
 #include "app/studies/initial_data.hpp"
-#include "runtime/processor_time.hpp"
 #include "app/studies/scheme_spec.hpp"
 #include "benchmarks/peers/peer.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "runtime/processor_time.hpp"
 
 namespace hamgen::peers {
 namespace {
