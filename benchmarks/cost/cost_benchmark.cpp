@@ -77,7 +77,7 @@ std::string add_hamgen(const StepRow& row, const SourceText& source, const Scene
   Request request = row.request;
   request.solver = solver;
   const auto method =
-      std::make_shared<app::BenchMethod>(app::bench_method("", source, request, ""));
+      std::make_shared<app::BenchMethod>(app::bench_method("", source, request, {}));
   if (!method->refusal.empty()) return method->refusal;
   const runtime::InitialValues start =
       app::initial_values(method->plugin, scene, *method->loaded.library);
@@ -103,7 +103,7 @@ Values start_values(const SceneValues& scene) {
 
 void add_gsl(const StepRow& row, const SourceText& source, const SceneValues& scene,
              std::vector<Contender>& list) {
-  const app::BenchMethod method = app::bench_method("", source, row.request, "");
+  const app::BenchMethod method = app::bench_method("", source, row.request, {});
   if (!method.refusal.empty()) return;
   const runtime::InitialValues start =
       app::initial_values(method.plugin, scene, *method.loaded.library);

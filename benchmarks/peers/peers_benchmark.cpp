@@ -106,7 +106,7 @@ void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMe
                 std::vector<Result>& results) {
   for (const std::string& spec : app::default_specs(problem.mechanics)) {
     methods.push_back(std::make_unique<app::BenchMethod>(
-        app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), "")));
+        app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), {})));
     const app::BenchMethod& method = *methods.back();
     for (int power = kLargestPower; power >= kSmallestPower; --power) {
       app::BenchRow row;
