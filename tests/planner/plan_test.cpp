@@ -62,6 +62,22 @@ TEST(Plan, AGradientOfTheIterationIsNotEvaluatedOnceMoreAtItsEnd) {
   EXPECT_EQ(count(root, "std::exp("), 1) << root;
 }
 
+// The last kick is where the next step begins: of n + 1 kicks the forces of n are evaluated.
+TEST(Plan, TheForceOfTheLastKickIsThatOfTheNextStepsFirst) {
+  for (const char* scheme : {"stormer-verlet", "sbab-3"}) {
+    const std::string solve = outcome(one + "H = p^2/2 - cos(q)\n", {.scheme = scheme}).solve;
+    const std::size_t guarded = solve.find("if (!start.known)");
+    ASSERT_NE(guarded, std::string::npos) << solve;
+    EXPECT_EQ(solve.find("potential_gradient("), solve.find("potential_gradient(", guarded))
+        << solve;
+    EXPECT_GT(solve.find("start.known = report.converged;"), guarded) << solve;
+    EXPECT_TRUE(contains(solve, "start.known = report.converged;")) << solve;
+  }
+  // It ends with a drift: nothing is known.
+  EXPECT_FALSE(
+      contains(outcome(one + "H = p^2/2 - cos(q)\n", {.scheme = "ruth-3"}).solve, "start.known"));
+}
+
 TEST(Plan, TheMembersAlphaZeroAndOneAreTheEulerSchemes) {
   const std::string text = one + "H = p^2/2 - cos(q)\n";
   for (const auto& [alpha, named] : {std::pair{"0", euler_a}, std::pair{"1", euler_b}}) {

@@ -234,6 +234,15 @@ TEST(Integrate, AnOrbitWithoutAScaleTakesThatOfItsFirstTerms) {
   EXPECT_EQ(integrate(still, {.steps = 100, .end_at_jump = true}).status, Status::done);
 }
 
+TEST(Integrator, CountsNoStepThatFailed) {
+  Integrator run = oscillator_run(10);
+  EXPECT_EQ(run.advance(7, false).steps_done, 7);
+  EXPECT_EQ(run.advance(25, false).steps_done, 3);
+  EXPECT_EQ(run.steps_done(), 10);
+  EXPECT_EQ(run.advance(25, false).steps_done, 0);
+  EXPECT_EQ(run.steps_done(), 10);
+}
+
 TEST(Integrator, GoesBackBitForBit) {
   Integrator run = oscillator_run();
   (void)run.advance(17, true);
