@@ -28,7 +28,7 @@ double mean_error_of_stage_momenta(const std::string& beta, double h_beta,
     start[i] = std::sin(static_cast<double>(i));
     start[n + i] = std::cos(static_cast<double>(3 * i));
   }
-  Interpreter<double> run(make_step_code(source, {.beta = beta, .solver = solver}), {}, h, start);
+  Interpreter<double> run(make_program(source, {.beta = beta, .solver = solver}), {}, h, start);
   double sum = 0;
   int count = 0;
   for (int step = 0; step < 200; ++step) {

@@ -115,7 +115,7 @@ TEST(EveryScene, IsRunWithTheStepOfTheWholeSystem) {
         return for_scene(source, {.request = {.scheme = scheme}, .scene = scene.name});
       };
       const Request midpoint{.scheme = "implicit-midpoint"};
-      if (show_stage(source, special(midpoint.scheme), "program") ==
+      if (show_stage(source, special(midpoint.scheme.text()), "program") ==
           show_stage(source, midpoint, "program"))
         continue;
       for (const std::string& scheme : compared_schemes()) {
