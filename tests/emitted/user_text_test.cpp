@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
@@ -178,10 +180,15 @@ TEST(UserText, OfAnyCharactersInOptionsIsRefusedOrCompiles) {
   int accepted = 0;
   for (const std::string& character : characters()) {
     const std::string text = "(0.01*h" + character + "#error reached\n)";
-    for (Request request : {Request{.alpha = text}, Request{.beta = text}, Request{.gamma = text},
-                            Request{.gauge = "[[0, " + text + "], [0, 0]]"}}) {
-      request.name_space = "m::n" + std::to_string(++accepted);
+    const auto requests = std::to_array<std::function<Request()>>(
+        {[&] { return Request{.alpha = text}; }, [&] { return Request{.beta = text}; },
+         [&] { return Request{.gamma = text}; },
+         [&] { return Request{.gauge = "[[0, " + text + "], [0, 0]]"}; }});
+    for (const auto& make : requests) {
+      ++accepted;
       try {
+        Request request = make();
+        request.name_space = "m::n" + std::to_string(accepted);
         code += emitted(safe_pendulum, request);
       } catch (const ModelError&) {
         --accepted;
