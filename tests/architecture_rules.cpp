@@ -21,8 +21,7 @@ std::vector<std::string> with_generator_values(std::vector<std::string> folders)
       folders.end(),
       {"generator/pipeline.hpp", "generator/base/", "generator/algebra/", "generator/language/",
        "generator/mechanics/", "generator/schemes/", "generator/specialise/", "generator/verify/",
-       "generator/formats/scalar.hpp", "generator/formats/all_formats.hpp",
-       "generator/readback/read_back.hpp", "runtime/"});
+       "generator/formats/scalar.hpp", "generator/readback/read_back.hpp", "runtime/"});
   return folders;
 }
 

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <vector>
 
-#include "generator/formats/all_formats.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -73,7 +72,7 @@ std::string step_text(const Rational& h) {
 std::string generate_command(const std::string& model, const Request& request) {
   Words words("generate", model);
   words.add_step(request);
-  if (request.format->format != &all_formats().front())
+  if (request.format->format != Asked<FormatWish>()->format)
     words.add("--format", request.format.text());  // the default
   words.add("--namespace", request.name_space);
   if (request.support->shared) words.add("--support", request.support.text());  // the default
