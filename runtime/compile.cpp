@@ -10,6 +10,7 @@
 
 #include "runtime/arithmetic.hpp"
 #include "runtime/atomic_file.hpp"
+#include "runtime/object_file.hpp"
 #include "runtime/plugin_header.hpp"
 #include "runtime/process.hpp"
 #include "runtime/tool_error.hpp"
@@ -96,10 +97,17 @@ std::filesystem::path compile_sources(const PluginSource& source, const Compiler
 
   const ProcessResult result = run_process(request);
   const std::filesystem::path object = directory / kObject;
-  std::error_code missing;
-  if (result.succeeded() && std::filesystem::is_regular_file(object, missing)) return object;
-  const std::string end = result.succeeded() ? std::string("exit status 0, but no object file")
-                                             : end_text(result, request);
+  const auto end_of = [&]() -> std::string {
+    if (!result.succeeded()) return end_text(result, request);
+    std::error_code missing;
+    if (!std::filesystem::is_regular_file(object, missing))
+      return "exit status 0, but no object file";
+    // Not every linker says that the disk was full.
+    const std::string problem = object_problem(object);
+    return problem.empty() ? "" : "exit status 0, but of the object file: " + problem;
+  };
+  const std::string end = end_of();
+  if (end.empty()) return object;
   throw ToolError(
       {.message = fmt::format("the compiler did not make the integrator: {}", end),
        .command = command_text(request.command),

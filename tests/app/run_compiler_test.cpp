@@ -121,7 +121,8 @@ TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
   if (run_with_cache_of("64m", model, directory).status != 0)
     GTEST_SKIP() << "no disk can be mounted here";
   int warnings = 0;
-  for (const std::string size : {"4k", "20k", "24k", "32k", "40k", "48k", "64k", "128k"}) {
+  for (const std::string size :
+       {"4k", "20k", "24k", "32k", "40k", "48k", "56k", "64k", "72k", "128k"}) {
     const Result result = run_with_cache_of(size, model, directory);
     EXPECT_EQ(result.status, 0) << size << '\n' << result.err;
     warnings += contains(result.err, "warning: ") ? 1 : 0;

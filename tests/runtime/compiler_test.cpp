@@ -124,6 +124,13 @@ TEST_F(CompilerTest, ThatMakesNothingIsAFailureToo) {
             "the compiler did not make the integrator: exit status 0, but no object file");
 }
 
+// As linkers do on a full disk.
+TEST_F(CompilerTest, ThatMakesHalfAnObjectIsAFailureToo) {
+  EXPECT_EQ(failure_with("printf '\\177ELF' > plugin.so", std::chrono::seconds(60)).message,
+            "the compiler did not make the integrator: exit status 0, but of the object file: it "
+            "is cut off");
+}
+
 TEST_F(CompilerTest, LeavesTheEndOfItsOutputInTheError) {
   const ToolFailure failure =
       failure_with("i=0; while [ $i -lt 100 ]; do i=$((i + 1)); echo line $i; done; exit 3",
