@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -69,7 +70,8 @@ Columns columns_of(const PluginSource& plugin, const SceneValues& scene, bool wi
 }
 
 std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues& scene,
-                                  const runtime::InitialValues& start, long every) {
+                                  const runtime::InitialValues& start, long every,
+                                  std::optional<double> energy_scale) {
   std::vector<std::string> lines = {
       "made by   hamgen " HAMGEN_VERSION,
       fmt::format("model     {}   sha256 {}", plugin.model.source.path,
@@ -78,9 +80,17 @@ std::vector<std::string> metadata(const PluginSource& plugin, const SceneValues&
       fmt::format("h         {}, {}", runtime::number_text(start.h.hi),
                   every == 0 ? "rows at given times" : fmt::format("every {}", every))};
   if (!scene.name.empty()) lines.push_back("scene     " + scene.name);
+  if (energy_scale) lines.push_back(energy_scale_remark(*energy_scale));
   for (const auto& [name, value] : parameter_values(plugin, scene, start))
     lines.push_back(fmt::format("parameter {} = {}", name, runtime::number_text(value)));
   return lines;
+}
+
+// What the errors of the column of energies are compared with.
+std::optional<double> scale_of(const runtime::Integrator& integrator, const Columns& columns) {
+  const double scale = integrator.judge().energy_terms();
+  return columns.energy && std::isfinite(scale) && scale > 0.0 ? std::optional(scale)
+                                                               : std::nullopt;
 }
 
 // Writes the emitted header if asked to; returns where it is, or how to see it.  What the run looks
@@ -233,18 +243,20 @@ int run(const RunOptions& options) {
   report.start = &start;
   report.header = keep_header(plugin, source, request, options);
 
-  const std::vector<std::string> remarks = metadata(plugin, scene, start, every);
+  const Columns columns = columns_of(plugin, scene, loaded.library->is_wide());
+  if (!options.columns.empty()) require_columns(column_names(columns), options.columns);
   runtime::Integrator integrator(loaded.library, start);
+  const std::optional<double> energy_scale = scale_of(integrator, columns);
+  const std::vector<std::string> remarks = metadata(plugin, scene, start, every, energy_scale);
   std::optional<RunKeeper> keeper;
   if (options.checkpoint.is_wanted())
     keeper.emplace(options.checkpoint, manifest(options, setting, scene, plugin, every),
                    integrator);
-  Columns columns = columns_of(plugin, scene, loaded.library->is_wide());
   std::optional<TrajectoryTable> kept;
   if (keeper && !options.output.empty())
     kept.emplace(keeper->table(options.output, remarks, columns));
   RunRows rows(kept ? std::move(kept) : table_of(options.output, columns, remarks),
-               !options.plot.empty(), columns);
+               !options.plot.empty(), columns, energy_scale);
   report.scalar_digits = loaded.library->plugin().scalar_digits;
   report.initial_invariants = integrator.invariants();
   runtime::ProgressBar bar(plugin.model.name);

@@ -8,11 +8,13 @@
 #include <string_view>
 
 #include "generator/base/diagnostic.hpp"
+#include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
 namespace {
 
 constexpr std::size_t kMostRows = 2000;
+constexpr std::string_view kEnergyScale = "energy    scale ";
 
 // Cells between commas; one in quotes may hold them, and "" is a quote there.
 std::vector<std::string> cells(std::string_view line) {
@@ -50,6 +52,7 @@ class TableReader {
       if (!line.empty() && line.back() == '\r') line.pop_back();
       is_ours = is_ours || line.starts_with("# made by   hamgen");
       table_.is_whole = !is_ours || line.starts_with(status);
+      if (line.starts_with("# ")) read_remark(std::string_view(line).substr(2));
       if (line.empty() || line.front() == '#') continue;
       if (table_.columns.empty()) {
         table_.columns = cells(line);
@@ -66,6 +69,14 @@ class TableReader {
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& help) const {
     throw UsageError(fmt::format("{}:{}: {}\nhelp: {}", path_, number_, what, help));
+  }
+
+  void read_remark(std::string_view remark) {
+    if (!remark.starts_with(kEnergyScale)) return;
+    remark.remove_prefix(kEnergyScale.size());
+    double scale = 0.0;
+    const auto end = std::from_chars(remark.data(), remark.data() + remark.size(), scale);
+    if (end.ec == std::errc() && scale > 0.0) table_.energy_scale = scale;
   }
 
   void row(const std::vector<std::string>& texts) {
@@ -105,6 +116,10 @@ void NumberTable::add(const std::vector<double>& row) {
   for (std::size_t i = 1; i < kept; ++i) rows[i] = std::move(rows[2 * i]);
   rows.resize(kept);
   each *= 2;
+}
+
+std::string energy_scale_remark(double scale) {
+  return std::string(kEnergyScale) + runtime::number_text(scale);
 }
 
 NumberTable read_number_table(const std::filesystem::path& path) { return TableReader(path).run(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct NumberTable {
   std::vector<std::vector<double>> rows;  // a value for each column; not a number where it has none
   long long each = 1;                     // of the rows there were, how far those kept are apart
   bool is_whole = true;                   // a trajectory file that ends with its status
+  std::optional<double> energy_scale;     // that energy errors are compared with, where it is known
 
   // Keeps every row at first, then every second, fourth, ...: at most as many as can be told apart.
   void add(const std::vector<double>& row);
@@ -19,6 +21,9 @@ struct NumberTable {
  private:
   long long seen_ = 0;
 };
+
+// The remark that says it in such a file.
+[[nodiscard]] std::string energy_scale_remark(double scale);
 
 // Of a file as `run -o` writes it: remarks, a line of names, rows.  Throws UsageError with the
 // place where it is something else, or cut off within a line.

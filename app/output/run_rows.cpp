@@ -5,9 +5,12 @@
 
 namespace hamgen::app {
 
-RunRows::RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns)
+RunRows::RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns,
+                 std::optional<double> energy_scale)
     : columns_(std::move(columns)), table_(std::move(table)) {
-  if (is_drawn) drawn_.emplace().columns = column_names(columns_);
+  if (!is_drawn) return;
+  drawn_.emplace().columns = column_names(columns_);
+  drawn_->energy_scale = energy_scale;
 }
 
 void RunRows::add(const runtime::Record& record) {

@@ -13,7 +13,8 @@ namespace hamgen::app {
 class RunRows {
  public:
   // Into the table, if there is one; `is_drawn`: for a picture too.
-  RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns);
+  RunRows(std::optional<TrajectoryTable> table, bool is_drawn, Columns columns,
+          std::optional<double> energy_scale);
 
   [[nodiscard]] bool wanted() const { return table_ || drawn_; }
   [[nodiscard]] std::optional<TrajectoryTable>& table() { return table_; }

@@ -81,8 +81,9 @@ class TrajectoryPlotter {
     const bool is_error = name == kEnergyErrorColumn && energy_ && !find(name);
     const std::size_t place = is_error ? *energy_ : place_of_column(name);
     std::vector<double> values;
+    const double scale = is_error ? table_.energy_scale.value_or(1.0) : 1.0;
     for (const std::vector<double>& row : table_.rows)
-      values.push_back(row[place] - (is_error ? table_.rows.front()[place] : 0.0));
+      values.push_back((row[place] - (is_error ? table_.rows.front()[place] : 0.0)) / scale);
     return values;
   }
 
@@ -190,13 +191,18 @@ class TrajectoryPlotter {
                     .x_label = time,
                     .y_label = one && names.front() != kEnergyErrorColumn
                                    ? plain_symbol(names.front())
-                               : one ? "H - H(0)"
+                               : one ? energy_error_label()
                                      : what,
                     .series = {}};
     for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
       panel.series.push_back(series(one ? "" : plain_symbol(names[i]), times, values_of(names[i]),
                                     static_cast<int>(i)));
     plot_.panels.push_back(std::move(panel));
+  }
+
+  std::string energy_error_label() const {
+    if (!table_.energy_scale) return "H - H(0)";
+    return fmt::format("H - H(0), relative to {:.3g}", *table_.energy_scale);
   }
 
   // The diagonal of the axes is the line of sight: each leaves it by 120 degrees from the others.
@@ -264,6 +270,12 @@ Plot trajectory_plot(const NumberTable& table, const std::string& columns,
                      const std::string& title) {
   TrajectoryPlotter plotter(table, title);
   return columns.empty() ? plotter.usual() : plotter.named(columns);
+}
+
+void require_columns(const std::vector<std::string>& names, const std::string& columns) {
+  NumberTable empty;
+  empty.columns = names;
+  static_cast<void>(trajectory_plot(empty, columns, ""));
 }
 
 void require_picture_name(const std::string& option, const std::string& path) {

@@ -38,6 +38,12 @@ std::string stability_text(const StabilityBound& bound) {
   return bound.below ? fmt::format("h < {:.4g}", *bound.below) : "every h";
 }
 
+// Relative to the energy's scale.
+std::string relative_text(const TuneReport& report, std::optional<double> energy) {
+  if (!energy || !(report.energy_scale() > 0.0)) return "-";
+  return tune_number(*energy / report.energy_scale());
+}
+
 template <class Cell>
 std::string tune_row(const TuneReport& report, const char* label, const Cell& cell) {
   std::string text = fmt::format("  {:<26}", label);
@@ -96,13 +102,18 @@ std::string tune_text(const TuneReport& report) {
       fmt::format("  fit         {}: {} of {} coefficients determined by {} points of the orbit\n",
                   form_name(report.shape.form), report.rank, report.shape.size(), report.samples);
   text += fmt::format("  beta        {}\n  gamma       {}\n", texts.beta, texts.gamma);
+  text +=
+      fmt::format("  energies    relative to their scale {}\n", tune_number(report.energy_scale()));
   text += tune_row(report, "", [](const TunedGauge& gauge) { return gauge.name; });
-  text += tune_row(report, "energy spread, h^2 term",
-                   [](const TunedGauge& gauge) { return tune_number(gauge.predicted_spread); });
-  text += tune_row(report, "energy spread, measured",
-                   [](const TunedGauge& gauge) { return tune_number(gauge.measured_spread()); });
-  text += tune_row(report, "energy error, measured",
-                   [](const TunedGauge& gauge) { return tune_number(gauge.measured_error()); });
+  text += tune_row(report, "energy spread, h^2 term", [&report](const TunedGauge& gauge) {
+    return relative_text(report, gauge.predicted_spread);
+  });
+  text += tune_row(report, "energy spread, measured", [&report](const TunedGauge& gauge) {
+    return relative_text(report, gauge.measured_spread());
+  });
+  text += tune_row(report, "energy error, measured", [&report](const TunedGauge& gauge) {
+    return relative_text(report, gauge.measured_error());
+  });
   text += tune_row(report, "state error at the end",
                    [](const TunedGauge& gauge) { return tune_number(gauge.state_error); });
   text += tune_row(report, "linear part bounded for",
@@ -147,6 +158,7 @@ std::string tune_json(const TuneReport& report) {
                      {"samples", report.samples},
                      {"rank", report.rank},
                      {"initial_energy", report.initial_energy},
+                     {"energy_scale", tune_json_number(report.energy_scale())},
                      {"gauges", gauges},
                      {"gain", tune_json_number(report.gain())},
                      {"worth_while", report.gain().value_or(0.0) >= kWorthTuning},

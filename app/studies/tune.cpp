@@ -31,7 +31,13 @@ std::optional<double> TuneReport::gain() const {
   return *before / *after;
 }
 
-double TuneReport::rounding() const { return 1e-13 * std::fabs(initial_energy); }
+double TuneReport::energy_scale() const {
+  const auto measured = std::ranges::find_if(
+      gauges, [](const TunedGauge& gauge) { return gauge.measured.energy_scale > 0.0; });
+  return measured == gauges.end() ? 0.0 : measured->measured.energy_scale;
+}
+
+double TuneReport::rounding() const { return 1e-13 * energy_scale(); }
 
 Tuner::Tuner(const TuneRequest& request)
     : request_(request),

@@ -61,6 +61,8 @@ struct TuneReport {
 
   // Energy spread of the midpoint rule over that of the last gauge; empty if one was not measured.
   [[nodiscard]] std::optional<double> gain() const;
+  // What energies are compared with: that of the first gauge that was measured; 0 without one.
+  [[nodiscard]] double energy_scale() const;
   // Below this the spread is rounding, not an error of the method.
   [[nodiscard]] double rounding() const;
 };

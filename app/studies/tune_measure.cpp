@@ -52,6 +52,7 @@ Measurement GaugedIntegrator::measure(const std::vector<double>& coefficients, d
   }
   result.energy_spread = summary.energy->spread();
   result.energy_error = summary.energy->max_error();
+  result.energy_scale = summary.energy_terms;
   result.state = whole_state(plugin_, scene_, integrator.state());
   return result;
 }

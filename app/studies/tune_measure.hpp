@@ -18,6 +18,7 @@ struct Measurement {
   std::string failure;               // empty if all steps were done
   double energy_spread = 0.0;        // max H - min H over all states, the first included
   double energy_error = 0.0;         // max |H - H(0)|
+  double energy_scale = 0.0;         // see runtime::Judge::energy_terms
   std::vector<runtime::Wide> state;  // the last, of all degrees of freedom
 };
 
