@@ -16,10 +16,10 @@ namespace hamgen::app {
 namespace {
 
 constexpr long kDefaultSteps = 2000;  // at the scene's h
+const std::string kTargets = "1e-4,1e-6,1e-8,1e-10";
 
 std::vector<double> target_values(const std::string& list) {
   std::vector<double> values;
-  if (list.empty()) return values;
   for (const std::string& text : split_specs(list)) {
     values.push_back(to_double(constant_option("--target", text)));
     if (!(values.back() > 0.0))
@@ -43,14 +43,7 @@ void read_steps(const BenchOptions& options, BenchRequest& request) {
   const auto complete = [&] {
     request.scene = complete_scene(request.setting.model, wanted, options.length);
   };
-  if (options.h.empty()) {
-    complete();
-    for (int power = 3; power >= -4; --power) {
-      const Rational factor = power >= 0 ? Rational(1L << power) : Rational(1, 1L << -power);
-      request.steps.push_back(*request.scene.h * factor);
-    }
-    return;
-  }
+  if (options.h.empty()) return complete();
   for (const std::string& h : split_specs(options.h)) {
     wanted.h = h;
     complete();
@@ -72,9 +65,10 @@ Rational run_length(const BenchOptions& options, const BenchRequest& request) {
   if (options.time.empty()) return *request.scene.h * std::min(*request.scene.steps, kDefaultSteps);
   const Rational time = constant_option("--time", options.time);
   if (time == 0) throw UsageError("--time 0: there is nothing to measure");
-  if ((time > 0) != (request.steps.front() > 0))
+  const Rational& h = request.steps.empty() ? *request.scene.h : request.steps.front();
+  if ((time > 0) != (h > 0))
     throw UsageError(fmt::format("--time {} and h = {:g} go in opposite directions", options.time,
-                                 to_double(request.steps.front())));
+                                 to_double(h)));
   return time;
 }
 
@@ -92,12 +86,18 @@ void require_numbers(const std::string& spec, const Request& method, const Setti
 std::vector<BenchSpec> methods_of(const BenchOptions& options, const BenchRequest& request) {
   const Setting& setting = request.setting;
   std::vector<BenchSpec> methods;
-  for (const std::string& spec : options.schemes.empty() ? default_specs(derive(setting.model))
-                                                         : split_specs(options.schemes)) {
+  const bool is_offered = options.schemes.empty();
+  for (const std::string& spec :
+       is_offered ? default_specs(derive(setting.model)) : split_specs(options.schemes)) {
     Request method = request_of_spec(spec, setting.request);
     require_numbers(spec, method, setting);
     take_gauge_at(request.scene, setting.model, method);
-    methods.push_back({.spec = spec, .request = std::move(method)});
+    const Scheme* scheme = method.scheme->scheme;
+    const bool is_baseline = is_offered && scheme != nullptr && !scheme->symplectic;
+    methods.push_back({.spec = spec,
+                       .request = std::move(method),
+                       .is_offered = is_offered,
+                       .is_baseline = is_baseline});
   }
   return methods;
 }
@@ -107,7 +107,8 @@ std::vector<BenchSpec> methods_of(const BenchOptions& options, const BenchReques
 BenchRequest read_bench(const BenchOptions& options) {
   BenchRequest request;
   request.observed = observed_of(options.observe);
-  request.targets = target_values(options.target);
+  request.targets = target_values(options.target.empty() ? kTargets : options.target);
+  request.refines = options.h.empty() || !options.target.empty();
   request.compiler = options.compiler;
   request.setting =
       read_setting({.model = options.model, .plain_sums = options.plain_sums}, options.scene);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "app/output/generate_command.hpp"
 #include "app/output/json_document.hpp"
@@ -22,21 +24,31 @@ std::string error_cell(const std::optional<double>& error) {
 
 using Cells = std::vector<std::string>;
 
-// The first column to the left, the others to the right.
-std::string aligned(const std::vector<Cells>& lines) {
+// The lines of a table, column by column to the left (l) or to the right (r).
+std::vector<std::string> aligned(const std::vector<Cells>& lines, std::string_view sides) {
   std::vector<std::size_t> widths(lines.front().size(), 0);
   for (const Cells& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
   }
-  std::string text;
+  std::vector<std::string> rows;
   for (const Cells& line : lines) {
     std::string row;
     for (std::size_t i = 0; i < line.size(); ++i)
-      row += i == 0 || i + 1 == line.size() ? fmt::format("{:<{}}  ", line[i], widths[i])
-                                            : fmt::format("{:>{}}  ", line[i], widths[i]);
-    text += "  " + row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+      row += sides[i] == 'l' ? fmt::format("{:<{}}  ", line[i], widths[i])
+                             : fmt::format("{:>{}}  ", line[i], widths[i]);
+    rows.push_back("  " + row.substr(0, row.find_last_not_of(' ') + 1) + "\n");
   }
-  return text;
+  return rows;
+}
+
+// By method, the largest step first: those that were found later too.
+std::vector<std::size_t> in_order(const Bench& bench) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < bench.rows.size(); ++i) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&bench](std::size_t i) {
+    return std::pair(bench.rows[i].method, bench.rows[i].steps);
+  });
+  return order;
 }
 
 bool is_in(const std::vector<std::size_t>& front, std::size_t row) {
@@ -46,14 +58,18 @@ bool is_in(const std::vector<std::size_t>& front, std::size_t row) {
 std::string remark(const Bench& bench, std::size_t row, const std::vector<std::size_t>& front) {
   const BenchRow& values = bench.rows[row];
   if (!values.ok()) return values.outcome;
+  if (!values.unstable.empty()) return "unstable: " + values.unstable;
+  if (bench.methods[values.method].is_baseline) return "not symplectic";
   const bool is_answer = std::ranges::any_of(
       bench.answers, [row](const BenchAnswer& answer) { return answer.row == row; });
-  return is_answer ? "<- target" : is_in(front, row) ? "*" : "";
+  const std::string mark = is_answer ? "<-" : is_in(front, row) ? "*" : "";
+  return mark + (values.is_floor ? mark.empty() ? "floor" : " floor" : "");
 }
 
 std::string reference_text(const Bench& bench) {
   const ReferenceSolution& reference = bench.reference;
-  if (reference.state.empty()) return "none: " + reference.failure;
+  if (reference.state.empty())
+    return reference.failure.empty() ? "none is needed" : "none: " + reference.failure;
   return fmt::format(
       "extrapolated in quad precision, its own error {:.1e}{}", reference.error,
       reference.from_cache ? ", computed before" : fmt::format(", {:.2g} s", reference.seconds));
@@ -73,35 +89,70 @@ std::string errors_text(const Bench& bench) {
       energy_scale(bench));
 }
 
-// That emits the quickest method; empty if none is good enough.
-std::string answer_command(const Bench& bench, const BenchAnswer& answer) {
-  if (!answer.row) return "";
-  return generate_command(bench.path, bench.methods[bench.rows[*answer.row].method].request);
+std::string run_line(const Bench& bench, const BenchRow& row) {
+  return run_command(bench.path, bench.methods[row.method].request, row.h);
 }
 
-std::string answer_text(const Bench& bench, const BenchAnswer& answer) {
-  if (!answer.row)
-    return fmt::format(
-        "no method reaches the {} error {:g} with these steps\n"
-        "help: give smaller ones with --h, or methods of higher order with --schemes\n",
-        to_text(bench.observed), answer.target);
-  const BenchRow& row = bench.rows[*answer.row];
-  return fmt::format(
-      "{} error {:g} is reached soonest by {} with h = {:.10g}: {:.3g} s for a unit "
-      "of time\n  {}\n",
-      to_text(bench.observed), answer.target, bench.methods[row.method].spec, to_double(row.h),
-      time_of(row).seconds_per_time, answer_command(bench, answer));
+// 1e-04 as 1e-4, where it is a power of ten.
+std::string target_text(double target) {
+  const double power = std::log10(target);
+  return std::fabs(power - std::round(power)) < 1e-9
+             ? fmt::format("1e{}", static_cast<int>(std::lround(power)))
+             : fmt::format("{:g}", target);
+}
+
+std::string answer_text(const Bench& bench) {
+  if (bench.answers.empty()) return "";
+  std::vector<Cells> lines = {{"error", "s/time", "scheme", "h"}};
+  std::vector<std::string> commands = {""};
+  for (const BenchAnswer& answer : bench.answers) {
+    const std::string target = target_text(answer.target);
+    if (!answer.row) {
+      lines.push_back({target, "-", "no method reaches it with these steps", ""});
+      commands.emplace_back();
+      continue;
+    }
+    const BenchRow& row = bench.rows[*answer.row];
+    lines.push_back({target, fmt::format("{:.2e}", time_of(row).seconds_per_time),
+                     bench.methods[row.method].spec, fmt::format("{:.6g}", to_double(row.h))});
+    commands.push_back(run_line(bench, row));
+  }
+  std::string text =
+      fmt::format("time for {} {} error, in seconds for a unit of the model's time:\n",
+                  bench.observed == Observed::energy ? "an" : "a", to_text(bench.observed));
+  const std::vector<std::string> rows = aligned(lines, "lrll");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += rows[i];
+    if (!commands[i].empty()) text += "      " + commands[i] + "\n";
+  }
+  return text + "\n";
 }
 
 OrderedJson answer_json(const Bench& bench, const BenchAnswer& answer) {
-  return {{"observe", to_text(bench.observed)},
-          {"target", answer.target},
-          {"row", answer.row ? OrderedJson(*answer.row) : OrderedJson(nullptr)},
-          {"command", answer_command(bench, answer)}};
+  OrderedJson result = {{"observe", to_text(bench.observed)}, {"error", answer.target}};
+  if (!answer.row) {
+    for (const char* key : {"row", "scheme", "h", "s_per_time", "run", "generate"})
+      result[key] = nullptr;
+    return result;
+  }
+  const BenchRow& row = bench.rows[*answer.row];
+  const BenchMethod& method = bench.methods[row.method];
+  result["row"] = *answer.row;
+  result["scheme"] = method.spec;
+  result["h"] = to_double(row.h);
+  result["s_per_time"] = time_of(row).seconds_per_time;
+  result["run"] = run_line(bench, row);
+  result["generate"] = generate_command(bench.path, method.request);
+  return result;
 }
 
 OrderedJson finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? OrderedJson(*value) : OrderedJson(nullptr);
+}
+
+bool is_symplectic(const BenchMethod& method) {
+  const Scheme* scheme = method.request.scheme->scheme;
+  return scheme == nullptr || scheme->symplectic;
 }
 
 OrderedJson row_json(const Bench& bench, const BenchRow& row) {
@@ -118,6 +169,9 @@ OrderedJson row_json(const Bench& bench, const BenchRow& row) {
           {"h", to_double(row.h)},
           {"steps", row.steps},
           {"outcome", row.outcome},
+          {"unstable", row.unstable.empty() ? OrderedJson(nullptr) : OrderedJson(row.unstable)},
+          {"rounding_floor", row.is_floor},
+          {"symplectic", is_symplectic(method)},
           {"s_per_time", if_timed(time.seconds_per_time)},
           {"time_spread", if_timed(time.spread)},
           {"ns_per_step", if_timed(time.nanoseconds_per_step)},
@@ -139,19 +193,21 @@ std::string csv_number(const std::optional<double>& value) {
 }  // namespace
 
 std::string warning_text(const Bench& bench) {
-  if (!bench.reference.state.empty()) return "";
+  if (bench.reference.failure.empty()) return "";
   return fmt::format("hamgen: warning: no reference solution: {}; state errors are missing\n",
                      bench.reference.failure);
 }
 
 std::string table_text(const Bench& bench) {
   const std::vector<std::size_t> front = pareto_front(bench.rows, bench.observed);
-  std::string text = fmt::format("{}{}: T = {:.10g}\n  reference  {}\n  errors     {}\n",
-                                 bench.model, bench.scene.empty() ? "" : ", scene " + bench.scene,
-                                 bench.time, reference_text(bench), errors_text(bench));
+  std::string text = fmt::format("{}{}: T = {:.10g}\n", bench.model,
+                                 bench.scene.empty() ? "" : ", scene " + bench.scene, bench.time);
+  text += answer_text(bench);
+  text +=
+      fmt::format("  reference  {}\n  errors     {}\n", reference_text(bench), errors_text(bench));
   std::vector<Cells> lines = {{"scheme", "h", "s/time", "+-", "ns/step", "it/step", "grad/step",
                                "energy error", "q error", "p error", ""}};
-  for (std::size_t i = 0; i < bench.rows.size(); ++i) {
+  for (const std::size_t i : in_order(bench)) {
     const BenchRow& row = bench.rows[i];
     const BenchTime time = time_of(row);
     const bool timed = !row.samples.empty();
@@ -165,11 +221,16 @@ std::string table_text(const Bench& bench) {
          error_cell(row.relative_energy_error()), error_cell(row.q_error), error_cell(row.p_error),
          remark(bench, i, front)});
   }
-  text += aligned(lines);
+  for (const std::string& line : aligned(lines, "lrrrrrrrrrl")) text += line;
+  const auto any = [&bench](const auto& is_so) { return std::ranges::any_of(bench.rows, is_so); };
   if (!front.empty())
     text += fmt::format("* nothing here is both faster and better in {} error (Pareto front)\n",
                         to_text(bench.observed));
-  for (const BenchAnswer& answer : bench.answers) text += answer_text(bench, answer);
+  if (any([](const BenchRow& row) { return row.is_floor; }))
+    text += "floor: smaller steps are no better, for rounding\n";
+  if (any([](const BenchRow& row) { return !row.unstable.empty(); }))
+    text += "unstable: over ten times the time; no answer\n";
+  if (bench.is_stopped) text += "stopped before all was measured\n";
   return text;
 }
 
@@ -227,7 +288,8 @@ std::string json_text(const Bench& bench) {
       {"date", bench.provenance.date}};
   const ReferenceSolution& reference = bench.reference;
   if (reference.state.empty()) {
-    result["reference"] = {{"failure", reference.failure}};
+    result["reference"] = {{"failure", reference.failure.empty() ? OrderedJson(nullptr)
+                                                                 : OrderedJson(reference.failure)}};
   } else {
     OrderedJson state = OrderedJson::array();
     for (const auto& value : reference.state) state.push_back({value.hi, value.lo});
@@ -240,12 +302,10 @@ std::string json_text(const Bench& bench) {
   for (const BenchRow& row : bench.rows) result["rows"].push_back(row_json(bench, row));
   for (const Observed observed : {Observed::energy, Observed::state})
     result["pareto"][std::string(to_text(observed))] = pareto_front(bench.rows, observed);
-  for (const BenchAnswer& answer : bench.answers) {
-    if (bench.answers.size() == 1)
-      result["answer"] = answer_json(bench, answer);
-    else
-      result["answers"].push_back(answer_json(bench, answer));
-  }
+  result["time_for_error"] = OrderedJson::array();
+  for (const BenchAnswer& answer : bench.answers)
+    result["time_for_error"].push_back(answer_json(bench, answer));
+  result["stopped"] = bench.is_stopped;
   return json_document(result);
 }
 

@@ -12,7 +12,7 @@
 
 namespace hamgen::app {
 
-struct BenchAnswer {  // to --target
+struct BenchAnswer {  // which method takes the least time for an error
   double target = 0.0;
   std::optional<std::size_t> row;  // empty if no row reaches it
 };
@@ -27,6 +27,7 @@ struct Bench {
   std::vector<BenchRow> rows;
   ReferenceSolution reference;
   std::vector<BenchAnswer> answers;  // an answer a target
+  bool is_stopped = false;           // before all was measured
   runtime::Provenance provenance;
 };
 

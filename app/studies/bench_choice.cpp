@@ -28,12 +28,19 @@ std::vector<std::size_t> pareto_front(const std::vector<BenchRow>& rows, Observe
   return front;
 }
 
-std::optional<std::size_t> quickest_within(const std::vector<BenchRow>& rows, Observed observed,
+std::optional<std::size_t> quickest_within(const std::vector<BenchMethod>& methods,
+                                           const std::vector<BenchRow>& rows, Observed observed,
                                            double target) {
-  for (const std::size_t i : pareto_front(rows, observed)) {
-    if (*error_of(rows[i], observed) <= target) return i;
+  std::optional<std::size_t> best;
+  const auto cost = [&rows](std::size_t row) { return time_of(rows[row]).seconds_per_time; };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const BenchRow& row = rows[i];
+    const std::optional<double> error = error_of(row, observed);
+    if (!error || !(*error <= target) || row.samples.empty()) continue;
+    if (!row.unstable.empty() || methods[row.method].is_baseline) continue;
+    if (!best || cost(i) < cost(*best)) best = i;
   }
-  return {};
+  return best;
 }
 
 }  // namespace hamgen::app

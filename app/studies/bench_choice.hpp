@@ -20,8 +20,9 @@ enum class Observed { energy, state };
 [[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<BenchRow>& rows,
                                                     Observed observed);
 
-// The quickest row whose error is at most `target`.
-[[nodiscard]] std::optional<std::size_t> quickest_within(const std::vector<BenchRow>& rows,
+// The quickest row whose error is at most `target`, of those that are stable and no baseline.
+[[nodiscard]] std::optional<std::size_t> quickest_within(const std::vector<BenchMethod>& methods,
+                                                         const std::vector<BenchRow>& rows,
                                                          Observed observed, double target);
 
 }  // namespace hamgen::app

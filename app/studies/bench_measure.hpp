@@ -22,8 +22,9 @@ struct BenchMethod {
   Request request;
   PluginSource plugin;
   runtime::LoadedPlugin loaded;
-  std::string refusal;      // why this model has no such integrator; empty if it has
-  StopFlag stop = nullptr;  // ends its runs
+  std::string refusal;       // why this model has no such integrator; empty if it has
+  bool is_baseline = false;  // to compare with: no answer to what should be used
+  StopFlag stop = nullptr;   // ends its runs
 };
 
 // Throws ToolError if the compiler fails; a method that does not suit the model is refused.
@@ -42,7 +43,9 @@ struct BenchRow {
   std::size_t method = 0;  // index among the methods
   Rational h;              // the time divided by `steps`
   long steps = 0;
-  std::string outcome = "done";  // or how it failed, and where
+  std::string outcome;    // "done", or how it failed, and where; empty before it is measured
+  std::string unstable;   // how a longer run ends with this step, if badly
+  bool is_floor = false;  // rounding: smaller steps are not better
   double iterations_per_step = 0.0;
   double gradients_per_step = 0.0;       // see gradients_per_step
   std::optional<double> energy_error;    // max |H - H(0)| over all steps
@@ -79,6 +82,12 @@ struct BenchTime {
 void measure_errors(const BenchMethod& method, const SceneValues& scene,
                     const ReferenceSolution& reference, BenchRow& row,
                     const RunClock& clock = processor_clock);
+
+// The same steps for ten times as long: how that ends if it fails, or if the energy errors are
+// beyond a hundredth of the scale and a hundred times those of the row; empty if it ends well, or
+// is stopped.
+[[nodiscard]] std::string instability(const BenchMethod& method, const SceneValues& scene,
+                                      const BenchRow& row);
 
 // Adds one sample of the run time.
 void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,

@@ -20,7 +20,7 @@ StepSearch search_of(const Bench& bench, std::size_t method, const std::vector<B
       if (row.method != method) continue;
       const double h = std::fabs(to_double(row.h));
       const std::optional<double> error = error_of(row, bench.observed);
-      const bool is_known = error && std::isfinite(*error);
+      const bool is_known = error && std::isfinite(*error) && row.unstable.empty();
       search.samples.push_back({.h = h,
                                 .error = is_known ? *error : HUGE_VAL,
                                 .cost = row.once / (h * static_cast<double>(row.steps))});
@@ -48,8 +48,10 @@ std::optional<BenchRow> next_trial(const StepSearch& search, std::size_t method,
 // Methods by what the target should cost, so that those that cannot win are soon given up.
 std::vector<std::size_t> by_promise(const Bench& bench, double target) {
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t m = 0; m < bench.methods.size(); ++m)
-    order.emplace_back(search_of(bench, m, {}, target).expected_cost(), m);
+  for (std::size_t m = 0; m < bench.methods.size(); ++m) {
+    if (!bench.methods[m].is_baseline)
+      order.emplace_back(search_of(bench, m, {}, target).expected_cost(), m);
+  }
   std::ranges::sort(order);
   std::vector<std::size_t> methods;
   for (const auto& [cost, method] : order) methods.push_back(method);
@@ -59,6 +61,7 @@ std::vector<std::size_t> by_promise(const Bench& bench, double target) {
 double least_cost(const Bench& bench, double target) {
   double least = HUGE_VAL;
   for (std::size_t m = 0; m < bench.methods.size(); ++m) {
+    if (bench.methods[m].is_baseline) continue;
     const StepSearch search = search_of(bench, m, {}, target);
     if (search.inside() != nullptr) least = std::min(least, search.inside()->cost);
   }

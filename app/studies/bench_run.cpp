@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <utility>
 
+#include "app/studies/bench_range.hpp"
 #include "app/studies/bench_refine.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -13,35 +17,24 @@
 namespace hamgen::app {
 namespace {
 
-constexpr long kMostSteps = 100'000'000;
-
-// h is changed a little where it does not divide the time, so that every row ends at the same time.
-long step_count(const Rational& time, const Rational& h) {
-  const Rational count = time / h;
-  const double wanted = to_double(count);
-  if (!(wanted > 0.0) || wanted > static_cast<double>(kMostSteps))
-    throw UsageError(
-        fmt::format("h = {:g} makes {:.3g} steps of the time {:g}\nhelp: between 1 and "
-                    "1e8 can be measured; change --h or --time",
-                    to_double(h), wanted, to_double(time)));
-  return std::max(1L, static_cast<long>(std::ceil(wanted - 1e-9)));
-}
-
-BenchRow row_of(std::size_t method, const Rational& time, const Rational& h) {
-  BenchRow row{.method = method};
-  row.steps = step_count(time, h);
-  row.h = time / row.steps;
-  return row;
-}
-
 std::vector<BenchMethod> methods_of(const BenchRequest& request) {
+  Work work(request.on_progress, "methods", static_cast<long long>(request.methods.size()));
   std::vector<BenchMethod> methods;
-  for (const BenchSpec& each : request.methods)
-    methods.push_back(bench_method(each.spec, request.setting.source, each.request,
-                                   request.compiler, request.stop));
-  if (std::ranges::none_of(methods, [](const BenchMethod& m) { return m.refusal.empty(); }))
-    throw UsageError(fmt::format("none of the schemes suits {}: {}", request.setting.source.path,
-                                 methods.front().refusal));
+  long long done = 0;
+  std::string refusal;
+  for (const BenchSpec& each : request.methods) {
+    if (is_stopped(request.stop)) break;
+    BenchMethod method = bench_method(each.spec, request.setting.source, each.request,
+                                      request.compiler, request.stop);
+    method.is_baseline = each.is_baseline;
+    if (refusal.empty()) refusal = method.refusal;
+    if (method.refusal.empty() || !each.is_offered) methods.push_back(std::move(method));
+    work.tell(++done);
+  }
+  if (std::ranges::none_of(methods, [](const BenchMethod& m) { return m.refusal.empty(); }) &&
+      !is_stopped(request.stop))
+    throw UsageError(
+        fmt::format("none of the schemes suits {}: {}", request.setting.source.path, refusal));
   return methods;
 }
 
@@ -54,59 +47,127 @@ ReferenceSolution reference_of(const BenchRequest& request) {
                              .on_progress = work.fraction()});
 }
 
-void measure_all_errors(const BenchRequest& request, Bench& bench) {
-  long long all = 0;
-  for (const BenchRow& row : bench.rows) all += row.steps;
-  Work work(request.on_progress, "errors", all, true);
-  long long done = 0;
-  for (BenchRow& row : bench.rows) {
-    if (is_stopped(request.stop)) return;
-    measure_errors(bench.methods[row.method], request.scene, bench.reference, row, request.clock);
-    work.tell(done += row.steps);
-  }
-}
+// One measurement, and what it leaves in the bench.
+class BenchWork {
+ public:
+  BenchWork(const BenchRequest& request, Bench& bench) : request_(&request), bench_(&bench) {}
 
-// Round by round over all rows: what slows the machine for a while slows them alike.
-void measure_all_times(const BenchRequest& request, Bench& bench) {
-  long long all = 0;
-  for (const BenchRow& row : bench.rows) all += row.ok() ? row.steps * row.runs_per_sample : 0;
-  Work work(request.on_progress, "times", all * request.rounds, true);
-  long long done = 0;
-  for (long round = 0; round < request.rounds; ++round) {
-    for (BenchRow& row : bench.rows) {
-      if (is_stopped(request.stop)) return;
-      if (!row.ok()) continue;
-      measure_time(bench.methods[row.method], request.scene, row, request.clock);
-      work.tell(done += row.steps * row.runs_per_sample);
+  // A row for each method and step that was asked for.
+  void measure_given_steps() {
+    std::vector<BenchRow> rows;
+    long long all = 0;
+    for (std::size_t m = 0; m < bench_->methods.size(); ++m) {
+      for (const Rational& h : request_->steps) {
+        rows.push_back(row_of(m, request_->time, h));
+        all += rows.back().steps;
+      }
+    }
+    Work work(request_->on_progress, "errors", all, true);
+    long long done = 0;
+    for (BenchRow& row : rows) {
+      if (!measure(row)) return;
+      work.tell(done += row.steps);
+      bench_->rows.push_back(std::move(row));
     }
   }
-}
 
-// No step is finer than a 64th of the finest that was asked for.
-void add_steps_for_targets(const BenchRequest& request, Bench& bench) {
-  constexpr double furthest = 64;
-  const double length = std::fabs(to_double(request.time));
-  double least = HUGE_VAL;
-  for (const Rational& h : request.steps) least = std::min(least, std::fabs(to_double(h)));
-  Work work(request.on_progress, "target");
-  const auto tell = work.fraction();
-  const auto count = static_cast<double>(request.targets.size());
-  for (std::size_t i = 0; i < request.targets.size() && !is_stopped(request.stop); ++i) {
-    const auto on_progress = [&tell, count, i](double part) {
-      tell((static_cast<double>(i) + part) / count);
-    };
-    add_refined_rows(bench, {.target = request.targets[i],
-                             .time = request.time,
-                             .finest = std::max(least / furthest, length / kMostSteps),
-                             .measure =
-                                 [&](BenchRow& row) {
-                                   measure_errors(bench.methods[row.method], request.scene,
-                                                  bench.reference, row, request.clock);
-                                   return !is_stopped(request.stop);
-                                 },
-                             .on_progress = on_progress});
+  void measure_ranges() {
+    Work work(request_->on_progress, "errors", static_cast<long long>(bench_->methods.size()));
+    for (std::size_t m = 0; m < bench_->methods.size() && !is_stopped(); ++m) {
+      add_rows_in_range(*bench_, m,
+                        {.h = *request_->scene.h, .time = request_->time, .measure = measuring()});
+      work.tell(static_cast<long long>(m) + 1);
+    }
   }
-}
+
+  // Further rows, where they reach the targets sooner.
+  void refine() {
+    Work work(request_->on_progress, "targets");
+    const auto tell = work.fraction();
+    const auto count = static_cast<double>(request_->targets.size());
+    for (std::size_t i = 0; i < request_->targets.size() && !is_stopped(); ++i) {
+      refine(request_->targets[i],
+             [&tell, count, i](double part) { tell((static_cast<double>(i) + part) / count); });
+    }
+  }
+
+  // Of the rows that have none yet.  Round by round over all of them: what slows the machine for a
+  // while slows them alike.
+  void measure_times() {
+    std::vector<BenchRow*> rows;
+    long long all = 0;
+    for (BenchRow& row : bench_->rows) {
+      if (!row.ok() || !row.samples.empty()) continue;
+      rows.push_back(&row);
+      all += row.steps * row.runs_per_sample;
+    }
+    if (rows.empty()) return;
+    Work work(request_->on_progress, "times", all * request_->rounds, true);
+    long long done = 0;
+    for (long round = 0; round < request_->rounds; ++round) {
+      for (BenchRow* row : rows) {
+        measure_time(bench_->methods[row->method], request_->scene, *row, request_->clock);
+        if (is_stopped()) {
+          row->samples.pop_back();  // cut short
+          return;
+        }
+        work.tell(done += row->steps * row->runs_per_sample);
+      }
+    }
+  }
+
+  // The quickest row for a target, of those that last.
+  BenchAnswer answer(double target) {
+    constexpr int most_refinements = 8;
+    for (int refinements = 0;;) {
+      const auto row = quickest_within(bench_->methods, bench_->rows, bench_->observed, target);
+      if (!row || lasts(*row) || is_stopped()) return {.target = target, .row = row};
+      if (!request_->refines || refinements++ == most_refinements) continue;
+      refine(target, [](double) {});
+      measure_times();
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_stopped() const { return app::is_stopped(request_->stop); }
+
+  bool measure(BenchRow& row) {
+    measure_errors(bench_->methods[row.method], request_->scene, bench_->reference, row,
+                   request_->clock);
+    return !is_stopped();
+  }
+  [[nodiscard]] std::function<bool(BenchRow&)> measuring() {
+    return [this](BenchRow& row) { return measure(row); };
+  }
+
+  // No step is finer than a 64th of the finest that was asked for, a 1024th of the scene's.
+  [[nodiscard]] double finest_step() const {
+    double least = std::fabs(to_double(*request_->scene.h)) / 16;
+    if (!request_->steps.empty()) least = HUGE_VAL;
+    for (const Rational& h : request_->steps) least = std::min(least, std::fabs(to_double(h)));
+    return std::max(least / 64, std::fabs(to_double(request_->time)) / kMostBenchSteps);
+  }
+
+  void refine(double target, const std::function<void(double)>& on_progress) {
+    add_refined_rows(*bench_, {.target = target,
+                               .time = request_->time,
+                               .finest = finest_step(),
+                               .measure = measuring(),
+                               .on_progress = on_progress});
+  }
+
+  bool lasts(std::size_t index) {
+    BenchRow& row = bench_->rows[index];
+    if (!tried_.insert({row.method, row.steps}).second) return true;
+    const Work work(request_->on_progress, "longer run");
+    row.unstable = instability(bench_->methods[row.method], request_->scene, row);
+    return row.unstable.empty();
+  }
+
+  const BenchRequest* request_;
+  Bench* bench_;
+  std::set<std::pair<std::size_t, long>> tried_;  // method and steps of what ran for longer
+};
 
 }  // namespace
 
@@ -117,18 +178,23 @@ Bench run_bench(const BenchRequest& request) {
               .time = to_double(request.time),
               .observed = request.observed};
   bench.provenance = runtime::provenance_of(chosen_compiler(request.compiler));
+  // Before anything takes long: no run is too long.
+  for (const Rational& h : request.steps.empty() ? std::vector{*request.scene.h} : request.steps)
+    static_cast<void>(row_of(0, request.time, h));
   bench.methods = methods_of(request);
-  for (std::size_t m = 0; m < bench.methods.size(); ++m) {
-    for (const Rational& h : request.steps) bench.rows.push_back(row_of(m, request.time, h));
+  if (request.observed == Observed::state && !is_stopped(request.stop)) {
+    bench.reference = reference_of(request);
+    if (bench.reference.state.empty()) bench.observed = Observed::energy;
   }
-  bench.reference = reference_of(request);
-  if (bench.reference.state.empty()) bench.observed = Observed::energy;
-  measure_all_errors(request, bench);
-  if (!request.targets.empty()) add_steps_for_targets(request, bench);
-  measure_all_times(request, bench);
-  for (const double target : request.targets)
-    bench.answers.push_back(
-        {.target = target, .row = quickest_within(bench.rows, bench.observed, target)});
+  BenchWork measurement(request, bench);
+  if (request.steps.empty())
+    measurement.measure_ranges();
+  else
+    measurement.measure_given_steps();
+  if (request.refines) measurement.refine();
+  measurement.measure_times();
+  for (const double target : request.targets) bench.answers.push_back(measurement.answer(target));
+  bench.is_stopped = is_stopped(request.stop);
   return bench;
 }
 

@@ -15,6 +15,8 @@ namespace hamgen::app {
 struct BenchSpec {
   std::string spec;  // as typed
   Request request;
+  bool is_offered = false;   // not asked for by name: left out where the model has none such
+  bool is_baseline = false;  // no answer
 };
 
 struct BenchRequest {
@@ -22,9 +24,11 @@ struct BenchRequest {
   SceneValues scene;
   std::vector<BenchSpec> methods;
   Rational time;                // of each run
-  std::vector<Rational> steps;  // their sizes, changed a little where they do not divide the time
+  std::vector<Rational> steps;  // their sizes, changed a little where they do not divide the time;
+                                // none: for each method those around the scene's h that matter
   Observed observed = Observed::state;
   std::vector<double> targets;  // errors to reach
+  bool refines = false;         // further steps are tried to reach them soonest
   long rounds = 9;              // samples of each time
   CompilerChoice compiler;
   RunClock clock = processor_clock;  // what is chosen by time is chosen by this one
@@ -32,8 +36,9 @@ struct BenchRequest {
   ProgressSink on_progress;
 };
 
-// Loads the methods, computes the reference, measures errors, then times.  Without a reference the
-// errors of the energy are those that count.  Stopped, it returns early.  Throws UsageError,
+// Loads the methods, computes the reference where states count, measures errors, then times.  What
+// answers a target has run for ten times as long.  Without a reference the errors of the energy are
+// those that count.  Stopped, it returns early with the rows that are measured.  Throws UsageError,
 // ModelError and ToolError.
 [[nodiscard]] Bench run_bench(const BenchRequest& request);
 

@@ -109,13 +109,21 @@ std::vector<std::string> default_specs(const Mechanics& mechanics) {
   };
   const std::vector<Row> preferred = {
       {.specs = {"implicit-midpoint"}},
+      {.specs = {"implicit-midpoint:solver=fixed-point"}},
       {.specs = {"stormer-verlet", "symplectic-euler-a"}},
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=4"}},
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=6"}},
       {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=8"}},
       {.specs = {"blanes-moan-rkn-6", "blanes-moan-6", "kahan-li-6"}},
       {.specs = {"kahan-li-8-verlet", "kahan-li-8"}},
+      {.specs = {"sofroniou-spaletta-10-verlet", "sofroniou-spaletta-10"}},
+      {.specs = {"gauss-4"}},
+      {.specs = {"gauss-6"}},
       {.specs = {"gauss-8"}},
+      {.specs = {"gauss-8:solver=fixed-point"}},
+      {.specs = {"gauss-12"}},
+      {.specs = {"gauss-16"}},
+      {.specs = {"rk4"}},
   };
   std::vector<std::string> specs;
   for (const Row& row : preferred) {

@@ -23,7 +23,7 @@ namespace hamgen::app {
 [[nodiscard]] std::vector<std::string> split_specs(std::string_view text);
 
 // The methods compared when nobody names any: of each kind and order that suits this system the one
-// that is usually best, eight at most.
+// that is usually best; the last is a baseline that is not symplectic.
 [[nodiscard]] std::vector<std::string> default_specs(const Mechanics& mechanics);
 
 }  // namespace hamgen::app

@@ -92,6 +92,30 @@ TEST_F(BenchTarget, OnlyAMethodThatCanWinIsTriedFurther) {
   EXPECT_TRUE(tried({{"gauss-4", 1e6}}));
 }
 
+// Stormer-Verlet for H = (p^2 + q^2)/2 is unstable beyond h = 2: errors grow by a factor of 1.046 a
+// step here, 2.4 in twenty steps and 7000 in two hundred.
+TEST(BenchAnswer, LastsTenTimesAsLong) {
+  const Scratch scratch;
+  app::BenchRequest request = app::read_bench(
+      {.model = scratch.write("m.ham",
+                              "system oscillator\ncoordinate q\nmomentum p\nH = (p^2 + q^2)/2\n"
+                              "scene start {\n  q = 1\n  p = 0\n}\n"),
+       .schemes = "stormer-verlet",
+       .h = "2.0005,0.25",
+       .time = "40.01",
+       .target = "1e100",
+       .rounds = "1",
+       .quiet = true});
+  request.clock = clock_of({});
+  request.refines = false;
+  const Bench result = app::run_bench(request);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_TRUE(result.rows[0].ok());
+  EXPECT_NE(result.rows[0].unstable, "");
+  EXPECT_EQ(result.rows[1].unstable, "");
+  EXPECT_EQ(result.answers.at(0).row, 1u);
+}
+
 const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
 
 // The step of the answer for one method.

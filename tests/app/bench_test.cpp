@@ -85,10 +85,17 @@ TEST(Bench, AnswersWhichStepReachesATarget) {
   const json result = bench_json({model, "--time", "10", "--h", "0.2,0.1", "--target", "1e-7",
                                   "--schemes", "implicit-midpoint"});
   ASSERT_EQ(result["rows"].size(), 3u);
-  EXPECT_EQ(result["answer"]["row"], 2);
+  ASSERT_EQ(result["time_for_error"].size(), 1u);
+  const json& answer = result["time_for_error"][0];
+  EXPECT_EQ(answer["error"], 1e-7);
+  EXPECT_EQ(answer["row"], 2);
+  EXPECT_EQ(answer["h"], result["rows"][2]["h"]);
   EXPECT_LE(result["rows"][2]["state_error"].get<double>(), 1e-7);
-  EXPECT_EQ(result["answer"]["command"],
+  EXPECT_EQ(answer["generate"],
             "hamgen generate " + model + " --scheme implicit-midpoint --scene swing");
+  EXPECT_TRUE(answer["run"].get<std::string>().starts_with(
+      "hamgen run " + model + " --scheme implicit-midpoint --scene swing --h "))
+      << answer["run"];
 }
 
 TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {
@@ -96,7 +103,68 @@ TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {
   const Result result = bench({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.2,0.1",
                                "--target", "1e-30", "--schemes", "implicit-midpoint"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.out, "no method reaches the state error 1e-30")) << result.out;
+  EXPECT_TRUE(contains(result.out, "1e-30       -  no method reaches it")) << result.out;
+}
+
+// The first lines: what a reader came for.
+TEST(Bench, AnswersBeforeItsRows) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  const Result result =
+      bench({model, "--time", "10", "--h", "0.1", "--schemes", "implicit-midpoint,gauss-8"});
+  EXPECT_EQ(result.status, 0) << result.err;  // 1e-10 was not asked for
+  const std::vector<std::string> text = lines(result.out);
+  ASSERT_GT(text.size(), 8u);
+  EXPECT_EQ(text[1], "time for a state error, in seconds for a unit of the model's time:");
+  EXPECT_TRUE(text[3].starts_with("  1e-4 ")) << text[3];
+  EXPECT_TRUE(contains(text[4], "hamgen run " + model)) << text[4];
+}
+
+// From errors of 1e-2 to the floor of rounding, each of half the step before; and no further than
+// h/64.
+TEST(Bench, TakesTheStepsThatMatterForEachMethod) {
+  const Scratch scratch;
+  const auto rows_of = [&](const std::string& scheme) {
+    return bench_json({scratch.write("m.ham", pendulum), "--time", "60", "--schemes", scheme,
+                       "--target", "1e-2"})["rows"];
+  };
+  json gauss = rows_of("gauss-8");
+  gauss.erase(gauss.size() - 1);  // the answer
+  const std::size_t count = gauss.size();
+  ASSERT_GE(count, 4u);
+  EXPECT_LE(gauss[0]["state_error"].get<double>(), 1e-2);
+  EXPECT_GT(gauss[0]["h"].get<double>(), 0.2);
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(gauss[i]["rounding_floor"].get<bool>(), i == count - 2) << gauss;
+  EXPECT_LT(gauss[count - 2]["state_error"].get<double>(), 1e-11);
+
+  json euler = rows_of("symplectic-euler-a");
+  euler.erase(euler.size() - 1);
+  EXPECT_EQ(euler.back()["h"].get<double>(), 0.1 / 64);
+  EXPECT_FALSE(euler.back()["rounding_floor"]);
+}
+
+TEST(Bench, ABaselineIsNoAnswer) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "1", "--h", "0.1"});
+  bool has_baseline = false;
+  for (const json& row : result["rows"]) has_baseline |= row["scheme"] == "rk4";
+  EXPECT_TRUE(has_baseline);
+  for (const json& answer : result["time_for_error"]) EXPECT_NE(answer["scheme"], "rk4");
+  // Asked for by name it is one like the others.
+  const json asked = bench_json(
+      {scratch.write("m.ham", pendulum), "--time", "1", "--h", "0.1", "--schemes", "rk4"});
+  EXPECT_EQ(asked["time_for_error"][0]["scheme"], "rk4");
+  EXPECT_FALSE(asked["rows"][0]["symplectic"]);
+}
+
+TEST(Bench, NeedsNoReferenceForEnergiesAlone) {
+  const Scratch scratch;
+  const json result = bench_json({scratch.write("m.ham", pendulum), "--time", "1", "--h", "0.1",
+                                  "--schemes", "rk4", "--observe", "energy"});
+  EXPECT_TRUE(result["reference"]["failure"].is_null());
+  EXPECT_TRUE(result["rows"][0]["state_error"].is_null());
+  EXPECT_TRUE(result["rows"][0]["max_energy_error"].is_number());
 }
 
 TEST(Bench, AFailureIsARowAndNotTheEnd) {
