@@ -92,6 +92,27 @@ TEST_F(BenchTarget, OnlyAMethodThatCanWinIsTriedFurther) {
   EXPECT_TRUE(tried({{"gauss-4", 1e6}}));
 }
 
+// Of the methods that are offered rk4 is there to compare with, however fast it is.
+TEST(BenchAnswer, IsNoBaseline) {
+  const Scratch scratch;
+  app::BenchRequest request = app::read_bench({.model = scratch.write("m.ham", pendulum),
+                                               .h = "0.1",
+                                               .time = "1",
+                                               .target = "1e-2",
+                                               .rounds = "1",
+                                               .quiet = true});
+  std::erase_if(request.methods, [](const app::BenchSpec& method) {
+    return method.spec != "implicit-midpoint" && method.spec != "rk4";
+  });
+  request.clock = clock_of({{"implicit-midpoint", 1000.0}});
+  request.refines = false;
+  const Bench result = app::run_bench(request);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_EQ(method_of(result, result.rows[1]), "rk4");
+  EXPECT_LT(result.rows[1].state_error.value(), 1e-2);
+  EXPECT_EQ(result.answers.at(0).row, 0u);
+}
+
 // Stormer-Verlet for H = (p^2 + q^2)/2 is unstable beyond h = 2: errors grow by a factor of 1.046 a
 // step here, 2.4 in twenty steps and 7000 in two hundred.
 TEST(BenchAnswer, LastsTenTimesAsLong) {
