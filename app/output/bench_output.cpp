@@ -101,6 +101,30 @@ std::string target_text(double target) {
              : fmt::format("{:g}", target);
 }
 
+// Where a baseline takes less time than the answer: does conservation pay at this length?
+std::string baseline_text(const Bench& bench) {
+  std::string text;
+  for (const BenchAnswer& answer : bench.answers) {
+    const auto cost = [](const BenchRow& row) { return time_of(row).seconds_per_time; };
+    const BenchRow* best = answer.row ? &bench.rows[*answer.row] : nullptr;
+    const BenchRow* quicker = nullptr;
+    for (const BenchRow& row : bench.rows) {
+      const std::optional<double> error = error_of(row, bench.observed);
+      if (!bench.methods[row.method].is_baseline || row.samples.empty()) continue;
+      if (!error || !(*error <= answer.target)) continue;
+      if ((best == nullptr || cost(row) < cost(*best)) &&
+          (quicker == nullptr || cost(row) < cost(*quicker)))
+        quicker = &row;
+    }
+    if (quicker != nullptr)
+      text +=
+          fmt::format("  {} with h = {:.6g}, not symplectic, takes {:.2e} for {} at this length\n",
+                      bench.methods[quicker->method].spec, to_double(quicker->h), cost(*quicker),
+                      target_text(answer.target));
+  }
+  return text;
+}
+
 std::string answer_text(const Bench& bench) {
   if (bench.answers.empty()) return "";
   std::vector<Cells> lines = {{"error", "s/time", "scheme", "h"}};
@@ -125,7 +149,7 @@ std::string answer_text(const Bench& bench) {
     text += rows[i];
     if (!commands[i].empty()) text += "      " + commands[i] + "\n";
   }
-  return text + "\n";
+  return text + baseline_text(bench) + "\n";
 }
 
 OrderedJson answer_json(const Bench& bench, const BenchAnswer& answer) {
