@@ -4,6 +4,7 @@
 
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_coefficients.hpp"
+#include "generator/program/loop_stage.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/step_weights.hpp"
 
@@ -11,37 +12,12 @@ namespace hamgen {
 
 namespace {
 
-// z + (carry + row), what is small first; z alone where nothing moves it.
-void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
-               const Expression& carry, const StageRow& row, const std::string& change) {
-  if (row.large.empty()) return body.push_back({Assign{bar.name(), z}});
-  Expression sum = carry + row.small;
-  for (const Expression& term : row.large) sum += term;
-  body.push_back({Assign{bar.name(), z + b.let(body, change, sum)}});
-}
-
-// What z + carry + row lacks of bar: z, bar and what is large cancel without an error, and come
-// first.
-Expression lacking(const Expression& z, const Expression& bar, const Expression& carry,
-                   const StageRow& row) {
-  Expression sum = z - bar;
-  for (const Expression& term : row.large) sum += term;
-  return row.large.empty() ? sum : sum + (carry + row.small);
-}
-
 constexpr int kStepsOfNewton = 32;
 
-class LoopMember {
+class LoopMember : LoopStage {
  public:
   LoopMember(Program& code, const Environment& environment, const LoweredStep& lowered)
-      : code_(code),
-        environment_(environment),
-        mechanics_(lowered.plan.equations.mechanics),
-        plan_(lowered.plan),
-        arrays_(*lowered.plan.arrays),
-        n_(environment.degrees_of_freedom),
-        tangent_(lowered.tangent),
-        weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
+      : LoopStage(environment, lowered), code_(code) {}
 
   void add() {
     const bool solved = iterates(arrays_);
@@ -69,16 +45,6 @@ class LoopMember {
   }
 
  private:
-  [[nodiscard]] bool newton() const { return arrays_.method == ArrayMethod::newton; }
-  [[nodiscard]] bool fixed_point() const { return arrays_.method == ArrayMethod::fixed_point; }
-  [[nodiscard]] bool both() const { return arrays_.method == ArrayMethod::both; }
-  // The size of all increments together then falls from one iteration to the next: q does not wait
-  // for p.
-  [[nodiscard]] bool settles() const { return both() || (fixed_point() && arrays_.reduced); }
-  [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
-  [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
-  [[nodiscard]] KernelRange elements() const { return counting("i", n_); }
-
   // --- what is remembered ---------------------------------------------------------------------
 
   void add_start_record() {
@@ -125,153 +91,6 @@ class LoopMember {
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }
     code_.records.push_back(std::move(start));
-  }
-
-  [[nodiscard]] std::vector<Argument> arguments(bool with_states) const {
-    std::vector<Argument> list = {parameters_argument()};
-    if (has_coefficients_) list.push_back({.name = "k", .record = "Coefficients"});
-    if (weights_.uses_h()) list.push_back({.name = "h"});
-    if (with_states) {
-      list.push_back(state_argument("z"));
-      list.push_back(state_argument("carry"));
-    }
-    list.push_back({.name = "start", .record = "Start", .changes = true});
-    return list;
-  }
-  static std::vector<Place> given(const std::vector<Argument>& arguments) {
-    std::vector<Place> list;
-    for (const Argument& argument : arguments) list.push_back({argument.name});
-    return list;
-  }
-
-  // --- elements ------------------------------------------------------------------------------
-
-  Expression coordinate(RoutineBuilder& b) const { return b.at("start", "value", {affine("i")}); }
-  Expression momentum(RoutineBuilder& b) const {
-    return arrays_.reduced ? b.at("start", "momentum", {affine("i")})
-                           : b.at("start", "value", {affine("i", n_)});
-  }
-  Expression lack(RoutineBuilder& b, bool momentum) const {
-    return b.at("start", "lack", {affine("i", momentum ? n_ : 0)});
-  }
-  // dH/dq_i and dH/dp_i.
-  Gradient slope(RoutineBuilder& b) const {
-    return {b.at("start", "slope", {affine("i")}), b.at("start", "slope", {affine("i", n_)})};
-  }
-  static Expression state(RoutineBuilder& b, const char* object, const char* field) {
-    return b.at(object, field, {affine("i")});
-  }
-
-  Expression mass(RoutineBuilder& b) const {
-    return b.at("k", "mass", loop_mass_index(arrays_, "i"));
-  }
-
-  // start.slope = grad H at a stage.
-  void add_gradient(Body& body, const Place& q, const Place& p) const {
-    const Place dq{"start", "slope"};
-    const Place dp{"start", "slope", {affine(n_)}};
-    if (!mechanics_.is_separable()) {
-      body.push_back({Call{.routine = "gradient", .arguments = {{"par"}, q, p, dq, dp}}});
-      return;
-    }
-    body.push_back({Call{.routine = "potential_gradient", .arguments = {{"par"}, q, dq}}});
-    body.push_back({Call{.routine = "kinetic_gradient", .arguments = {{"par"}, p, dp}}});
-  }
-  void add_gradient_at_stage(Body& body) const {
-    if (arrays_.reduced) {
-      const std::vector<Place> list = given(arguments(true));
-      body.push_back({Call{.routine = "evaluate", .arguments = list}});
-    } else {
-      add_gradient(body, {"start", "value"}, {"start", "value", {affine(n_)}});
-    }
-  }
-
-  // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).
-  Routine evaluate() const {
-    RoutineBuilder b({.name = "evaluate",
-                      .remark = {"grad H at the stage, whose momenta follow from its coordinates."},
-                      .arguments = arguments(true)});
-    const Place p{"start", "momentum"};
-    const Place dp{"start", "slope", {affine(n_)}};
-    const Instruction force{Call{.routine = "potential_gradient",
-                                 .arguments = {{"par"}, {"start", "value"}, {"start", "slope"}}}};
-    const Instruction velocity{Call{.routine = "kinetic_gradient", .arguments = {{"par"}, p, dp}}};
-    b.body().push_back(force);
-    const Expression z = state(b, "z", "p");
-    const Expression bar = momentum(b);
-    const Expression carry = state(b, "carry", "p");
-    const Gradient at = slope(b);
-    Body each;
-    if (!needs_drift()) {
-      const StageRow row = weights_.row_of_p(b, each, at);
-      set_stage(b, each, bar, z, carry, row, "change");
-      b.body().push_back(for_each(elements(), std::move(each)));
-      b.body().push_back(velocity);
-      return b.take();
-    }
-    const Expression own =
-        Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
-    const Expression drift = b.at("k", "drift", {affine("i")});
-    const StageRow first = weights_.row_of_p(b, each, {at.by_q, drift});
-    set_stage(b, each, bar, z, carry, first, "change");
-    each.push_back({Assign{bar.name(), bar * own}});
-    b.body().push_back(for_each(elements(), std::move(each)));
-    b.body().push_back(velocity);
-    Body again;
-    const StageRow row = weights_.row_of_p(b, again, at);
-    const Expression missing = b.let(again, "missing", lacking(z, bar, carry, row));
-    again.push_back({Assign{bar.name(), bar + missing * own}});
-    b.body().push_back(for_each(elements(), std::move(again)));
-    b.body().back().remark = {"What their rows lack there, rounded as they are."};
-    b.body().push_back(velocity);
-    return b.take();
-  }
-
-  // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
-  Routine differentiate() const {
-    std::vector<Argument> list = {parameters_argument()};
-    if (has_coefficients_) list.push_back({.name = "k", .record = "Coefficients"});
-    if (weights_.uses_h()) list.push_back({.name = "h"});
-    list.push_back({.name = "at", .sizes = {unknowns()}, .decays = true});
-    list.push_back({.name = "matrix", .record = "Matrix", .changes = true});
-    RoutineBuilder b({.name = "differentiate",
-                      .remark = {"The derivative of the equations' residual, q first, at a stage."},
-                      .arguments = std::move(list)});
-    b.body().push_back({Clear{{"matrix"}}});
-    Body one{{Put{{"matrix"}, affine("i"), affine("i"), Expression(1)}}};
-    b.body().push_back(for_each(counting("i", unknowns()), std::move(one)));
-    const Part part = arrays_.reduced ? Part::potential : Part::all;
-    const StepWeights weights = weights_;
-    const bool reduced = arrays_.reduced;
-    const bool one_scale = arrays_.mass.has_value();
-    const int n = n_;
-    const auto use = [=](Routine& routine, Body& body, const HessianEntry& entry) {
-      const auto coefficient = [&](const Place& place) {
-        routine.places.insert_or_assign(to_text(place), place);
-        return Expression::symbol(to_text(place), kRankOfVariable);
-      };
-      const auto put = [&](AffineIndex row, long offset, const Expression& weight) {
-        row.constant += offset;
-        AffineIndex column = entry.column.index;
-        if (entry.column.is_momentum) column.constant += n;
-        body.push_back({Put{{"matrix"}, row, column, weight * entry.value}});
-      };
-      const AffineIndex& row = entry.row.index;
-      if (reduced) {
-        put(row, 0,
-            coefficient({"k", "scale",
-                         one_scale ? std::vector<AffineIndex>{} : std::vector<AffineIndex>{row}}));
-        return;
-      }
-      // dH/dp moves q by alpha and p by beta, dH/dq moves p by 1 - alpha and q by gamma.
-      weights.bind(routine);
-      const auto& to_q = entry.row.is_momentum ? weights.q_by_p : weights.q_by_q;
-      const auto& to_p = entry.row.is_momentum ? weights.p_by_p : weights.p_by_q;
-      if (to_q) put(row, 0, -*to_q);
-      if (to_p) put(row, n, *to_p);
-    };
-    return kernel_entries(environment_, mechanics_, part, b.take(), {"at"},
-                          {"at", {}, {affine(n_)}}, use);
   }
 
   // --- the step --------------------------------------------------------------------------------
@@ -346,19 +165,6 @@ class LoopMember {
     sweep.push_back(for_each(elements(), std::move(each)));
     add_gradient_at_stage(sweep);
     b.body().push_back({Sweep{.count = *plan_.sweeps, .unknowns = {}, .body = std::move(sweep)}});
-  }
-
-  // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
-  void add_stage(RoutineBuilder& b, Body& each) const {
-    const Gradient at = slope(b);
-    for (const bool is_p : {false, true}) {
-      const char* field = is_p ? "p" : "q";
-      const Expression z = state(b, "z", field);
-      const Expression carry = state(b, "carry", field);
-      const StageRow row = is_p ? weights_.row_of_p(b, each, at) : weights_.row_of_q(b, each, at);
-      set_stage(b, each, is_p ? momentum(b) : coordinate(b), z, carry, row,
-                is_p ? "p_change" : "q_change");
-    }
   }
 
   // zbar = z, as far as it is unknown.
@@ -464,22 +270,6 @@ class LoopMember {
     b.body().push_back({Return{}});
   }
 
-  // What the equations lack at the stage.
-  Body lacks(RoutineBuilder& b) const {
-    Body each;
-    const Gradient at = slope(b);
-    for (const bool is_p : {false, true}) {
-      if (is_p && arrays_.reduced) break;
-      const char* field = is_p ? "p" : "q";
-      const Expression z = state(b, "z", field);
-      const Expression bar = is_p ? momentum(b) : coordinate(b);
-      const StageRow row = is_p ? weights_.row_of_p(b, each, at) : weights_.row_of_q(b, each, at);
-      each.push_back(
-          {Assign{lack(b, is_p).name(), lacking(z, bar, state(b, "carry", field), row)}});
-    }
-    return each;
-  }
-
   void add_linear_solve(Body& body) const {
     const Place matrix{"start", "matrix"};
     std::vector<Place> list = {{"par"}};
@@ -565,14 +355,6 @@ class LoopMember {
   }
 
   Program& code_;
-  const Environment& environment_;
-  const Mechanics& mechanics_;
-  const SolvePlan& plan_;
-  const ArrayPlan& arrays_;
-  int n_;
-  bool tangent_;
-  StepWeights weights_;
-  bool has_coefficients_ = false;
 };
 
 }  // namespace

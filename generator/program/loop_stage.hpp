@@ -1,0 +1,73 @@
+// The stage of a member's step in a system whose sums stay loops: its elements, the gradient there,
+// what the equations lack and their derivative.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/program/environment.hpp"
+#include "generator/program/lowered_step.hpp"
+#include "generator/program/program.hpp"
+#include "generator/program/routine_builder.hpp"
+#include "generator/program/step_weights.hpp"
+
+namespace hamgen {
+
+// z + (carry + row), what is small first; z alone where nothing moves it.
+void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
+               const Expression& carry, const StageRow& row, const std::string& change);
+
+// What the routines of such a step are made of.
+class LoopStage {
+ public:
+  LoopStage(const Environment& environment, const LoweredStep& lowered)
+      : environment_(environment),
+        mechanics_(lowered.plan.equations.mechanics),
+        plan_(lowered.plan),
+        arrays_(*lowered.plan.arrays),
+        n_(environment.degrees_of_freedom),
+        tangent_(lowered.tangent),
+        weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
+
+ protected:
+  [[nodiscard]] bool newton() const { return arrays_.method == ArrayMethod::newton; }
+  [[nodiscard]] bool fixed_point() const { return arrays_.method == ArrayMethod::fixed_point; }
+  [[nodiscard]] bool both() const { return arrays_.method == ArrayMethod::both; }
+  // The size of all increments together then falls from one iteration to the next: q does not wait
+  // for p.
+  [[nodiscard]] bool settles() const { return both() || (fixed_point() && arrays_.reduced); }
+  [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
+  [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
+  [[nodiscard]] KernelRange elements() const { return counting("i", n_); }
+  [[nodiscard]] std::vector<Argument> arguments(bool with_states) const;
+  static std::vector<Place> given(const std::vector<Argument>& arguments);
+  Expression coordinate(RoutineBuilder& b) const { return b.at("start", "value", {affine("i")}); }
+  [[nodiscard]] Expression momentum(RoutineBuilder& b) const;
+  [[nodiscard]] Expression lack(RoutineBuilder& b, bool momentum) const;
+  // dH/dq_i and dH/dp_i.
+  [[nodiscard]] Gradient slope(RoutineBuilder& b) const;
+  static Expression state(RoutineBuilder& b, const char* object, const char* field);
+  [[nodiscard]] Expression mass(RoutineBuilder& b) const;
+  // start.slope = grad H at a stage.
+  void add_gradient(Body& body, const Place& q, const Place& p) const;
+  void add_gradient_at_stage(Body& body) const;
+  // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).
+  [[nodiscard]] Routine evaluate() const;
+  // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
+  [[nodiscard]] Routine differentiate() const;
+  // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
+  void add_stage(RoutineBuilder& b, Body& each) const;
+  // What the equations lack at the stage.
+  [[nodiscard]] Body lacks(RoutineBuilder& b) const;
+
+  const Environment& environment_;
+  const Mechanics& mechanics_;
+  const SolvePlan& plan_;
+  const ArrayPlan& arrays_;
+  int n_;
+  bool tangent_;
+  StepWeights weights_;
+  bool has_coefficients_ = false;
+};
+
+}  // namespace hamgen
