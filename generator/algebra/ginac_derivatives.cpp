@@ -37,8 +37,8 @@ Differentiator::Known& Differentiator::known(const GiNaC::ex& e) {
       result.steps += steps_of_term * static_cast<double>(each.nops());
   }
   std::ranges::sort(result.symbols);
-  const auto repeated = std::ranges::unique(result.symbols);
-  result.symbols.erase(repeated.begin(), repeated.end());
+  std::vector<std::size_t>& symbols = result.symbols;
+  symbols.erase(std::unique(symbols.begin(), symbols.end()), symbols.end());
   spend(Resource::nodes, 1 + 0.1 * static_cast<double>(result.symbols.size()));
   spend(Resource::work, static_cast<double>(result.symbols.size()) +
                             steps_of_nesting * result.depth * result.depth);

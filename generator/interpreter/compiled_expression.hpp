@@ -31,9 +31,11 @@ struct Frame {
     }
     return offset;
   }
-  [[nodiscard]] Real& at(const Address& address) const {
-    return objects[static_cast<std::size_t>(address.object)][offset(address)];
+  // Of an object without numbers too, where there is nothing to point at.
+  [[nodiscard]] Real* pointer(const Address& address) const {
+    return objects[static_cast<std::size_t>(address.object)] + offset(address);
   }
+  [[nodiscard]] Real& at(const Address& address) const { return *pointer(address); }
 };
 
 // A function of the language on numbers of the type, as <cmath> and <quadmath.h> have it.

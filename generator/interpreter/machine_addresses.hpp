@@ -57,7 +57,7 @@ class MachineAddresses {
     return {address(place), static_cast<std::size_t>(product(sizes_of(place)))};
   }
   [[nodiscard]] std::span<Real> span(const Whole& array) const {
-    return {&m_.frame.at(array.first), array.size};
+    return {m_.frame.pointer(array.first), array.size};
   }
 
   // The matrix at a place, when it is wanted.

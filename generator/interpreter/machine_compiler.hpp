@@ -413,7 +413,7 @@ class MachineCompiler : public MachineIterations<Real> {
           given.push_back({});
         } else {
           given.push_back(
-              {&m_.frame.at(slot.place), m_.objects[static_cast<std::size_t>(slot.place.object)]});
+              {m_.frame.pointer(slot.place), m_.objects[static_cast<std::size_t>(slot.place.object)]});
         }
       }
       const MachineReport<Real> report = other->run(given);
