@@ -412,8 +412,8 @@ class MachineCompiler : public MachineIterations<Real> {
         } else if (slot.is_report) {
           given.push_back({});
         } else {
-          given.push_back(
-              {m_.frame.pointer(slot.place), m_.objects[static_cast<std::size_t>(slot.place.object)]});
+          given.push_back({m_.frame.pointer(slot.place),
+                           m_.objects[static_cast<std::size_t>(slot.place.object)]});
         }
       }
       const MachineReport<Real> report = other->run(given);
