@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <vector>
 
 #include "tests/fuzz/random.hpp"
@@ -224,10 +223,5 @@ class Writer {
 }  // namespace
 
 RandomCase random_case(std::uint64_t seed) { return Writer(seed).run(); }
-
-bool is_full() {
-  const char* models = std::getenv("HAMGEN_RANDOM_MODELS");
-  return models != nullptr && std::string(models) == "all";
-}
 
 }  // namespace hamgen::random

@@ -17,7 +17,4 @@ struct RandomCase {
 // The same case for the same seed everywhere.
 [[nodiscard]] RandomCase random_case(std::uint64_t seed);
 
-// Are all models asked for, and not a sample of them?  (HAMGEN_RANDOM_MODELS=all)
-[[nodiscard]] bool is_full();
-
 }  // namespace hamgen::random
