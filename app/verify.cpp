@@ -213,7 +213,7 @@ int verify(const VerifyOptions& options) {
   for (const Finding& finding : proof) {
     rows.push_back({{"property", finding.property},
                     {"verdict", to_text(finding.verdict)},
-                    {"detail", finding.detail}});
+                    {"detail", finding.plain()}});
     for (const InvariantDefect& defect : defects) {
       if (finding.property == defect.name + " measured")
         rows.back().update(

@@ -22,8 +22,9 @@ ReportJson or_null(const std::optional<double>& value) {
 ReportJson proof_json(const Proof& proof) {
   ReportJson list = ReportJson::array();
   for (const Finding& each : proof)
-    list.push_back(
-        {{"property", each.property}, {"verdict", to_text(each.verdict)}, {"detail", each.detail}});
+    list.push_back({{"property", each.property},
+                    {"verdict", to_text(each.verdict)},
+                    {"detail", each.plain()}});
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/output/math_markup.hpp"
+#include "app/output/math_text.hpp"
 #include "app/output/plain_number.hpp"
 #include "app/output/report_parts.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -21,7 +22,7 @@ std::string findings_table(const Proof& proof) {
   for (const Finding& finding : proof)
     text += fmt::format("<tr><td>{}</td><td>{}</td><td class='detail'>{}</td></tr>\n",
                         html_text(finding.property), verdict_markup(finding.verdict),
-                        html_text(finding.detail));
+                        math_prose(finding.detail));
   return text + "</table></div>\n";
 }
 

@@ -102,8 +102,10 @@ Problem read_problem(const Case& chosen) {
   return problem;
 }
 
-void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMethod>>& methods,
-                std::vector<Result>& results) {
+// Returns the energy's scale, that of the last row.
+double add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMethod>>& methods,
+                  std::vector<Result>& results) {
+  double scale = 0.0;
   for (const std::string& spec : app::default_specs(problem.mechanics)) {
     methods.push_back(std::make_unique<app::BenchMethod>(
         app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), {})));
@@ -116,6 +118,7 @@ void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMe
       row.h = problem.time / row.steps;
       app::measure_errors(method, problem.scene, problem.reference, row);
       if (!row.ok()) continue;
+      if (row.energy_scale > 0.0) scale = row.energy_scale;
       results.push_back({.method = spec,
                          .setting = row.h.get_d(),
                          .energy_error = row.energy_error.value_or(0.0),
@@ -127,6 +130,7 @@ void add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMe
                          }});
     }
   }
+  return scale;
 }
 
 void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& start,
@@ -224,7 +228,7 @@ void compare(const Case& chosen, bool all_rows) {
   const Problem problem = read_problem(chosen);
   std::vector<std::unique_ptr<app::BenchMethod>> methods;
   std::vector<Result> results;
-  add_hamgen(problem, methods, results);
+  const double scale = add_hamgen(problem, methods, results);
   const app::BenchMethod& first = *methods.front();
   const runtime::InitialValues values =
       app::initial_values(first.plugin, problem.scene, *first.loaded.library);
@@ -233,12 +237,16 @@ void compare(const Case& chosen, bool all_rows) {
   for (const auto& peers : {odeint_peers(), gsl_peers()}) {
     for (const Peer& peer : peers) add_peer(peer, flow, start, problem, results);
   }
+  if (scale > 0.0) {
+    for (Result& result : results) result.energy_error /= scale;
+  }
   for (int round = 0; round < kRounds; ++round) {
     for (Result& result : results) result.seconds.push_back(result.sample());
   }
   const double time = problem.time.get_d();
-  fmt::print("\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}\n", chosen.path,
-             problem.scene.name, time, problem.reference.error);
+  fmt::print(
+      "\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}, the energy's scale {:.3g}\n",
+      chosen.path, problem.scene.name, time, problem.reference.error, scale);
   std::vector<double> spreads;
   for (const Result& result : results) spreads.push_back(result.spread());
   std::ranges::sort(spreads);

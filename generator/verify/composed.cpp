@@ -138,7 +138,7 @@ Finding order_finding(const OrderFound& found, bool exact, const std::string& wh
   return {fmt::format("order {}", found.order), proved ? Verdict::proved : Verdict::tested,
           fmt::format("formal series against the flow, {}; {}", how,
                       found.at_least ? "no error found in the next power"
-                                     : fmt::format("leading error h^{} ({}), {}", found.order + 1,
+                                     : fmt::format("leading error `h^{}` ({}), {}", found.order + 1,
                                                    found.leading, what))};
 }
 
@@ -218,11 +218,11 @@ Proof prove_composition(const Composition& composition, int order, const Surroun
           ? "the substeps are the same from both ends, and the base: " + base_symmetric.detail
           : "the substeps from the other end, its adjoint's, are others";
   const Verdict of_base = odd ? base_symmetric.verdict : Verdict::proved;
-  return {
-      symplectic,
-      {"symmetric", symmetric, both_ends},
-      resting_on(of_base, "the symmetry of the base is tested only",
-                 order_finding(found, exact, "k for the h^k term of the base's own vector field"))};
+  return {symplectic,
+          {"symmetric", symmetric, both_ends},
+          resting_on(of_base, "the symmetry of the base is tested only",
+                     order_finding(found, exact,
+                                   "`k` for the `h^k` term of the base's own vector field"))};
 }
 
 // A kick has the Jacobian [[1, 0], [-b h V'', 1]], a drift [[1, a h T''], [0, 1]].  With generic
@@ -258,14 +258,14 @@ Finding prove_shears(const Splitting& splitting) {
       for (std::size_t j = 0; j < 4; ++j) {
         if (is_zero_by_algebra(defect(f, i, j))) continue;
         return {"symplectic", Verdict::refuted,
-                fmt::format("factor {}: entry ({}, {}) of F^T J F - J is {}", k + 1, i + 1, j + 1,
-                            to_text(defect(f, i, j)))};
+                fmt::format("factor {}: entry ({}, {}) of `F^T J F - J` is `{}`", k + 1, i + 1,
+                            j + 1, to_text(defect(f, i, j)))};
       }
     }
   }
   std::string detail = fmt::format(
-      "F^T J F - J = 0 for each of the {} shears F, entry by entry, with "
-      "generic symmetric V'' and T''",
+      "`F^T J F - J = 0` for each of the {} shears `F`, entry by entry, with "
+      "generic symmetric `V''` and `T''`",
       factors.size());
   if (factors.size() <= 3) {
     Matrix m{{Expression(1), Expression(0)}, {Expression(0), Expression(1)}};
@@ -280,7 +280,7 @@ Finding prove_shears(const Splitting& splitting) {
     if (!is_zero_by_algebra(defect(m, 0, 1))) {
       return {"symplectic", Verdict::refuted, "the product of the factors is not"};
     }
-    detail += "; their product M multiplied out for n = 1: M^T J M - J = 0";
+    detail += "; their product `M` multiplied out for `n = 1`: `M^T J M - J = 0`";
   }
   return {"symplectic", Verdict::proved, detail};
 }

@@ -119,7 +119,7 @@ std::string scope(const Scheme& scheme, const Program& code, bool loops) {
     text = fmt::format("the kicks, the drifts and their {} substeps",
                        splitting->kicks.size() + splitting->drifts.size());
   } else if (const auto* tableau = std::get_if<RungeKutta>(&scheme.method)) {
-    text = fmt::format("J grad H and the tableau of {} stages", tableau->b.size());
+    text = fmt::format("`J grad H` and the tableau of {} stages", tableau->b.size());
   }
   if (loops) return ": every element of all loops" + (text.empty() ? "" : ", " + text);
   return text.empty() ? "" : ": H, " + text;

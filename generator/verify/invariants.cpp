@@ -55,10 +55,10 @@ class Bracket {
   [[nodiscard]] GiNaC::ex drift() const { return sum(0, n_); }
   [[nodiscard]] GiNaC::ex kick() const { return sum(n_, 0); }
   [[nodiscard]] Decision difference() const {
-    Decision decision = equal("{I, H} is not 0: sum I_q H_p", drift(), kick());
+    Decision decision = equal("`{I, H}` is not 0: sum `I_q H_p`", drift(), kick());
     const std::string words = " and should be ";
     if (const auto at = decision.witness.find(words); at != std::string::npos) {
-      decision.witness.replace(at, words.size(), ", sum I_p H_q is ");
+      decision.witness.replace(at, words.size(), ", sum `I_p H_q` is ");
     }
     return decision;
   }
@@ -141,12 +141,12 @@ Finding conserved_by_member(const Bracket& bracket, const Member& member) {
   }
   if (!bracket.is_quadratic()) return {"", Verdict::not_decided, kUpToTheOrder};
   const auto r = bracket.residual(member);
-  if (!r) return {"", Verdict::proved, "C^T M + M C = 0 for its quadratic form M"};
+  if (!r) return {"", Verdict::proved, "`C^T M + M C = 0` for its quadratic form `M`"};
   if (member.generating_order > 0) {
     return {"", Verdict::not_decided,
-            "C^T M + M C is not 0 for its quadratic form M: K may not have this invariant"};
+            "`C^T M + M C` is not 0 for its quadratic form `M`: `K` may not have this invariant"};
   }
-  const std::string what = "d^T (C^T M + M C) d, d = J grad H,";
+  const std::string what = "`d^T (C^T M + M C) d`, `d = J grad H`,";
   const Decision decision = bracket.zero(what, bracket.along_flow(*r));
   if (decision.verdict == Verdict::proved) return {"", Verdict::proved, what + " is 0 for this H"};
   if (decision.verdict == Verdict::tested) {
@@ -156,8 +156,8 @@ Finding conserved_by_member(const Bracket& bracket, const Member& member) {
 }
 
 Finding conserved_by_splitting(const Bracket& bracket) {
-  const Decision of_drift = bracket.zero("{I, T}", bracket.drift());
-  const Decision of_kick = bracket.zero("{I, V}", bracket.kick());
+  const Decision of_drift = bracket.zero("`{I, T}`", bracket.drift());
+  const Decision of_kick = bracket.zero("`{I, V}`", bracket.kick());
   const Verdict verdict = both(of_drift.verdict, of_kick.verdict);
   if (holds(verdict)) {
     const std::string where = verdict == Verdict::proved
@@ -165,7 +165,7 @@ Finding conserved_by_splitting(const Bracket& bracket) {
                                   : " " + points_text(of_drift.points > 0 ? of_drift : of_kick);
     return {
         "", verdict,
-        fmt::format("{{I, T}} = {{I, V}} = 0{}: every drift and every kick conserves it", where)};
+        fmt::format("`{{I, T}} = {{I, V}} = 0`{}: every drift and every kick conserves it", where)};
   }
   return {"", Verdict::not_decided,
           "not conserved by its drifts and kicks one by one: conserved up to the order"};
@@ -219,10 +219,11 @@ Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian
     }
     const bool proved = decision.verdict == Verdict::proved;
     proof.push_back(
-        {name, decision.verdict, "{I, H} = 0" + (proved ? "" : " " + points_text(decision))});
+        {name, decision.verdict, "`{I, H} = 0`" + (proved ? "" : " " + points_text(decision))});
     Finding of_step = conserved(bracket, scheme, solved, symplectic);
     of_step.property = invariant.name + " conserved by the step";
-    proof.push_back(resting_on(decision.verdict, "{I, H} = 0 is tested only", std::move(of_step)));
+    proof.push_back(
+        resting_on(decision.verdict, "`{I, H} = 0` is tested only", std::move(of_step)));
   }
   return proof;
 }

@@ -78,17 +78,17 @@ std::string flow_text(const LinearStability& found) {
   const auto& w = found.frequencies;
   std::string text;
   if (w.size() == 1) {
-    text = fmt::format("one oscillation, w = {:.6g}, h w = {:.6g}", w[0], found.h * w[0]);
+    text = fmt::format("one oscillation, `w = {:.6g}`, `h w = {:.6g}`", w[0], found.h * w[0]);
   } else if (!w.empty()) {
-    text = fmt::format("{} oscillations, w = {:.6g} to {:.6g}, h w up to {:.6g}", w.size(),
+    text = fmt::format("{} oscillations, `w = {:.6g}` to `{:.6g}`, `h w` up to `{:.6g}`", w.size(),
                        w.front(), w.back(), found.h * w.back());
   }
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (found.free_motions > 0)
     add(fmt::format("{} free motion{}", found.free_motions, found.free_motions == 1 ? "" : "s"));
   if (found.growing > 0)
-    add(fmt::format("{} growing, up to exp({:.6g} t)", found.growing, found.growth_rate));
-  if (found.resonant) add("a double frequency with a Jordan block, which grows like t");
+    add(fmt::format("{} growing, up to `exp({:.6g} t)`", found.growing, found.growth_rate));
+  if (found.resonant) add("a double frequency with a Jordan block, which grows like `t`");
   return text;
 }
 
@@ -97,9 +97,9 @@ std::string bound_text(const LinearStability& found) {
   if (found.verdict == Verdict::refuted || found.frequencies.empty()) return "";
   std::string text;
   if (found.bounded_for_every_h) {
-    text = "; for every h";
+    text = "; for every `h`";
   } else if (!found.searched) {
-    return found.verdict == Verdict::not_decided ? "" : "; up to which h is not known";
+    return found.verdict == Verdict::not_decided ? "" : "; up to which `h` is not known";
   } else if (found.bounded_steps.empty()) {
     return "";
   } else {
@@ -109,18 +109,18 @@ std::string bound_text(const LinearStability& found) {
     for (std::size_t k = 0; k < std::min(count, most); ++k) {
       const auto& [from, to] = found.bounded_steps[k];
       text += text.empty() ? "; bounded " : ", and ";
-      if (from > 0.0) text += fmt::format("from h = {:.8g} ", from);
+      if (from > 0.0) text += fmt::format("from `h = {:.8g}` ", from);
       if (std::isinf(to)) {
         text += "on";
       } else {
-        text +=
-            fmt::format("{} h = {:.8g} (h w = {:.6g})", from > 0.0 ? "to" : "up to", to, to * w);
+        text += fmt::format("{} `h = {:.8g}` (`h w = {:.6g}`)", from > 0.0 ? "to" : "up to", to,
+                            to * w);
         if (to >= found.looked_to) text += ", as far as was looked";
       }
     }
     if (count > most) text += fmt::format(", and {} more beyond", count - most);
   }
-  if (std::isfinite(found.looked_to)) text += "; by intervals of h";
+  if (std::isfinite(found.looked_to)) text += "; by intervals of `h`";
   constexpr std::size_t most = 3;
   for (std::size_t k = 0; k < std::min(found.borders.size(), most); ++k)
     text += fmt::format("{} {:.8g}", k == 0 ? "; on the border at h =" : ",", found.borders[k]);
@@ -131,7 +131,7 @@ std::string bound_text(const LinearStability& found) {
 // The mode whose angle is nearest to 2 pi/m, m = 3 to 6, as a part of that.
 std::string resonance_text(const LinearStability& found) {
   const double turn = 2.0 * std::numbers::pi;
-  std::string text = fmt::format("the fastest turns by theta = {:.6g} = 2 pi/{:.4g} a step",
+  std::string text = fmt::format("the fastest turns by `theta = {:.6g} = 2 pi/{:.4g}` a step",
                                  found.angles.back(), turn / found.angles.back());
   double nearest = 1.0;
   std::string near;
@@ -140,13 +140,14 @@ std::string resonance_text(const LinearStability& found) {
       const double off = std::abs(found.angles[k] * m / turn - 1.0);
       if (off >= nearest) continue;
       nearest = off;
-      near = fmt::format("w = {:.6g} is {:.2g}% off 2 pi/{}", found.frequencies[k], 100.0 * off, m);
+      near = fmt::format("`w = {:.6g}` is {:.2g}% off `2 pi/{}`", found.frequencies[k], 100.0 * off,
+                         m);
     }
   }
   if (nearest < 0.05) text += "; near a resonance: " + near;
   std::string where;
   for (const auto& [m, h] : found.resonant_h)
-    where += fmt::format("{}2 pi/{} at h = {:.6g}", where.empty() ? "; " : ", ", m, h);
+    where += fmt::format("{}`2 pi/{}` at `h = {:.6g}`", where.empty() ? "; " : ", ", m, h);
   return text + where;
 }
 

@@ -39,11 +39,12 @@ bool is_cayley(const Scheme& scheme) { return scheme.has_member() && scheme.memb
 
 std::string cayley_text(const Scheme& scheme) {
   if (const auto* composition = std::get_if<Composition>(&scheme.method))
-    return fmt::format("a product of {} Cayley transforms of A = J S",
+    return fmt::format("a product of {} Cayley transforms of `A = J S`",
                        composition->substeps.size());
   const int order = scheme.member().generating_order;
-  if (order > 2) return fmt::format("the Cayley transform of 2 tanh(hA/2) to order {}", order);
-  return "the Cayley transform (1 - hA/2)^-1 (1 + hA/2) of A = J S, and theta = 2 atan(h w/2)";
+  if (order > 2) return fmt::format("the Cayley transform of `2 tanh(hA/2)` to order {}", order);
+  return "the Cayley transform `(1 - hA/2)^-1 (1 + hA/2)` of `A = J S`, and `theta = 2 atan(h "
+         "w/2)`";
 }
 
 // Is M a function of h A alone, in the coordinates of the modes?
@@ -61,7 +62,7 @@ std::string closed_form(const Scheme& scheme, const LinearStep& step, const Matr
   const double alpha = 0.5 + c(0, 0);
   const double x = (1.0 - h * c(1, 0) * s(1, 1)) * (1.0 + h * s(0, 0) * c(0, 1));
   const double square = h * h * s(0, 0) * s(1, 1);
-  return fmt::format("; X = {:.6g}, bounded iff X > h^2 w^2 (alpha - 1/2)^2 = {:.6g}", x,
+  return fmt::format("; `X = {:.6g}`, bounded iff `X > h^2 w^2 (alpha - 1/2)^2 = {:.6g}`", x,
                      square * (alpha - 0.5) * (alpha - 0.5));
 }
 
@@ -137,10 +138,10 @@ std::string mode_text(const Question& question, const LinearStep& step, const Mo
   const double h = to_double(question.h);
   const Matrix2d m = modes.matrix(k, h);
   const bool symplectic = question.scheme.symplectic;
-  return fmt::format("{} = {:.8g} of w = {:.6g}",
-                     symplectic ? "|trace M|/2" : "spectral radius of M",
-                     symplectic ? std::abs(m.trace()) / 2.0 : std::sqrt(m.determinant()),
-                     modes.frequency(k)) +
+  const std::string size =
+      symplectic ? fmt::format("`|trace M|/2 = {:.8g}`", std::abs(m.trace()) / 2.0)
+                 : fmt::format("spectral radius of `M` = {:.8g}", std::sqrt(m.determinant()));
+  return fmt::format("{} of `w = {:.6g}`", size, modes.frequency(k)) +
          closed_form(step.scheme(), step, modes.planes()[k], h);
 }
 
@@ -209,7 +210,7 @@ void decide_exactly(const Question& question, const std::vector<LinearPart>& par
     if (now != Powers::bounded && (all == Powers::bounded || all == Powers::undecided)) all = now;
   }
   set_verdict(all, exact, result);
-  const std::string what = fmt::format("of M, {0} x {0},", question.s.size);
+  const std::string what = fmt::format("of `M`, {0} x {0},", question.s.size);
   switch (all) {
     case Powers::bounded:
       result.detail = fmt::format(
@@ -233,7 +234,8 @@ void decide_exactly(const Question& question, const std::vector<LinearPart>& par
 
 void decide_together(const MatrixXd& s, const LinearStep& step, LinearStability& result) {
   result.margin = margin_together(step.matrix(result.h, s), result.free_motions);
-  const std::string what = fmt::format("the eigenvalues of M + M^-1, {} x {},", s.rows(), s.cols());
+  const std::string what =
+      fmt::format("the eigenvalues of `M + M^-1`, {} x {},", s.rows(), s.cols());
   if (*result.margin > kBorder) {
     result.verdict = Verdict::tested;
     result.detail = fmt::format("bounded: {} are real, apart and at most {:.6g} in size", what,
@@ -314,11 +316,11 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
   if (spectrum.resonant) {
     result.resonant = true;
     result.detail =
-        "the flow itself grows like t: a frequency is double, with a Jordan block of A = J S";
+        "the flow itself grows like t: a frequency is double, with a Jordan block of `A = J S`";
     return result;
   }
   if (scheme.has_member() && !scheme.symplectic) {
-    result.detail = "C is outside sp(2n): the conditions are those of symplectic members";
+    result.detail = "`C` is outside `sp(2n)`: the conditions are those of symplectic members";
     return result;
   }
   std::optional<Modes> modes;
@@ -342,8 +344,8 @@ LinearStability linear_stability(const QuadraticPart& part, const Scheme& scheme
     // R(x) R(-x) = 1, and Gauss methods are A-stable (HLW II.1.3, IV.1): no pole at x = i y.
     result.detail =
         is_cayley(scheme)
-            ? "M is " + cayley_text(scheme)
-            : "|R(iy)| = 1 for the stability function R of Gauss collocation, for every y";
+            ? "`M` is " + cayley_text(scheme)
+            : "`|R(iy)| = 1` for the stability function `R` of Gauss collocation, for every `y`";
   } else if (modes && (tableau != nullptr || size == 2 || result.growing > 0 || !exact ||
                        rational_s.size > 2 * kMostExact)) {
     decide_by_modes(question, step_of_one, *modes, result);

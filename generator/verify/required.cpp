@@ -24,7 +24,7 @@ const Finding* find(const Proof& proof, std::string_view property) {
 [[noreturn]] void fail(const std::string& word, const Finding* finding) {
   throw ProofError(finding == nullptr ? fmt::format("--require {}: not decided", word)
                                       : fmt::format("--require {}: {}: {}", word,
-                                                    to_text(finding->verdict), finding->detail));
+                                                    to_text(finding->verdict), finding->plain()));
 }
 
 void require_order(const Proof& proof, const Requirement& required) {
@@ -94,7 +94,7 @@ void require_emitted(const Proof& proof) {
     const Finding* finding = find(proof, property);
     if (finding == nullptr || finding->verdict != Verdict::refuted) continue;
     throw ProofError("the emitted code is not the step of this model, a fault of hamgen: " +
-                     finding->detail);
+                     finding->plain());
   }
 }
 

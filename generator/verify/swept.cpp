@@ -176,8 +176,9 @@ void at_points(const Mechanics& mechanics, const Surroundings& around, const Use
 
 Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
                      const Member& member, int sweeps, const Surroundings& around) {
-  const std::string general = fmt::format(
-      "{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{})", sweeps, sweeps + 2);
+  const std::string general =
+      fmt::format("{} sweeps leave the step unsolved: the defect `M^T J M - J` is `O(h^{})`",
+                  sweeps, sweeps + 2);
   const bool by_series = sweeps <= kMostSeriesSweeps;
   const auto length = by_series ? static_cast<std::size_t>(sweeps) + 6 : 1;
   const SweptStep step(mechanics, derivatives, member, sweeps, length);
@@ -197,8 +198,8 @@ Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
                   general + " in general, and nothing of it was found at the points looked at"};
   } else if (by_series) {
     symplectic.detail = fmt::format(
-        "{} sweeps leave the step unsolved: the defect M^T J M - J is O(h^{}), by its power "
-        "series; {} begins with {:.4g} h^{} at a random point",
+        "{} sweeps leave the step unsolved: the defect `M^T J M - J` is `O(h^{})`, by its power "
+        "series; {} begins with `{:.4g} h^{}` at a random point",
         sweeps, defect->power, defect->entry, defect->value, defect->power);
   } else {
     symplectic.detail +=
@@ -208,7 +209,7 @@ Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
     symmetric = {"symmetric", Verdict::not_decided,
                  "the step is unsolved, and yet no step back was found that misses the start"};
   } else if (by_series) {
-    symmetric.detail += fmt::format("; a step back misses the start, {} by {:.4g} h^{}",
+    symmetric.detail += fmt::format("; a step back misses the start, {} by `{:.4g} h^{}`",
                                     reversal->entry, reversal->value, reversal->power);
   }
   return {symplectic, symmetric};
@@ -220,7 +221,7 @@ Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
                   const Surroundings& around) {
   if (mechanics.keeps_sums()) {
     const std::string why = fmt::format(
-        "{} sweeps leave the step unsolved, and the defect, O(h^{}) in general, is not looked at "
+        "{} sweeps leave the step unsolved, and the defect, `O(h^{})` in general, is not looked at "
         "where sums stay loops",
         sweeps, sweeps + 2);
     return {{"symplectic", Verdict::not_decided, why}, {"symmetric", Verdict::not_decided, why}};

@@ -32,15 +32,15 @@ Finding prove_gauge(const Member& member, const Surroundings& around) {
   std::optional<Decision> at_points;
   for (const auto& [place, value] : gauge_defect(member)) {
     // Expanding shows no zero; points may.
-    const Decision decision = decide_equal("C J + J C^T", value, Expression(0), around);
+    const Decision decision = decide_equal("`C J + J C^T`", value, Expression(0), around);
     if (decision.verdict == Verdict::tested) at_points = decision;
     if (holds(decision.verdict)) continue;
     return {kGauge, decision.verdict,
-            fmt::format("entry ({}, {}) of C J + J C^T is {}", place.first + 1, place.second + 1,
-                        to_text(value))};
+            fmt::format("entry ({}, {}) of `C J + J C^T` is `{}`", place.first + 1,
+                        place.second + 1, to_text(value))};
   }
-  if (at_points) return {kGauge, Verdict::tested, "C J + J C^T = 0 " + points_text(*at_points)};
-  return {kGauge, Verdict::proved, "C J + J C^T = 0, entry by entry"};
+  if (at_points) return {kGauge, Verdict::tested, "`C J + J C^T = 0` " + points_text(*at_points)};
+  return {kGauge, Verdict::proved, "`C J + J C^T = 0`, entry by entry"};
 }
 
 Finding prove_step_symplectic(const Member& member, const Surroundings& around) {
@@ -76,29 +76,30 @@ Finding prove_step_symplectic(const Member& member, const Surroundings& around) 
       const GiNaC::ex difference = (left(row, column) - right(row, column)).expand();
       if (difference.is_zero()) continue;
       const Expression entry = from_ginac(difference, table);
-      const Decision decision = decide_equal("A+ J A+^T", entry, Expression(0), around);
+      const Decision decision = decide_equal("`A+ J A+^T`", entry, Expression(0), around);
       if (decision.verdict == Verdict::tested) at_points = decision;
       if (holds(decision.verdict)) continue;
       return {"symplectic", decision.verdict,
-              fmt::format("entry ({}, {}) of A+ J A+^T - A- J A-^T is {}", row + 1, column + 1,
+              fmt::format("entry ({}, {}) of `A+ J A+^T - A- J A-^T` is {}", row + 1, column + 1,
                           to_text(entry))};
     }
   }
   if (at_points && m == n) {
-    return {
-        "symplectic", Verdict::tested,
-        fmt::format("A+ J A+^T = A- J A-^T {}; for exactly solved steps", points_text(*at_points))};
+    return {"symplectic", Verdict::tested,
+            fmt::format("`A+ J A+^T = A- J A-^T` {}; for exactly solved steps",
+                        points_text(*at_points))};
   }
   if (m == n) {
-    return {"symplectic", Verdict::proved,
-            fmt::format("A+ J A+^T = A- J A-^T for every symmetric Hessian, all {} entries expand "
-                        "to zero; for exactly solved steps",
-                        size * size)};
+    return {
+        "symplectic", Verdict::proved,
+        fmt::format("`A+ J A+^T = A- J A-^T` for every symmetric Hessian, all {} entries expand "
+                    "to zero; for exactly solved steps",
+                    size * size)};
   }
   const Finding gauge = prove_gauge(member, around);
   return {
       "symplectic", gauge.verdict,
-      fmt::format("A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J, and {}; checked entry by "
+      fmt::format("`A+ J A+^T - A- J A-^T = -h^2 J S (C J + J C^T) S J`, and {}; checked entry by "
                   "entry on the first {} of {} degrees of freedom",
                   gauge.detail, m, n)};
 }
@@ -108,15 +109,17 @@ Finding prove_symmetric(const Member& member, const Surroundings& around) {
   for (const auto& [place, value] : member.c) {
     const Expression reflected = substitute(value, {{"h", -Expression::symbol("h", kRankOfStep)}});
     if (vanishes(reflected + value)) continue;
-    const Decision decision = decide_equal("C(-h)", reflected, -value, around);
+    const Decision decision = decide_equal("`C(-h)`", reflected, -value, around);
     if (decision.verdict == Verdict::tested) at_points = decision;
     if (holds(decision.verdict)) continue;
-    return {"symmetric", decision.verdict,
-            fmt::format("C(-h) + C(h) has the entry ({}, {}) = {}; the adjoint is the member -C",
-                        place.first + 1, place.second + 1, to_text(reflected + value))};
+    return {
+        "symmetric", decision.verdict,
+        fmt::format("`C(-h) + C(h)` has the entry `({}, {}) = {}`; the adjoint is the member `-C`",
+                    place.first + 1, place.second + 1, to_text(reflected + value))};
   }
-  if (at_points) return {"symmetric", Verdict::tested, "C(-h) = -C(h) " + points_text(*at_points)};
-  return {"symmetric", Verdict::proved, "C(-h) = -C(h): the step is its own adjoint"};
+  if (at_points)
+    return {"symmetric", Verdict::tested, "`C(-h) = -C(h)` " + points_text(*at_points)};
+  return {"symmetric", Verdict::proved, "`C(-h) = -C(h)`: the step is its own adjoint"};
 }
 
 // With f = J grad H and C = C0 + h C1 + O(h^2), the step minus the flow is
@@ -128,32 +131,35 @@ Finding prove_order(const Member& member, const Surroundings& around) {
     const auto series = step_series(value, 2);
     if (!series) {
       return {"order", Verdict::not_decided,
-              fmt::format("no power series in h was found for the entry ({}, {}) of C, {}",
+              fmt::format("no power series in `h` was found for the entry ({}, {}) of `C`, `{}`",
                           place.first + 1, place.second + 1, to_text(value))};
     }
     const Expression& at_zero = series->front();
-    const Decision decision = decide_equal("C(0)", at_zero, Expression(0), around);
+    const Decision decision = decide_equal("`C(0)`", at_zero, Expression(0), around);
     if (decision.verdict == Verdict::tested) at_points = decision;
     if (holds(decision.verdict)) continue;
     if (decision.verdict == Verdict::not_decided)
       return {"order", decision.verdict, decision.witness};
     return {"order 1", Verdict::proved,
-            fmt::format("leading error h^2 f'(C0 f), f = J grad H; C0 has the entry ({}, {}) = {}",
-                        place.first + 1, place.second + 1, to_text(at_zero))};
+            fmt::format(
+                "leading error `h^2 f'(C0 f)`, `f = J grad H`; `C0` has the entry `({}, {}) = {}`",
+                place.first + 1, place.second + 1, to_text(at_zero))};
   }
-  return {"order 2", at_points ? Verdict::tested : Verdict::proved,
-          fmt::format("C(0) = 0{}; leading error h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12), f = "
-                      "J grad H",
-                      at_points ? " " + points_text(*at_points) : "")};
+  return {
+      "order 2", at_points ? Verdict::tested : Verdict::proved,
+      fmt::format("`C(0) = 0`{}; leading error `h^3 (f'(C1 f) - f''(f,f)/24 + f'(f'(f))/12)`, `f = "
+                  "J grad H`",
+                  at_points ? " " + points_text(*at_points) : "")};
 }
 
 Finding prove_raised_order(const GeneratingFunction& function, const Decision& of_k) {
   const std::string property = fmt::format("order {}", function.order);
   if (!holds(of_k.verdict)) return {property, of_k.verdict, of_k.witness};
-  return {property, of_k.verdict,
-          fmt::format("K is from the Hamilton-Jacobi equation of the generating function, to h^{}; "
-                      "the flow of H satisfies its step to h^{} at {} points to 1e-30",
-                      function.order - 1, function.order, of_k.points)};
+  return {
+      property, of_k.verdict,
+      fmt::format("`K` is from the Hamilton-Jacobi equation of the generating function, to `h^{}`; "
+                  "the flow of `H` satisfies its step to `h^{}` at {} points to `1e-30`",
+                  function.order - 1, function.order, of_k.points)};
 }
 
 }  // namespace hamgen

@@ -185,7 +185,7 @@ bool is_gauss(const RungeKutta& tableau) {
 
 // What `proved` means where coefficients are irrational.
 constexpr const char* kDigitsOfNodes =
-    "the coefficients give it to 34 digits (signs of P_s in exact rationals)";
+    "the coefficients give it to 34 digits (signs of `P_s` in exact rationals)";
 
 Finding symplectic_tableau(const Numbers& t, bool gauss) {
   for (std::size_t i = 0; i < t.b.size(); ++i) {
@@ -193,7 +193,7 @@ Finding symplectic_tableau(const Numbers& t, bool gauss) {
       const Precise witness = t.b[i] * t.a[i][j] + t.b[j] * t.a[j][i] - t.b[i] * t.b[j];
       if (size_of_precise(witness) <= kTableauDigits) continue;
       return {"symplectic", Verdict::refuted,
-              fmt::format("b_i a_ij + b_j a_ji - b_i b_j is {:.6g} for i = {}, j = {}",
+              fmt::format("`b_i a_ij + b_j a_ji - b_i b_j` is `{:.6g}` for `i = {}`, `j = {}`",
                           to_double(witness), i + 1, j + 1)};
     }
   }
@@ -201,14 +201,15 @@ Finding symplectic_tableau(const Numbers& t, bool gauss) {
     // m_ij = b_i a_ij + b_j a_ji - b_i b_j: sum_ij c_i^(k-1) m_ij c_j^(l-1) = (1/(k+l)) (1/k + 1/l)
     // - 1/(k l) = 0 for k, l <= s by B(2s) and C(s), and the Vandermonde matrix is regular.
     return {"symplectic", Verdict::proved,
-            fmt::format("collocation at the zeros of the shifted Legendre polynomial P_s: the "
-                        "integrals of P_s x^k vanish exactly for k < s, and B(2s) and C(s) give "
-                        "b_i a_ij + b_j a_ji = b_i b_j; {}; for exactly solved stages",
-                        kDigitsOfNodes)};
+            fmt::format(
+                "collocation at the zeros of the shifted Legendre polynomial `P_s`: the "
+                "integrals of `P_s x^k` vanish exactly for `k < s`, and `B(2s)` and `C(s)` give "
+                "`b_i a_ij + b_j a_ji = b_i b_j`; {}; for exactly solved stages",
+                kDigitsOfNodes)};
   }
   return {"symplectic", t.exact ? Verdict::proved : Verdict::tested,
-          t.exact ? "b_i a_ij + b_j a_ji = b_i b_j; for exactly solved stages"
-                  : "b_i a_ij + b_j a_ji = b_i b_j to 1e-34; for exactly solved stages"};
+          t.exact ? "`b_i a_ij + b_j a_ji = b_i b_j`; for exactly solved stages"
+                  : "`b_i a_ij + b_j a_ji = b_i b_j` to `1e-34`; for exactly solved stages"};
 }
 
 Finding symmetric_tableau(const Numbers& t, bool gauss) {
@@ -218,22 +219,23 @@ Finding symmetric_tableau(const Numbers& t, bool gauss) {
       const Precise witness = t.a[s - 1 - i][s - 1 - j] + t.a[i][j] - t.b[j];
       if (size_of_precise(witness) <= kTableauDigits) continue;
       return {"symmetric", Verdict::refuted,
-              fmt::format("a_(s+1-i)(s+1-j) + a_ij - b_j is {:.6g} for i = {}, j = {}",
+              fmt::format("`a_(s+1-i)(s+1-j) + a_ij - b_j` is `{:.6g}` for `i = {}`, `j = {}`",
                           to_double(witness), i + 1, j + 1)};
     }
   }
   return {"symmetric", t.exact || gauss ? Verdict::proved : Verdict::tested,
           gauss ? "collocation at nodes symmetric about 1/2"
-                : "a_(s+1-i)(s+1-j) + a_ij = b_j: the step is its own adjoint"};
+                : "`a_(s+1-i)(s+1-j) + a_ij = b_j`: the step is its own adjoint"};
 }
 
 Finding order_of_gauss(const Numbers& t) {
   const int s = static_cast<int>(t.b.size());
   return {
       fmt::format("order {}", 2 * s), Verdict::proved,
-      fmt::format("B({0}), C({1}) and D({1}) of collocation at the zeros of P_{1}; {4}; leading "
-                  "error h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ..., f = J grad H",
-                  2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)), kDigitsOfNodes)};
+      fmt::format(
+          "`B({0})`, `C({1})` and `D({1})` of collocation at the zeros of `P_{1}`; {4}; leading "
+          "error `h^{2} {3:.4g} f^({0})(f,...,f)/{0}! + ...`, `f = J grad H`",
+          2 * s, s, 2 * s + 1, to_double(quadrature_defect(t, 2 * s + 1)), kDigitsOfNodes)};
 }
 
 // The trees of an order and their conditions; more than order 7 is never asked for.
@@ -244,8 +246,8 @@ Finding order_by_trees(const Numbers& t, int claimed) {
     if (size_of_precise(defect[k]) <= kTableauDigits) continue;
     return {fmt::format("order {}", trees[k].order - 1),
             t.exact ? Verdict::proved : Verdict::tested,
-            fmt::format("{} order condition{} before; leading error: the tree {} with relative "
-                        "error {:.4g}, f = J grad H",
+            fmt::format("{} order condition{} before; leading error: the tree `{}` with relative "
+                        "error `{:.4g}`, `f = J grad H`",
                         k == 1 ? "the one" : fmt::format("all {}", k), k == 1 ? "" : "s",
                         trees[k].text, to_double(defect[k]))};
   }

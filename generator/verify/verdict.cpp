@@ -6,6 +6,12 @@
 
 namespace hamgen {
 
+std::string Finding::plain() const {
+  std::string text = detail;
+  std::erase(text, '`');
+  return text;
+}
+
 bool holds(Verdict verdict) { return verdict == Verdict::proved || verdict == Verdict::tested; }
 
 Verdict both(Verdict a, Verdict b) {
@@ -49,7 +55,7 @@ std::string to_text(const Proof& proof) {
   std::string text;
   for (const Finding& finding : proof) {
     text += fmt::format("{:{}}  {:11}  {}\n", finding.property, width, to_text(finding.verdict),
-                        finding.detail);
+                        finding.plain());
   }
   return text;
 }

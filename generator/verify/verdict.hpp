@@ -21,7 +21,10 @@ enum class Verdict { proved, tested, refuted, not_decided, measured };
 struct Finding {
   std::string property;  // "symplectic"
   Verdict verdict = Verdict::not_decided;
-  std::string detail;  // how, or the failing entry with its value, or why it is open
+  // How, or the failing entry with its value, or why it is open.  Formulas stand between grave
+  // accents, for pages to set as formulas; `plain` is without these marks.
+  std::string detail;
+  [[nodiscard]] std::string plain() const;
 };
 // The finding of a conclusion; `why` is added if the premise is less than proved.
 [[nodiscard]] Finding resting_on(Verdict premise, const std::string& why, Finding conclusion);

@@ -33,7 +33,7 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
   const std::string page = read(directory + "/report.html");
   for (const char* part :
        {"<math", "symplectic", "proved", "max |H − H(0)|", "ns/step", "The emitted step", "cost",
-        "torn out", "hamgen generate", "Linear stability", "theta = 2 atan(h w/2)",
+        "torn out", "hamgen generate", "Linear stability", "<mi>θ</mi>", "<mi>atan</mi>",
         "The modified Hamiltonian", "h<sup>4</sup>", "<th class='number'>q error</th>"})
     EXPECT_TRUE(contains(page, part)) << part;
   for (const char* name :
