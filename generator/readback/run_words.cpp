@@ -5,6 +5,7 @@
 #include <set>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/readback/pattern.hpp"
 
 namespace hamgen {
 
@@ -137,14 +138,16 @@ class RunWords {
     for (const Instruction& instruction : body) std::visit(*this, instruction.value);
     say("}}");
   }
-  // Braces only around what is no simple statement.
+  // Braces around what is no simple statement, and where the line has no room for it.
   void inside(const Body& body) {
     const bool simple = body.size() == 1 && body[0].remark.empty() &&
                         (std::holds_alternative<Call>(body[0].value) ||
                          std::holds_alternative<Use>(body[0].value) ||
                          std::holds_alternative<Return>(body[0].value));
     if (!simple) return block(body);
+    say("{}", kOpen);
     std::visit(*this, body[0].value);
+    say("{}", kClose);
   }
 
   [[nodiscard]] std::string of_type(const std::string& record) const {
