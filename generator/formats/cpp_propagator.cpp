@@ -17,10 +17,12 @@ class StepWriter {
         coefficients_(code_.record("Coefficients") != nullptr),
         carry_(code_.has_carry()),
         composed_(code_.substeps.size() > 1),
-        has_time_(context.program.facts.has_time) {}
+        lanes_(context.options.lanes),
+        has_time_(context.program.facts.has_time),
+        number_(lanes_ > 0 ? "const Real&" : "Real") {}
 
   void write() {
-    const bool by_propagator = composed_ || context_.arrays();
+    const bool by_propagator = composed_ || context_.arrays() || lanes_ > 0;
     if (!by_propagator) write_routine(single_step(code_));
     write_propagator();
     if (by_propagator) write_step_of_propagator();
@@ -32,6 +34,7 @@ class StepWriter {
   }
 
   void write_step_of_propagator() {
+    if (lanes_ > 0) return write_step_of_lanes();
     out_.lines(R"(// Advances z by one step of size h.  On failure z is left unchanged.
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   Propagator propagator(par, h, z);
@@ -43,11 +46,26 @@ class StepWriter {
 )");
   }
 
+  void write_step_of_lanes() {
+    out_.lines(
+        R"(// Advances the lanes of z by one step of size h.  One that fails is left unchanged.
+[[nodiscard]] inline StepReport step(const Parameters& par, const Real& h, State& z) {
+  Propagator propagator(par, h, z);
+  const StepReport report = propagator.step();
+  z = propagator.state();
+  return report;
+}
+
+)");
+  }
+
   void write_propagator() {
-    const Propagator propagator = propagator_of(code_);
+    const Propagator propagator = lanes_ > 0 ? lane_propagator_of(code_) : propagator_of(code_);
     write_remark();
     out_.open("class Propagator");
     access(" public:");
+    write_constants();
+    if (lanes_ > 0) out_.line("// A step size for each lane.");
     composed_ ? write_constructor_of_composition() : write_constructor();
     out_.line();
     for (const Routine& routine : propagator.routines) {
@@ -63,6 +81,11 @@ class StepWriter {
   }
 
   void write_remark() {
+    if (lanes_ > 0) {
+      return out_.remark("// ",
+                         "Trajectories side by side, each as if it were alone.  A lane whose step "
+                         "fails stays for good where it was before it, and the others go on.");
+    }
     if (!carry_) {
       return out_.line(code_.retries
                            ? "// Many steps: start values are extrapolated; sums are plain."
@@ -79,10 +102,21 @@ class StepWriter {
     out_.indent();
   }
 
+  void write_constants() {
+    if (lanes_ > 0) out_.line(fmt::format("static constexpr int lanes = {};", lanes_));
+    if (composed_)
+      out_.line(fmt::format("static constexpr int substeps = {};", code_.substeps.size()));
+    if (lanes_ > 0 || composed_) out_.line();
+  }
+
+  [[nodiscard]] std::string head_of_constructor() const {
+    return fmt::format("Propagator(const Parameters& par, {} h, const State& z)", number_);
+  }
+
   void write_constructor() {
     std::string initialisers = "par_(par), h_(h), z_(z)";
     if (coefficients_) initialisers += ", k_(prepare(par, h))";
-    const std::string head = "Propagator(const Parameters& par, Real h, const State& z)";
+    const std::string head = head_of_constructor();
     if (head.size() + initialisers.size() > 90) {
       out_.line(head);
       out_.line("    : " + initialisers + " {}");
@@ -96,11 +130,9 @@ class StepWriter {
     for (const Rational& length : code_.substeps) {
       lengths += (lengths.empty() ? "" : ", ") + literal(length, context_.scalar);
     }
-    out_.line(fmt::format("static constexpr int substeps = {};", code_.substeps.size()));
-    out_.line();
-    out_.open(
-        "Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z)");
-    out_.line(fmt::format("constexpr Real fractions[substeps] = {{{}}};", lengths));
+    out_.open(head_of_constructor() + " : par_(par), h_(h), z_(z)");
+    out_.line(fmt::format("constexpr {} fractions[substeps] = {{{}}};",
+                          lanes_ > 0 ? context_.scalar.cpp : "Real", lengths));
     out_.open("for (int i = 0; i < substeps; ++i)");
     out_.line("lengths_[i] = h * fractions[i];");
     if (coefficients_) out_.line("k_[i] = prepare(par, lengths_[i]);");
@@ -113,9 +145,10 @@ class StepWriter {
       const std::string each = field.sizes.empty() ? "" : "[substeps]";
       const std::string value = field.name == "steps"     ? " = 0"
                                 : field.name == "lengths" ? " = {}"
+                                : field.name == "running" ? " = true"
                                                           : "";
       if (field.name == "rest") continue;  // beside dz
-      const bool pair = field.name == "dz" && record.fields.back().name == "rest";
+      const bool pair = field.name == "dz" && code_.has_rest();
       out_.line(
           fmt::format("{} {}_{}{}{};", field.type, field.name, each, value, pair ? ", rest_" : ""));
     }
@@ -128,21 +161,31 @@ class StepWriter {
           "// What rounding took from the state: the sum of both is what the steps go on from.");
       out_.line("[[nodiscard]] const State& carry() const { return carry_; }");
     }
+    if (lanes_ > 0) {
+      out_.line("// The lanes none of whose steps has failed: running()[0], ...");
+      out_.line("[[nodiscard]] const Mask& running() const { return running_; }");
+    }
     if (has_time_) {
       const std::string& t = context_.state_field(context_.n() - 1);
-      out_.line(fmt::format("[[nodiscard]] Real time() const {{ return z_.{}; }}", t));
+      out_.line(fmt::format("[[nodiscard]] {} time() const {{ return z_.{}; }}", number_, t));
+    } else if (lanes_ > 0) {
+      out_.line("// Since the first state, of each lane.");
+      out_.line("[[nodiscard]] Real time() const { return steps_ * h_; }");
     } else {
       out_.line("// Since the first state.");
       out_.line("[[nodiscard]] Real time() const { return static_cast<Real>(steps_) * h_; }");
     }
-    out_.line("[[nodiscard]] Real h() const { return h_; }");
+    out_.line(fmt::format("[[nodiscard]] {} h() const {{ return h_; }}", number_));
     out_.line("[[nodiscard]] const Parameters& parameters() const { return par_; }");
   }
 
   CodeWriter& out_;
   EmitContext& context_;
   const Program& code_;
-  bool coefficients_, carry_, composed_, has_time_;
+  bool coefficients_, carry_, composed_;
+  int lanes_;
+  bool has_time_;
+  const char* number_;  // as it is handed on
 };
 
 }  // namespace

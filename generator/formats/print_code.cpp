@@ -127,8 +127,8 @@ void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
       (std::holds_alternative<Assign>(body[0].value) ||
        std::holds_alternative<Accumulate>(body[0].value) ||
        std::holds_alternative<Put>(body[0].value) || std::holds_alternative<Call>(body[0].value) ||
-       std::holds_alternative<Use>(body[0].value) || returns_report(body[0]) ||
-       std::holds_alternative<Factorise>(body[0].value));
+       std::holds_alternative<Use>(body[0].value) || std::holds_alternative<Break>(body[0].value) ||
+       returns_report(body[0]) || std::holds_alternative<Factorise>(body[0].value));
   if (simple) {
     CodeWriter line;
     std::swap(line, out_);
@@ -206,7 +206,8 @@ void RoutinePrinter::operator()(const Scope& scope) {
   out_.close();
 }
 void RoutinePrinter::operator()(const If& branch) {
-  print_inside(fmt::format("if ({}{}{})", branch.set ? "" : "!", text(branch.flag),
+  const std::string flag = branch.any ? "any(" + text(branch.flag) + ")" : text(branch.flag);
+  print_inside(fmt::format("if ({}{}{})", branch.set ? "" : "!", flag,
                            branch.also ? " && " + text(*branch.also) : ""),
                branch.then);
 }

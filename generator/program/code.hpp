@@ -117,6 +117,7 @@ struct If {
   bool set = true;
   Body then;
   std::optional<Place> also = {};
+  bool any = false;  // of lanes: of any of them
 };
 struct Call {
   std::string routine;

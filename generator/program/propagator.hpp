@@ -15,6 +15,8 @@ struct Propagator {
 };
 
 [[nodiscard]] Propagator propagator_of(const Program& code);
+// Of trajectories side by side, each as if it were alone: "self.running" are those that go on.
+[[nodiscard]] Propagator lane_propagator_of(const Program& code);
 
 // One step alone, of a method whose step is one solve of little room: nothing is kept.
 [[nodiscard]] Routine single_step(const Program& code);

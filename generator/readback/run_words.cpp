@@ -143,6 +143,7 @@ class RunWords {
     const bool simple = body.size() == 1 && body[0].remark.empty() &&
                         (std::holds_alternative<Call>(body[0].value) ||
                          std::holds_alternative<Use>(body[0].value) ||
+                         std::holds_alternative<Break>(body[0].value) ||
                          std::holds_alternative<Return>(body[0].value));
     if (!simple) return block(body);
     say("{}", kOpen);

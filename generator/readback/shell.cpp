@@ -74,7 +74,7 @@ class PropagatorText {
       if (field.name == "rest") continue;  // beside dz
       text_ +=
           fmt::format("{} {}_{}", field.type, field.name, field.sizes.empty() ? "" : "[substeps]");
-      if (field.name == "dz" && fields.back().name == "rest") text_ += ", rest_";
+      if (field.name == "dz" && code_.has_rest()) text_ += ", rest_";
       text_ += field.name == "steps" ? " = 0;" : field.name == "lengths" ? " = {};" : ";";
     }
   }
