@@ -211,19 +211,6 @@ void RoutinePrinter::operator()(const If& branch) {
                            branch.also ? " && " + text(*branch.also) : ""),
                branch.then);
 }
-void RoutinePrinter::operator()(const Call& call) {
-  if (call.must_succeed) {
-    const char* success = call.record == "StepReport" ? ".converged" : "";
-    return out_.line(fmt::format("if (!{}{}) {}", call_text(call), success, failure()));
-  }
-  if (call.object.empty()) {
-    return out_.line((call.record.empty() ? call_text(call) : dialect_.unused(call_text(call))) +
-                     ";");
-  }
-  const std::string type =
-      call.again ? "" : (call.varies ? "" : "const ") + dialect_.record(call.record) + " ";
-  out_.line(fmt::format("{}{} = {};", type, call.object, call_text(call)));
-}
 void RoutinePrinter::operator()(const Alternate& alternate) {
   const std::string patience = text(alternate.patience);
   out_.open(fmt::format("if ({} == 0 && !{})", patience, call_text(alternate.first)));
@@ -297,14 +284,6 @@ void RoutinePrinter::length_of(const Return& end) {
 
 std::string RoutinePrinter::failure() const {
   return routine_.result.type == "StepReport" ? "return report;" : "return false;";
-}
-
-std::string RoutinePrinter::call_text(const Call& call) const {
-  std::vector<std::string> arguments;
-  for (const Place& place : call.arguments) arguments.push_back(given(place));
-  const std::string list = joined_texts(arguments, ", ");
-  if (call.of_run) return dialect_.call_of_run(call.routine, list);
-  return fmt::format("{}({})", dialect_.routine(call.routine), list);
 }
 
 std::string RoutinePrinter::count_text(long count) const {

@@ -1,4 +1,4 @@
-// What a run does with what it keeps from step to step.
+// Calls, and what a run does with what it keeps from step to step.
 #include <fmt/format.h>
 
 #include "generator/formats/routine_printer.hpp"
@@ -18,6 +18,27 @@ std::string beginning(const std::string& place, const std::string& type, const D
 
 }  // namespace
 
+std::string RoutinePrinter::call_text(const Call& call) const {
+  std::vector<std::string> arguments;
+  for (const Place& place : call.arguments) arguments.push_back(given(place));
+  const std::string list = joined_texts(arguments, ", ");
+  if (call.of_run) return dialect_.call_of_run(call.routine, list);
+  return fmt::format("{}({})", dialect_.routine(call.routine), list);
+}
+
+void RoutinePrinter::operator()(const Call& call) {
+  if (call.must_succeed) {
+    const char* success = call.record == "StepReport" ? ".converged" : "";
+    return out_.line(fmt::format("if (!{}{}) {}", call_text(call), success, failure()));
+  }
+  if (call.object.empty()) {
+    return out_.line((call.record.empty() ? call_text(call) : dialect_.unused(call_text(call))) +
+                     ";");
+  }
+  const std::string type =
+      call.again ? "" : (call.varies ? "" : "const ") + dialect_.record(call.record) + " ";
+  out_.line(fmt::format("{}{} = {};", type, call.object, call_text(call)));
+}
 void RoutinePrinter::operator()(const Use& use) {
   std::vector<std::string> list;
   for (const Place& place : use.arguments) {

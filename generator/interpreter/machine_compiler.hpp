@@ -356,35 +356,7 @@ class MachineCompiler : public MachineMemory<Real> {
       return true;
     };
   }
-  Step operator()(const Use& use) { return this->used(use); }
-  Step operator()(const Declare& locals) {
-    std::vector<int> targets;
-    for (const std::string& name : locals.objects) targets.push_back(index_of(name));
-    return [this, targets, record = code_.record(locals.record)] {
-      for (const int target : targets) this->begin_anew(target, *record);
-      return true;
-    };
-  }
-  Step operator()(const Note& note) {
-    return [this, to = index_of(note.name), from = index_of(note.from.object), note] {
-      object(to).flags[""] = object(from).flags.at(note.from.field);
-      return true;
-    };
-  }
-  Step operator()(const Count& count) {
-    if (!count.by) return [] { return true; };  // steps are not counted here
-    return [this, to = index_of(count.count.object), by = index_of(count.by->object), count] {
-      object(to).flags.at(count.count.field) += object(by).flags.at(count.by->field);
-      return true;
-    };
-  }
-  Step operator()(const Ask& ask) {
-    return [this, to = index_of(ask.flag.object), from = index_of(ask.count.object), ask] {
-      object(to).flags.at(ask.flag.field) = object(from).history->known() ? 1 : 0;
-      return true;
-    };
-  }
-  Step operator()(const Forget& forget) { return this->forgotten(forget); }
+  using Base::operator();
   Step operator()(const Repeat& repeat) {
     return [this, count = static_cast<std::size_t>(repeat.count), body = steps(repeat.body)] {
       for (std::size_t i = 0; i < count; ++i) {
@@ -394,9 +366,6 @@ class MachineCompiler : public MachineMemory<Real> {
       return true;
     };
   }
-  // Of many steps: they are taken one by one here.
-  Step operator()(const Break&) { internal_error("no loop"); }
-  Step operator()(const RequireFinite&) { internal_error("no loop"); }
   Step operator()(const Return& end) {
     if (!end.report.empty()) {
       return [this, from = index_of(end.report)] {

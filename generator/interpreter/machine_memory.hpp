@@ -33,7 +33,7 @@ class MachineMemory : public MachineIterations<Real> {
     m_.frame.objects[static_cast<std::size_t>(index)] = object(index).numbers.data();
   }
 
-  Step used(const Use& use) {
+  Step operator()(const Use& use) {
     const std::vector<Place>& given = use.arguments;
     if (use.action.empty()) return added(use);
     const int first = index_of(given[0].object);
@@ -56,7 +56,7 @@ class MachineMemory : public MachineIterations<Real> {
     };
   }
 
-  Step forgotten(const Forget& forget) {
+  Step operator()(const Forget& forget) {
     const bool all = forget.each > 0;
     return [this, forget, all, target = index_of(forget.what.object)] {
       if (all) {
@@ -69,6 +69,36 @@ class MachineMemory : public MachineIterations<Real> {
     };
   }
 
+  Step operator()(const Declare& locals) {
+    std::vector<int> targets;
+    for (const std::string& name : locals.objects) targets.push_back(index_of(name));
+    return [this, targets, record = code_.record(locals.record)] {
+      for (const int target : targets) begin_anew(target, *record);
+      return true;
+    };
+  }
+  Step operator()(const Note& note) {
+    return [this, to = index_of(note.name), from = index_of(note.from.object), note] {
+      object(to).flags[""] = object(from).flags.at(note.from.field);
+      return true;
+    };
+  }
+  Step operator()(const Count& count) {
+    if (!count.by) return [] { return true; };  // steps are not counted here
+    return [this, to = index_of(count.count.object), by = index_of(count.by->object), count] {
+      object(to).flags.at(count.count.field) += object(by).flags.at(count.by->field);
+      return true;
+    };
+  }
+  Step operator()(const Ask& ask) {
+    return [this, to = index_of(ask.flag.object), from = index_of(ask.count.object), ask] {
+      object(to).flags.at(ask.flag.field) = object(from).history->known() ? 1 : 0;
+      return true;
+    };
+  }
+  // Of many steps: they are taken one by one here.
+  Step operator()(const Break&) { internal_error("no loop"); }
+  Step operator()(const RequireFinite&) { internal_error("no loop"); }
   void keep_report(int index, const MachineReport<Real>& report) const {
     if (index == 0) return;
     Object<Real>& kept = object(index);

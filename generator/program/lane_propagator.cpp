@@ -104,10 +104,7 @@ class LanePropagatorBuilder : public PropagatorParts {
   }
 
   Routine step() const {
-    Routine routine{.name = "step",
-                    .remark = {"One step of the lanes that are running."},
-                    .result = {kReport},
-                    .of_run = true};
+    Routine routine = of_run("step", "One step of the lanes that are running.");
     add_solve(routine, "self.z", "self.carry");
     end_step(routine, "report", [this](const Place& at) -> Instruction {
       std::vector<Place> moved = {of("self.z", at)};
@@ -152,12 +149,10 @@ class LanePropagatorBuilder : public PropagatorParts {
   }
 
   Routine advance() const {
-    Routine routine{.name = "advance",
-                    .remark = {"Up to `steps` steps, of every lane until it fails.  The report "
-                               "sums the iterations."},
-                    .result = {kReport},
-                    .arguments = {{.name = "steps", .count = "long long"}},
-                    .of_run = true};
+    Routine routine = of_run("advance",
+                             "Up to `steps` steps, of every lane until it fails.  The report "
+                             "sums the iterations.",
+                             {{.name = "steps", .count = "long long"}});
     add(routine, Declare{kReport, {"total"}});
     const Place increment{"total", "increment"};
     Body body =

@@ -171,12 +171,9 @@ class PropagatorBuilder : public PropagatorParts {
 
   // Without a look at every step.
   Routine unchecked_advance() const {
-    Routine routine{
-        .name = "advance",
-        .remark = {"So many steps.  The report says whether the state is finite afterwards."},
-        .result = {kReport},
-        .arguments = {{.name = "steps", .count = "long long"}},
-        .of_run = true};
+    Routine routine =
+        of_run("advance", "So many steps.  The report says whether the state is finite afterwards.",
+               {{.name = "steps", .count = "long long"}});
     add(routine, Declare{kReport, {"total"}});
     const Call one{.routine = "step", .arguments = {}, .record = kReport, .of_run = true};
     add(routine, Repeat{"long long", "i", "steps", 0, body_of(one)});

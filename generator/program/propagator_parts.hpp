@@ -26,6 +26,14 @@ class PropagatorParts {
 
   static constexpr const char* kReport = "StepReport";
 
+  static Routine of_run(const std::string& name, const std::string& remark,
+                        std::vector<Argument> arguments = {}) {
+    return {.name = name,
+            .remark = {remark},
+            .result = {kReport},
+            .arguments = std::move(arguments),
+            .of_run = true};
+  }
   template <class... Node>
   static Body body_of(Node... nodes) {
     return {Instruction{std::move(nodes)}...};
@@ -111,11 +119,8 @@ class PropagatorParts {
   }
 
   [[nodiscard]] Routine empty_substep() const {
-    Routine routine{.name = "substep",
-                    .remark = {carry_ ? "Substep i from z + carry." : "Substep i."},
-                    .result = {kReport},
-                    .arguments = {{.name = "i", .count = "int"}, {"z", "State", {}, true}},
-                    .of_run = true};
+    Routine routine = of_run("substep", carry_ ? "Substep i from z + carry." : "Substep i.",
+                             {{.name = "i", .count = "int"}, {"z", "State", {}, true}});
     if (carry_) routine.arguments.push_back({"carry", "State", {}, true});
     return routine;
   }
