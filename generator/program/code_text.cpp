@@ -21,7 +21,8 @@ std::string list_of(const std::vector<Expression>& values) {
 
 std::string list_of(const std::vector<Place>& places) {
   std::vector<std::string> items;
-  for (const Place& place : places) items.push_back(to_text(place));
+  for (const Place& place : places)
+    items.push_back(place.object.empty() ? to_text(place.indices.front()) : to_text(place));
   return list_of(items);
 }
 
@@ -48,7 +49,9 @@ class Printer {
   void operator()(const Matrix& matrix) {
     line(fmt::format("matrix {}[{}][{}] = 0", matrix.name, matrix.size, matrix.size));
   }
-  void operator()(const Copy& copy) { line(fmt::format("{} <- {}", copy.to, copy.from)); }
+  void operator()(const Copy& copy) {
+    line(fmt::format("{} <- {}", copy.to, copy.from.empty() ? "new " + copy.record : copy.from));
+  }
   void operator()(const Clear& clear) { line(to_text(clear.matrix) + " <- 0"); }
   void operator()(const Put& put) {
     line(fmt::format("{}[{}][{}] += {}", to_text(put.matrix), to_text(put.row), to_text(put.column),
@@ -103,8 +106,9 @@ class Printer {
     line(fmt::format("{} <- {} > 0", to_text(ask.flag), to_text(ask.count)));
   }
   void operator()(const Forget& forget) {
-    line(fmt::format("{}{} <- new {}", forget.each > 0 ? "each " : "", to_text(forget.what),
-                     forget.type));
+    const bool number = forget.type == "int" || forget.type == "bool";
+    line(fmt::format("{}{} <- {}", forget.each > 0 ? "each " : "", to_text(forget.what),
+                     number ? "0" : "new " + forget.type));
   }
   void operator()(const Repeat& repeat) {
     line(fmt::format("{} times:", repeat.times));
