@@ -16,6 +16,8 @@ class Interpreter {
  public:
   // parameters in the order of the record Parameters; state: 2n numbers, q then p.
   Interpreter(Program code, std::vector<Real> parameters, Real h, const std::vector<Real>& state);
+  Interpreter(const Interpreter&) = delete;  // its machines point into it
+  Interpreter& operator=(const Interpreter&) = delete;
 
   struct Report {
     bool converged = false;
