@@ -44,13 +44,13 @@ std::string CDialect::block(const std::string& name) const {
 }
 
 std::string CDialect::declaration(const std::string& record_name, const std::string& object) const {
-  const std::string type = record_name == "StepReport" ? block(record_name) : record(record_name);
-  return fmt::format("{} {} = {{0}};", type, object);
+  return fmt::format("{} {} = {{0}};", record(record_name), object);
 }
 
 std::string CDialect::argument(const Argument& argument, const std::string& name,
                                const std::string& sizes) const {
   const std::string constant = argument.changes ? "" : "const ";
+  if (!argument.count.empty()) return argument.count + " " + name;
   if (argument.sizes.empty() && argument.record.empty()) return real() + " " + name;
   if (argument.decays) return fmt::format("{}{}* {}", constant, real(), name);
   if (argument.sizes.empty()) {
@@ -62,19 +62,40 @@ std::string CDialect::argument(const Argument& argument, const std::string& name
 std::string CDialect::head(const Routine& routine,
                            const std::vector<std::string>& arguments) const {
   const std::string& result = routine.result.type;
-  const std::string type = result.empty()           ? "void"
-                           : result == "Real"       ? real()
-                           : result == "StepReport" ? block(result)
-                           : result == "bool"       ? result
-                                                    : record(result);
-  return fmt::format("static inline {} {}({})", type, named(routine.name),
-                     joined_texts(arguments, ", "));
+  const std::string type = result.empty()     ? "void"
+                           : result == "Real" ? real()
+                           : result == "bool" ? result
+                                              : record(result);
+  const std::string list = joined_texts(arguments, ", ");
+  if (!routine.of_run)
+    return fmt::format("static inline {} {}({})", type, named(routine.name), list);
+  return fmt::format("static inline {0} {1}_{2}({1}* self{3}{4})", type, named("Propagator"),
+                     routine.name, list.empty() ? "" : ", ", list);
 }
 
 std::string CDialect::call(const std::string& type, const std::string& object,
                            const std::string& action, const std::string& arguments) const {
+  // The type of a History is the method's, and so is what it does.
+  if (type == "History")
+    return fmt::format("{}(&{}, {})", named("History_" + action), object, arguments);
+  if (action == "watch") {
+    const std::size_t comma = arguments.find(',');
+    return fmt::format("{}(&{}, &{}{})", named("History_watch"), arguments.substr(0, comma), object,
+                       arguments.substr(comma));
+  }
   return fmt::format("{}(&{}{}{})", block(type + "_" + (action.empty() ? "check" : action)), object,
                      arguments.empty() ? "" : ", ", arguments);
+}
+
+std::string CDialect::call_of_run(const std::string& routine_name,
+                                  const std::string& arguments) const {
+  return fmt::format("{}_{}(self{}{})", named("Propagator"), routine_name,
+                     arguments.empty() ? "" : ", ", arguments);
+}
+
+std::pair<std::string, std::string> CDialect::for_each(const std::string& name, const std::string&,
+                                                       int count) const {
+  return {fmt::format("for (int j = 0; j < {}; ++j)", count), kept(name) + "[j]"};
 }
 
 std::string CDialect::verdict(const std::string& name) const { return block(name); }

@@ -18,12 +18,15 @@ class CDialect : public Dialect {
     return "(" + real() + ")(" + integer + ")";
   }
   [[nodiscard]] std::string function(const std::string& name) const override;
-  [[nodiscard]] std::string record(const std::string& name) const override { return named(name); }
+  [[nodiscard]] std::string record(const std::string& name) const override {
+    return name == "StepReport" ? block(name) : named(name);
+  }
   [[nodiscard]] std::string routine(const std::string& name) const override { return named(name); }
   [[nodiscard]] std::string block(const std::string& name) const override;
   [[nodiscard]] std::string constant(const std::string& name) const override { return block(name); }
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
-    return "(" + record(name) + "){0}";
+    // Its rules do not begin with zeros.
+    return name == "Start" ? named("start") + "()" : "(" + record(name) + "){0}";
   }
   [[nodiscard]] std::string empty_array() const override { return "{0}"; }
   [[nodiscard]] std::string declaration(const std::string& record_name,
@@ -36,6 +39,18 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string call(const std::string& type, const std::string& object,
                                  const std::string& action,
                                  const std::string& arguments) const override;
+  [[nodiscard]] std::string kept(const std::string& name) const override { return "self->" + name; }
+  [[nodiscard]] std::string call_of_run(const std::string& routine_name,
+                                        const std::string& arguments) const override;
+  [[nodiscard]] std::string unused(const std::string& value) const override {
+    return "(void)" + value;
+  }
+  [[nodiscard]] std::pair<std::string, std::string> for_each(const std::string& name,
+                                                             const std::string& type,
+                                                             int count) const override;
+  [[nodiscard]] std::string forget(const std::string& history) const override {
+    return named("History_forget") + "(&" + history + ")";
+  }
   [[nodiscard]] std::string verdict(const std::string& name) const override;
 
   // Of the system where all methods have it, else of the method.

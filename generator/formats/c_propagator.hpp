@@ -7,6 +7,6 @@
 namespace hamgen {
 
 void write_c_record(CodeWriter& out, const Record& record, const CDialect& dialect);
-void write_c_propagator(CodeWriter& out, const EmitContext& context, const CDialect& dialect);
+void write_c_propagator(CodeWriter& out, EmitContext& context, const CDialect& dialect);
 
 }  // namespace hamgen

@@ -22,6 +22,7 @@ std::string CppDialect::argument(const Argument& argument, const std::string& na
                                  const std::string& sizes) const {
   const std::string constant = argument.changes ? "" : "const ";
   const std::string named = name.empty() ? "" : " " + name;
+  if (!argument.count.empty()) return argument.count + named;
   if (argument.sizes.empty() && argument.record.empty()) return "Real" + named;
   if (argument.decays) return constant + "Real*" + named;
   if (argument.sizes.empty()) return constant + argument.record + "&" + named;
@@ -32,13 +33,26 @@ std::string CppDialect::argument(const Argument& argument, const std::string& na
 std::string CppDialect::head(const Routine& routine,
                              const std::vector<std::string>& arguments) const {
   const std::string type = routine.result.type.empty() ? "void" : routine.result.type;
+  const std::string list = joined_texts(arguments, ", ");
+  if (routine.of_run) return fmt::format("{} {}({})", type, routine.name, list);
   return fmt::format("{}inline {} {}({})", type == "StepReport" ? "[[nodiscard]] " : "", type,
-                     routine.name, joined_texts(arguments, ", "));
+                     routine.name, list);
 }
 
 std::string CppDialect::call(const std::string&, const std::string& object,
                              const std::string& action, const std::string& arguments) const {
   return fmt::format("{}{}{}({})", object, action.empty() ? "" : ".", action, arguments);
+}
+
+std::string CppDialect::kept(const std::string& name) const {
+  const std::size_t bracket = std::min(name.find('['), name.size());
+  return name.substr(0, bracket) + "_" + name.substr(bracket);
+}
+
+std::pair<std::string, std::string> CppDialect::for_each(const std::string& name,
+                                                         const std::string& type, int) const {
+  return {fmt::format("for ({}& {} : {})", type == "History" ? "auto" : "Start", name, kept(name)),
+          name};
 }
 
 }  // namespace hamgen

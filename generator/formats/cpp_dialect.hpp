@@ -37,6 +37,20 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string call(const std::string& type, const std::string& object,
                                  const std::string& action,
                                  const std::string& arguments) const override;
+  [[nodiscard]] std::string kept(const std::string& name) const override;
+  [[nodiscard]] std::string call_of_run(const std::string& routine_name,
+                                        const std::string& arguments) const override {
+    return routine_name + "(" + arguments + ")";
+  }
+  [[nodiscard]] std::string unused(const std::string& value) const override {
+    return "static_cast<void>(" + value + ")";
+  }
+  [[nodiscard]] std::pair<std::string, std::string> for_each(const std::string& name,
+                                                             const std::string& type,
+                                                             int count) const override;
+  [[nodiscard]] std::string forget(const std::string& history) const override {
+    return "forget(" + history + ")";
+  }
   [[nodiscard]] std::string verdict(const std::string& name) const override {
     return "Verdict::" + name;
   }

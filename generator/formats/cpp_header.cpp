@@ -17,9 +17,9 @@
 #include "generator/formats/cpp_step.hpp"
 #include "generator/formats/emit_context.hpp"
 #include "generator/formats/lanes_dialect.hpp"
-#include "generator/formats/lanes_step.hpp"
 #include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
+#include "generator/formats/use_lanes.hpp"
 #include "generator/program/records.hpp"
 
 namespace hamgen {
@@ -111,7 +111,7 @@ std::string method_text(EmitContext& context) {
   CodeWriter steps;
   write_modified_energies(steps, context);
   write_solver(steps, context);
-  context.options.lanes > 0 ? write_lane_steps(steps, context) : write_steps(steps, context);
+  write_steps(steps, context);
   write_events(steps, context);
   if (context.options.tangent) context.write_with_callees(steps, "tangent");
   CodeWriter out;

@@ -12,6 +12,6 @@ void write_record(CodeWriter& out, const Record& record, const ScalarType& scala
 // prepare, the records solve works with, and solve.
 void write_solver(CodeWriter& out, EmitContext& context);
 // step(par, h, z) and the class Propagator.
-void write_steps(CodeWriter& out, const EmitContext& context);
+void write_steps(CodeWriter& out, EmitContext& context);
 
 }  // namespace hamgen

@@ -28,7 +28,7 @@ class LanesDialect : public CppDialect {
   // every machine.
   [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
                                      const std::string& sizes) const override {
-    const bool number = argument.sizes.empty() && argument.record.empty();
+    const bool number = argument.sizes.empty() && argument.record.empty() && argument.count.empty();
     if (!number) return CppDialect::argument(argument, name, sizes);
     return name.empty() ? "const Real&" : "const Real& " + name;
   }

@@ -8,6 +8,15 @@
 
 namespace hamgen {
 
+namespace {
+
+bool returns_report(const Instruction& instruction) {
+  const auto* end = std::get_if<Return>(&instruction.value);
+  return end != nullptr && !end->report.empty();
+}
+
+}  // namespace
+
 std::string joined_texts(const std::vector<std::string>& items, const char* separator) {
   std::string text;
   for (const std::string& item : items) text += (text.empty() ? "" : separator) + item;
@@ -68,6 +77,8 @@ std::string RoutinePrinter::value_of(const std::string& object_name) const {
 }
 
 std::string RoutinePrinter::object(const std::string& name) const {
+  if (name.starts_with("self.")) return dialect_.kept(name.substr(5));
+  if (name.starts_with("new ")) return dialect_.empty_record(name.substr(4));
   const auto other = objects_.find(name);
   return other == objects_.end() ? name : other->second;
 }
@@ -76,7 +87,8 @@ void RoutinePrinter::print() {
   for (const std::string& line : routine_.remark) out_.remark("// ", line);
   out_.open(signature());
   for (const Argument& argument : routine_.arguments) {
-    if (!dialect_.has_references() && !uses_object(routine_, argument.name)) {
+    const bool used = !argument.count.empty() || uses_object(routine_, argument.name);
+    if (!dialect_.has_references() && !used) {
       out_.line("(void)" + object(argument.name) + ";");
     }
   }
@@ -115,7 +127,8 @@ void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
       (std::holds_alternative<Assign>(body[0].value) ||
        std::holds_alternative<Accumulate>(body[0].value) ||
        std::holds_alternative<Put>(body[0].value) || std::holds_alternative<Call>(body[0].value) ||
-       std::holds_alternative<Factorise>(body[0].value));
+       std::holds_alternative<Use>(body[0].value) || std::holds_alternative<Break>(body[0].value) ||
+       returns_report(body[0]) || std::holds_alternative<Factorise>(body[0].value));
   if (simple) {
     CodeWriter line;
     std::swap(line, out_);
@@ -193,16 +206,10 @@ void RoutinePrinter::operator()(const Scope& scope) {
   out_.close();
 }
 void RoutinePrinter::operator()(const If& branch) {
-  print_inside(fmt::format("if ({}{})", branch.set ? "" : "!", text(branch.flag)), branch.then);
-}
-void RoutinePrinter::operator()(const Call& call) {
-  if (call.must_succeed) {
-    const char* success = call.record == "StepReport" ? ".converged" : "";
-    return out_.line(fmt::format("if (!{}{}) {}", call_text(call), success, failure()));
-  }
-  if (call.object.empty()) return out_.line(call_text(call) + ";");
-  out_.line(
-      fmt::format("const {} {} = {};", dialect_.record(call.record), call.object, call_text(call)));
+  const std::string flag = branch.any ? "any(" + text(branch.flag) + ")" : text(branch.flag);
+  print_inside(fmt::format("if ({}{}{})", branch.set ? "" : "!", flag,
+                           branch.also ? " && " + text(*branch.also) : ""),
+               branch.then);
 }
 void RoutinePrinter::operator()(const Alternate& alternate) {
   const std::string patience = text(alternate.patience);
@@ -238,6 +245,7 @@ void RoutinePrinter::operator()(const Invert& invert) {
 }
 void RoutinePrinter::operator()(const Return& end) {
   if (end.value) return out_.line("return " + cpp_(*end.value) + ";");
+  if (!end.report.empty()) return out_.line("return " + end.report + ";");
   if (!end.finite.empty()) length_of(end);
   const std::string success = end.finite.empty()
                                   ? fmt::format("{}", end.success)
@@ -276,12 +284,6 @@ void RoutinePrinter::length_of(const Return& end) {
 
 std::string RoutinePrinter::failure() const {
   return routine_.result.type == "StepReport" ? "return report;" : "return false;";
-}
-
-std::string RoutinePrinter::call_text(const Call& call) const {
-  std::vector<std::string> arguments;
-  for (const Place& place : call.arguments) arguments.push_back(given(place));
-  return fmt::format("{}({})", dialect_.routine(call.routine), joined_texts(arguments, ", "));
 }
 
 std::string RoutinePrinter::count_text(long count) const {
@@ -330,13 +332,15 @@ std::string RoutinePrinter::text(const AffineIndex& a) const {
 
 std::string RoutinePrinter::text(const Place& place) const {
   if (place.object.empty()) return dialect_.number(text(place.indices.front()));
+  if (place.object == "self") return dialect_.kept(place.field);
   std::string result = place.field.empty() ? object(place.object) : of(place.object) + place.field;
   for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
   return result;
 }
 
 std::string RoutinePrinter::given(const Place& place) const {
-  const bool record = place.field.empty() && records_.contains(place.object);
+  const bool record =
+      place.field.empty() && (records_.contains(place.object) || place.object.starts_with("self."));
   if (record && !dialect_.has_references()) return "&" + object(place.object);
   if (place.indices.empty()) return text(place);
   const AffineIndex& index = place.indices.front();
@@ -346,7 +350,8 @@ std::string RoutinePrinter::given(const Place& place) const {
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {
   // C wants a name for every argument.
-  const bool named = !dialect_.has_references() || uses_object(routine_, argument.name);
+  const bool named =
+      !dialect_.has_references() || !argument.count.empty() || uses_object(routine_, argument.name);
   const std::string name = named ? object(argument.name) : "";
   std::string sizes;
   for (const int size : argument.sizes) sizes += "[" + count_text(size) + "]";
@@ -366,6 +371,11 @@ void RoutinePrinter::reserve_arrays(const Body& body) {
     if (const auto* copy = std::get_if<Copy>(&node.value)) {
       names_.reserve(copy->to);
       if (copy->declares) records_.insert(copy->to);
+    }
+    if (const auto* declare = std::get_if<Declare>(&node.value))
+      records_.insert(declare->objects.begin(), declare->objects.end());
+    if (const auto* call = std::get_if<Call>(&node.value)) {
+      if (!call->object.empty() && call->record != "StepReport") records_.insert(call->object);
     }
     if (const auto* call = std::get_if<Call>(&node.value)) names_.reserve(call->object);
     if (const auto* loop = std::get_if<For>(&node.value)) names_.reserve(loop->range.index);

@@ -42,6 +42,15 @@ class RoutinePrinter {
   void operator()(const Refine& refine);
   void operator()(const RefineArray& refine);
   void operator()(const Sweep& sweep);
+  void operator()(const Use& use);
+  void operator()(const Declare& declare);
+  void operator()(const Note& note);
+  void operator()(const Count& count);
+  void operator()(const Ask& ask);
+  void operator()(const Forget& forget);
+  void operator()(const Repeat& repeat);
+  void operator()(const Break& leave);
+  void operator()(const RequireFinite& finite);
   void operator()(const Return& end);
 
  private:

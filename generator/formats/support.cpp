@@ -72,7 +72,8 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"collected_sum", "collect"},
     {"lane_product_error", "product_error"},
     {"lane_step",
-     "StepReport end_iteration require_finite stop_failed add_substep take_lanes move_lanes"},
+     "StepReport end_iteration require_finite stop_failed run_lanes astray_lanes add_substep "
+     "take_lanes move_lanes"},
     {"lane_dense_matrix", "DenseMatrix"},
     {"lane_newton_rule", "NewtonRule"},
     {"lane_history", "History forget"},

@@ -1,11 +1,12 @@
 // What there is in lanes, and what is refused.
+#include "generator/formats/use_lanes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <variant>
 
 #include "generator/base/diagnostic.hpp"
-#include "generator/formats/lanes_step.hpp"
 
 namespace hamgen {
 

@@ -16,6 +16,8 @@ class Interpreter {
  public:
   // parameters in the order of the record Parameters; state: 2n numbers, q then p.
   Interpreter(Program code, std::vector<Real> parameters, Real h, const std::vector<Real>& state);
+  Interpreter(const Interpreter&) = delete;  // its machines point into it
+  Interpreter& operator=(const Interpreter&) = delete;
 
   struct Report {
     bool converged = false;
@@ -26,14 +28,14 @@ class Interpreter {
   Report step();
 
   // A step is all of its substeps, one after the other; of a method that is no composition one.
-  [[nodiscard]] std::size_t substeps() const { return substeps_.size(); }
-  [[nodiscard]] Real length(std::size_t substep) const { return substeps_.at(substep).h; }
+  [[nodiscard]] std::size_t substeps() const { return code_->substeps.size(); }
+  [[nodiscard]] Real length(std::size_t substep) const;
   Report substep(std::size_t i);
   // An array that a substep remembers, a field of Start; empty if there is none of this name.
   [[nodiscard]] std::vector<Real> remembered(std::size_t substep, const std::string& field) const;
 
-  [[nodiscard]] const std::vector<Real>& state() const { return z_.numbers; }
-  [[nodiscard]] const std::vector<Real>& carry() const { return carry_.numbers; }
+  [[nodiscard]] const std::vector<Real>& state() const { return kept("z").numbers; }
+  [[nodiscard]] const std::vector<Real>& carry() const { return kept("carry").numbers; }
   // Goes on from this state, with nothing known from earlier steps.
   void reset(const std::vector<Real>& state, const std::vector<Real>& carry);
 
@@ -46,23 +48,23 @@ class Interpreter {
   void evaluate_with(const std::vector<Real>& parameters) { parameters_.numbers = parameters; }
 
  private:
-  struct Substep {
-    Real h = 0;
-    Object<Real> k;
-    Object<Real> start;
-    std::unique_ptr<AnyHistory<Real>> history;
-  };
-  Report solve(Substep& substep, Object<Real>& dz, Object<Real>& rest);
-  void forget(Substep& substep);
+  [[nodiscard]] Object<Real>& kept(const std::string& field, std::size_t substep = 0) {
+    return memory_.fields.at(field).at(substep);
+  }
+  [[nodiscard]] const Object<Real>& kept(const std::string& field) const {
+    return memory_.fields.at(field).front();
+  }
+  void forget();
+  Report run(const std::string& routine, const std::vector<Given<Real>>& arguments);
   [[nodiscard]] Given<Real> given(Object<Real>& object) const {
     return {object.numbers.data(), &object};
   }
 
   std::unique_ptr<const Program> code_;  // the machines point into it
   typename Machine<Real>::Others machines_;
-  Object<Real> parameters_, z_, carry_;
+  Object<Real> parameters_;
   Real h_ = 0;
-  std::vector<Substep> substeps_;
+  RunMemory<Real> memory_;
 };
 
 }  // namespace hamgen

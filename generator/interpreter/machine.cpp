@@ -1,5 +1,7 @@
 #include "generator/interpreter/machine.hpp"
 
+#include <algorithm>
+
 #include "generator/interpreter/machine_compiler.hpp"
 
 namespace hamgen {
@@ -10,6 +12,9 @@ Machine<Real>::Machine(const Routine& routine, const Program& code, const Others
   steps_ = compiler->compile();
   compiler_ = compiler;
   for (std::size_t i = 1 + state_.arguments.size(); i < state_.shapes.size(); ++i) {
+    const bool kept =
+        std::ranges::any_of(state_.kept, [&](const auto& of_run) { return of_run.index == i; });
+    if (kept) continue;
     state_.own[i] = std::make_unique<Object<Real>>();
     if (state_.shapes[i].record != nullptr)
       *state_.own[i] = make_object<Real>(*state_.shapes[i].record, code);
@@ -35,6 +40,12 @@ MachineReport<Real> Machine<Real>::run(const std::vector<Given<Real>>& arguments
     state_.objects[1 + i] = arguments[i].object;
     state_.frame.objects[1 + i] = arguments[i].numbers;
     if (arguments[i].matrix != nullptr) state_.matrices[state_.arguments[i]] = arguments[i].matrix;
+  }
+  for (const auto& kept : state_.kept) {
+    Object<Real>& object =
+        state_.memory->fields.at(kept.field).at(kept.of_substep ? state_.memory->substep : 0);
+    state_.objects[kept.index] = &object;
+    state_.frame.objects[kept.index] = object.numbers.data();
   }
   state_.report = {};
   state_.iteration = 0;

@@ -49,6 +49,13 @@ struct MachineState {
   MachineReport<Real> report;
   long long iteration = 0;  // of the iteration that is going on
   std::vector<std::string> arguments;
+  struct Kept {  // an object that is a field of the run's memory
+    std::size_t index = 0;
+    std::string field;
+    bool of_substep = false;
+  };
+  std::vector<Kept> kept;
+  RunMemory<Real>* memory = nullptr;
 };
 
 template <class Real>
@@ -61,6 +68,8 @@ class Machine {
   Machine& operator=(const Machine&) = delete;
   ~Machine();
 
+  // For a routine that is given what a run keeps.
+  void remember(RunMemory<Real>& memory) { state_.memory = &memory; }
   // In the order of its arguments.
   MachineReport<Real> run(const std::vector<Given<Real>>& arguments);
   // The record that the last run filled in, of a routine that returns one.

@@ -79,6 +79,17 @@ class MachineAddresses {
     m_.object_index[name] = static_cast<int>(m_.shapes.size());
     m_.shapes.push_back({record, sizes});
   }
+  // The records that a run keeps are "self.z", "self.start[i]", its numbers fields of "self".
+  void declare_memory() {
+    const auto keep = [&](const std::string& name, const Field& field, bool of_substep) {
+      m_.kept.push_back({m_.shapes.size(), field.name, of_substep});
+      declare(name, code_.record(field.type), {});
+    };
+    for (const Field& field : code_.record("Propagator")->fields) {
+      keep("self." + field.name, field, false);
+      if (!field.sizes.empty()) keep("self." + field.name + "[i]", field, true);
+    }
+  }
   void declare_all(const Body& body) {
     for (const Instruction& instruction : body) {
       if (const auto* array = std::get_if<Array>(&instruction.value)) {
@@ -90,8 +101,14 @@ class MachineAddresses {
       }
       const auto* copy = std::get_if<Copy>(&instruction.value);
       if (copy != nullptr && copy->declares) declare(copy->to, code_.record(copy->record), {});
+      if (const auto* locals = std::get_if<Declare>(&instruction.value)) {
+        for (const std::string& name : locals->objects)
+          declare(name, code_.record(locals->record), {});
+      }
+      if (const auto* note = std::get_if<Note>(&instruction.value))
+        declare(note->name, nullptr, {});
       const auto* call = std::get_if<Call>(&instruction.value);
-      if (call != nullptr && !call->object.empty()) {
+      if (call != nullptr && !call->object.empty() && !call->again) {
         declare(call->object, code_.record(call->record), {});
       }
       for (const Body* inner : inner_bodies(instruction)) declare_all(*inner);
@@ -138,6 +155,7 @@ class MachineAddresses {
       index.object = kIndex;
       return index;
     }
+    if (place.object == "self") return address(Place{"self." + place.field});
     if (!m_.object_index.contains(place.object)) return address(place.object);  // a local
     Address result{index_of(place.object), 0, {}};
     const auto& shape = m_.shapes[static_cast<std::size_t>(result.object)];

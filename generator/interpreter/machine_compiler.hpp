@@ -1,13 +1,13 @@
 // Makes the steps of a machine from the instructions of its routine.
 #pragma once
 
-#include "generator/interpreter/machine_iterations.hpp"
+#include "generator/interpreter/machine_memory.hpp"
 
 namespace hamgen {
 
 template <class Real>
-class MachineCompiler : public MachineIterations<Real> {
-  using Base = MachineIterations<Real>;
+class MachineCompiler : public MachineMemory<Real> {
+  using Base = MachineMemory<Real>;
   using Base::address;
   using Base::code_;
   using Base::compiled;
@@ -54,9 +54,11 @@ class MachineCompiler : public MachineIterations<Real> {
               argument.sizes);
     }
     for (const Argument& argument : routine_.arguments) m_.arguments.push_back(argument.name);
+    if (routine_.of_run) this->declare_memory();
     declare_all(routine_.body);
-    if (const Record* result = code_.record(routine_.result.type)) {
-      declare(routine_.result.object, result, {});
+    const Record* returned = code_.record(routine_.result.type);
+    if (returned != nullptr && !routine_.result.object.empty()) {
+      declare(routine_.result.object, returned, {});
     }
     m_.objects.resize(m_.shapes.size());
     m_.frame.objects.resize(m_.shapes.size());
@@ -113,8 +115,7 @@ class MachineCompiler : public MachineIterations<Real> {
     if (copy.from.empty()) {
       const Record* record = code_.record(copy.record);
       return [this, to, record] {
-        object(to) = make_object<Real>(*record, code_);
-        m_.frame.objects[static_cast<std::size_t>(to)] = object(to).numbers.data();
+        this->begin_anew(to, *record);
         return true;
       };
     }
@@ -163,8 +164,11 @@ class MachineCompiler : public MachineIterations<Real> {
     return [this, body = steps(scope.body)] { return run_all(body); };
   }
   Step operator()(const If& branch) {
-    return [this, branch, target = index_of(branch.flag.object), body = steps(branch.then)] {
-      return (object(target).flags.at(branch.flag.field) != 0) != branch.set || run_all(body);
+    const int also = branch.also ? index_of(branch.also->object) : 0;
+    return [this, branch, target = index_of(branch.flag.object), also, body = steps(branch.then)] {
+      if ((object(target).flags.at(branch.flag.field) != 0) != branch.set) return true;
+      if (also > 0 && object(also).flags.at(branch.also->field) == 0) return true;
+      return run_all(body);
     };
   }
   Step operator()(const Call& call) {
@@ -352,7 +356,26 @@ class MachineCompiler : public MachineIterations<Real> {
       return true;
     };
   }
+  using Base::operator();
+  Step operator()(const Repeat& repeat) {
+    return [this, count = static_cast<std::size_t>(repeat.count), body = steps(repeat.body)] {
+      for (std::size_t i = 0; i < count; ++i) {
+        m_.memory->substep = i;
+        if (!run_all(body)) return false;
+      }
+      return true;
+    };
+  }
   Step operator()(const Return& end) {
+    if (!end.report.empty()) {
+      return [this, from = index_of(end.report)] {
+        const Object<Real>& report = object(from);
+        m_.report.converged = report.flags.at("converged") != 0;
+        m_.report.iterations = report.flags.at("iterations");
+        m_.report.increment = report.numbers.at(0);
+        return false;
+      };
+    }
     if (end.value) {
       return [this, value = compiled(*end.value)] {
         m_.report.value = value(m_.frame);
@@ -402,8 +425,8 @@ class MachineCompiler : public MachineIterations<Real> {
       }
       slots.push_back(std::move(slot));
     }
-    const int result =
-        call.object.empty() || call.record == "StepReport" ? 0 : index_of(call.object);
+    const bool kept = !call.object.empty() && (routine_.of_run || call.record != "StepReport");
+    const int result = kept ? index_of(call.object) : 0;
     return [this, other, slots, reports, result] {
       std::vector<Given<Real>> given;
       for (const Slot& slot : slots) {
@@ -417,6 +440,10 @@ class MachineCompiler : public MachineIterations<Real> {
         }
       }
       const MachineReport<Real> report = other->run(given);
+      if (routine_.of_run) {
+        this->keep_report(result, report);
+        return report;
+      }
       if (reports) m_.report.iterations += report.iterations;
       if (reports) m_.report.increment = report.increment;
       if (result > 0) {

@@ -22,6 +22,14 @@ struct Object {
   std::map<std::string, std::unique_ptr<AnySimplifiedNewtonRule<Real>>> simplified;
   std::map<std::string, std::unique_ptr<AnyRefinement<Real>>> refinements;
   std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices;
+  std::unique_ptr<AnyHistory<Real>> history;
+};
+// What a run keeps from step to step, by the names of the Propagator's fields: of some one for each
+// substep.
+template <class Real>
+struct RunMemory {
+  std::map<std::string, std::vector<Object<Real>>> fields;
+  std::size_t substep = 0;  // that is going on
 };
 // With the values its fields begin with.  A field "Matrix" has the size of the code's.
 template <class Real>

@@ -25,6 +25,15 @@ inline void stop_failed(Mask& running, StepReport& report) {
   running = running & report.converged;
   report.converged = running;
 }
+// Only these lanes have a part in what the rule stops.
+template <class Rule>
+inline void run_lanes(Rule& rule, const Mask& lanes) {
+  rule.stopped = !lanes;
+}
+// Lanes that have failed from what was known of earlier steps.
+inline Mask astray_lanes(const Mask& running, const Mask& known, const StepReport& report) {
+  return running & known & !report.converged;
+}
 // Of a lane a substep counts if those before it have succeeded.
 inline void add_substep(StepReport& total, const StepReport& report) {
   const Mask lanes = total.converged;
@@ -62,4 +71,8 @@ inline void move_lanes(const Mask& lanes, Real& value, Real& carry, const Real& 
   two_sum(moved, lost, increment);
   value = select(lanes, moved, value);
   carry = select(lanes, lost, carry);
+}
+// Where sums are plain.
+inline void move_lanes(const Mask& lanes, Real& value, const Real& increment) {
+  value = select(lanes, value + increment, value);
 }

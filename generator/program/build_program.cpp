@@ -13,6 +13,7 @@
 #include "generator/program/names.hpp"
 #include "generator/program/origins.hpp"
 #include "generator/program/plain_sums.hpp"
+#include "generator/program/propagator.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
@@ -346,7 +347,10 @@ std::string routines_as_text(const Program& code, const Text& text_of) {
 }  // namespace
 
 std::string to_text(const Program& code) {
-  return routines_as_text(code, [](const Routine& routine) { return to_text(routine); });
+  std::string text =
+      routines_as_text(code, [](const Routine& routine) { return to_text(routine); });
+  for (const Routine& routine : propagator_of(code).routines) text += to_text(routine);
+  return text;
 }
 
 std::string text_with_origins(const Program& code, const std::vector<EnergyTerm>& terms) {

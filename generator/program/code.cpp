@@ -56,6 +56,7 @@ struct Reader {
   void operator()(const Scope& scope) const { mention(scope.body, found); }
   void operator()(const If& branch) const {
     found.objects.insert(branch.flag.object);
+    if (branch.also) found.objects.insert(branch.also->object);
     mention(branch.then, found);
   }
   void operator()(const Call& call) const {
@@ -98,6 +99,27 @@ struct Reader {
   void operator()(const Sweep& sweep) const {
     mention(sweep.unknowns, found);
     mention(sweep.body, found);
+  }
+  void operator()(const Use& use) const {
+    for (const Place& place : use.arguments) found.objects.insert(place.object);
+  }
+  void operator()(const Declare&) const {}
+  void operator()(const Note& note) const { found.objects.insert(note.from.object); }
+  void operator()(const Count& count) const {
+    found.objects.insert(count.count.object);
+    if (count.by) found.objects.insert(count.by->object);
+  }
+  void operator()(const Ask& ask) const {
+    found.objects.insert({ask.flag.object, ask.count.object});
+  }
+  void operator()(const Forget& forget) const { found.objects.insert(forget.what.object); }
+  void operator()(const Repeat& repeat) const {
+    found.objects.insert(repeat.times);
+    mention(repeat.body, found);
+  }
+  void operator()(const Break&) const {}
+  void operator()(const RequireFinite& finite) const {
+    for (const Place& place : finite.numbers) found.objects.insert(place.object);
   }
   void operator()(const Return& end) const {
     if (end.value) mention(*end.value, found);
@@ -154,6 +176,7 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* refine = std::get_if<RefineArray>(&instruction.value)) return {&refine->body};
   if (const auto* two = std::get_if<Alternate>(&instruction.value)) return {&two->between};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
+  if (const auto* repeat = std::get_if<Repeat>(&instruction.value)) return {&repeat->body};
   return {};
 }
 

@@ -1,6 +1,7 @@
 // The step as a value: routines made of a dozen kinds of instructions.  Formats print them, the
 // interpreter runs them.  Whatever has an algorithm in it is no instruction but a block of
-// numerics/ that one of them calls.
+// numerics/ that one of them calls.  Routines of a run, those of a Propagator, are made of the same
+// and of some kinds that only they have.
 //
 // Values are expressions in symbols.  A symbol is a local of the routine, unless the routine says
 // at which place it stands: "z.q" in the field q of the argument z.
@@ -11,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -37,7 +39,8 @@ struct Record {
 };
 
 // An object of a routine, a field of it, or an element: z.q[i - 1], matrix[0][1].  Without object
-// the index itself is the number.
+// the index itself is the number.  What a run keeps from step to step are numbers of the object
+// "self", and records "self.start", "self.start[i]" of substep i; "new State" is one as it begins.
 struct Place {
   std::string object;
   std::string field = {};
@@ -109,11 +112,13 @@ struct For {
 struct Scope {
   Body body;
 };
-// Runs its body where the flag is set, or where it is not.
+// Runs its body where the flag is set, or where it is not; if there is another, where that is set.
 struct If {
   Place flag;
   bool set = true;
   Body then;
+  std::optional<Place> also = {};
+  bool any = false;  // of lanes: of any of them
 };
 struct Call {
   std::string routine;
@@ -121,6 +126,9 @@ struct Call {
   // The record that it returns, and the local that this one becomes.
   std::string record = {}, object = {};
   bool must_succeed = false;  // the routine ends without success where the other one does
+  bool varies = false;        // is the local changed later?
+  bool again = false;         // the local is there, and becomes what is returned
+  bool of_run = false;        // is the routine given what a run keeps?
 };
 // Calls one of two routines that may fail: the first, and where that fails the second, which then
 // serves `steps` times before the first is tried again.  Where the second fails the routine ends
@@ -211,6 +219,52 @@ struct Sweep {
   Body body;
   std::vector<std::string> results;
 };
+// What a fixed block does: two_sum(x, y, z), or history.record(values), of a place of that type.
+struct Use {
+  std::string block;
+  std::string action = {};
+  std::vector<Place> arguments;  // of an action the first is the place
+};
+// Locals of one record, each as it begins.
+struct Declare {
+  std::string record;
+  std::vector<std::string> objects;
+};
+// A local count or flag that keeps what stands at the place.
+struct Note {
+  std::string type, name;  // "long long", "wasted"
+  Place from;
+};
+// count += by, or ++count
+struct Count {
+  Place count;
+  std::optional<Place> by = {};
+};
+// flag = count > 0
+struct Ask {
+  Place flag, count;
+};
+// A place of this type becomes what it begins with; of what each substep has, all of them.
+struct Forget {
+  Place what;
+  std::string type;
+  int each = 0;  // how many there are of it, if all
+};
+// The body as often as `times` says; a constant has its value besides.
+struct Repeat {
+  std::string type, index;  // "int", "i"
+  std::string times;
+  long count = 0;
+  Body body;
+};
+// Out of the loop.
+struct Break {};
+// report.converged: are the numbers at these places finite, for all i below `count` if it is there?
+struct RequireFinite {
+  std::string report;
+  std::vector<Place> numbers;
+  int count = 0;
+};
 // A number, or success: given if the symbols have finite values, all over the ranges if there are
 // any.  The flag says afterwards whether it was.
 struct Return {
@@ -219,6 +273,7 @@ struct Return {
   std::vector<std::string> finite = {};
   std::vector<KernelRange> ranges = {};
   std::optional<Place> flag = {};
+  std::string report = {};  // a report that is there, and is returned as it is
 };
 
 // Why an instruction is there.
@@ -233,7 +288,8 @@ struct Origin {
 struct Instruction {
   std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Clear, Put, SetFlag, For,
                Scope, If, Call, Alternate, Factorise, SolveFactorised, Invert, Iterate,
-               IterateArray, Refine, RefineArray, Sweep, Return>
+               IterateArray, Refine, RefineArray, Sweep, Use, Declare, Note, Count, Ask, Forget,
+               Repeat, Break, RequireFinite, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
   Origin origin = {};
@@ -245,7 +301,8 @@ struct Argument {
   std::string record = {};
   std::vector<int> sizes = {};
   bool changes = false;
-  bool decays = false;  // an array that is given by its first element
+  bool decays = false;     // an array that is given by its first element
+  std::string count = {};  // of a number that is an integer: its type
 };
 
 // What a routine returns: nothing, a number, or a record of this name that it fills in.
@@ -262,7 +319,15 @@ struct Routine {
   std::vector<Argument> arguments = {};
   std::map<std::string, Place> places = {};  // of symbols that are no locals
   Body body = {};
+  bool of_run = false;  // is it given what a run keeps, as "self"?
 };
+
+// What only the routines of a run have, those of a Propagator.
+template <class Node>
+concept InstructionOfRun = std::is_same_v<Node, Use> || std::is_same_v<Node, Declare> ||
+    std::is_same_v<Node, Note> || std::is_same_v<Node, Count> || std::is_same_v<Node, Ask> ||
+    std::is_same_v<Node, Forget> || std::is_same_v<Node, Repeat> || std::is_same_v<Node, Break> ||
+    std::is_same_v<Node, RequireFinite>;
 
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);

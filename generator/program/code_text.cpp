@@ -19,6 +19,13 @@ std::string list_of(const std::vector<Expression>& values) {
   return text;
 }
 
+std::string list_of(const std::vector<Place>& places) {
+  std::vector<std::string> items;
+  for (const Place& place : places)
+    items.push_back(place.object.empty() ? to_text(place.indices.front()) : to_text(place));
+  return list_of(items);
+}
+
 class Printer {
  public:
   explicit Printer(std::string& text, bool origins = false) : text_(text), origins_(origins) {}
@@ -42,7 +49,9 @@ class Printer {
   void operator()(const Matrix& matrix) {
     line(fmt::format("matrix {}[{}][{}] = 0", matrix.name, matrix.size, matrix.size));
   }
-  void operator()(const Copy& copy) { line(fmt::format("{} <- {}", copy.to, copy.from)); }
+  void operator()(const Copy& copy) {
+    line(fmt::format("{} <- {}", copy.to, copy.from.empty() ? "new " + copy.record : copy.from));
+  }
   void operator()(const Clear& clear) { line(to_text(clear.matrix) + " <- 0"); }
   void operator()(const Put& put) {
     line(fmt::format("{}[{}][{}] += {}", to_text(put.matrix), to_text(put.row), to_text(put.column),
@@ -74,14 +83,40 @@ class Printer {
     inside(scope.body);
   }
   void operator()(const If& branch) {
-    line(fmt::format("if {}{}:", branch.set ? "" : "not ", to_text(branch.flag)));
+    line(fmt::format("if {}{}{}:", branch.set ? "" : "not ", to_text(branch.flag),
+                     branch.also ? " and " + to_text(*branch.also) : ""));
     inside(branch.then);
   }
   void operator()(const Call& call) {
-    std::vector<std::string> arguments;
-    for (const Place& place : call.arguments) arguments.push_back(to_text(place));
     line(fmt::format("{}{}({})", call.object.empty() ? "" : call.object + " <- ", call.routine,
-                     list_of(arguments)));
+                     list_of(call.arguments)));
+  }
+  void operator()(const Use& use) {
+    const std::string action = use.action.empty() ? "" : "." + use.action;
+    line(fmt::format("{}{}({})", use.block, action, list_of(use.arguments)));
+  }
+  void operator()(const Declare& declare) {
+    line(fmt::format("new {}: {}", declare.record, list_of(declare.objects)));
+  }
+  void operator()(const Note& note) { line(fmt::format("{} = {}", note.name, to_text(note.from))); }
+  void operator()(const Count& count) {
+    line(fmt::format("{} += {}", to_text(count.count), count.by ? to_text(*count.by) : "1"));
+  }
+  void operator()(const Ask& ask) {
+    line(fmt::format("{} <- {} > 0", to_text(ask.flag), to_text(ask.count)));
+  }
+  void operator()(const Forget& forget) {
+    const bool number = forget.type == "int" || forget.type == "bool";
+    line(fmt::format("{}{} <- {}", forget.each > 0 ? "each " : "", to_text(forget.what),
+                     number ? "0" : "new " + forget.type));
+  }
+  void operator()(const Repeat& repeat) {
+    line(fmt::format("{} times:", repeat.times));
+    inside(repeat.body);
+  }
+  void operator()(const Break&) { line("break"); }
+  void operator()(const RequireFinite& finite) {
+    line(fmt::format("{} if finite: {}", finite.report, list_of(finite.numbers)));
   }
   void operator()(const Alternate& alternate) {
     line("try:");
@@ -128,7 +163,8 @@ class Printer {
   void operator()(const Return& end) {
     std::string text = "return";
     if (end.value) text += " " + to_text(*end.value);
-    if (!end.value) text += end.success ? " success" : " failure";
+    if (!end.report.empty()) text += " " + end.report;
+    if (!end.value && end.report.empty()) text += end.success ? " success" : " failure";
     if (!end.finite.empty()) text += " if finite: " + list_of(end.finite);
     line(text);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/program/program.hpp"
 #include "generator/readback/text_scope.hpp"
 
@@ -46,6 +47,8 @@ class RoutineReader {
   void operator()(const Refine& refine);
   void operator()(const RefineArray& refine);
   void operator()(const Sweep& sweep);
+  // Read word by word: see run_words.hpp.
+  void operator()(const InstructionOfRun auto&) { internal_error("a step that keeps a history"); }
   void operator()(const Return& end);
 
  private:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "generator/base/diagnostic.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -171,6 +173,7 @@ class Outline {
     list(sweep.unknowns, sweep.body);
     for (const std::string& name : sweep.results) word("result " + local(name));
   }
+  void operator()(const InstructionOfRun auto&) { internal_error("a step that keeps a history"); }
   void operator()(const Return& end_of_routine) {
     word(fmt::format("return {}", end_of_routine.success));
     if (end_of_routine.value) word("value " + name_of_sum(*end_of_routine.value));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/verify/symbolic_machine.hpp"
 
 namespace hamgen {
@@ -211,6 +212,9 @@ struct SymbolicMachine::Run {
       frame.locals[result] = trace.results.back();
     }
     m.sweeps.push_back(std::move(trace));
+  }
+  void operator()(const InstructionOfRun auto&) const {
+    internal_error("a step that keeps a history");
   }
   void operator()(const Return& end) const {
     if (end.value) frame.result = m.evaluate(frame, *end.value);

@@ -201,7 +201,7 @@ TEST(Verify, ReadsEveryFormatThatIsThere) {
     std::string format, file, from, to;
   };
   for (const Written& written :
-       {Written{"c-header", "pendulum.h", "z->q += dz.q", ""},
+       {Written{"c-header", "pendulum.h", "self->z.q += dz.q", ""},
         Written{"cpp-plugin", "pendulum.plugin.cpp", "(state[0]);", "(state[1]);"}}) {
     const std::string made = scratch.path(written.format);
     const Result generated = hamgen({"generate", model, "--format", written.format, "--require",

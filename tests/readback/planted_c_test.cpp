@@ -25,8 +25,9 @@ TEST(PlantedFaultInC, OfTheTextIsFoundAtItsLine) {
       {"matrix transposed", "henon_heiles", in_c(), "const double R_q1_q2 = k->c1 * d_p1_d_q2",
        "const double R_q1_q2 = k->c1 * d_p2_d_q2"},
       {"update subtracted", "pendulum", in_c(), "q_bar += delta_q;", "q_bar -= delta_q;"},
-      {"dz added twice", "pendulum", in_c(), "hamgen_two_sum(&z->q, &carry->q, dz.q);",
-       "hamgen_two_sum(&z->q, &carry->q, dz.q);\n  hamgen_two_sum(&z->q, &carry->q, dz.q);"},
+      {"dz added twice", "pendulum", in_c(), "hamgen_two_sum(&self->z.q, &self->carry.q, dz.q);",
+       "hamgen_two_sum(&self->z.q, &self->carry.q, dz.q);\n"
+       "  hamgen_two_sum(&self->z.q, &self->carry.q, dz.q);"},
       {"sign of the kick", "pendulum", splitting, "-k->kick[0]", "k->kick[0]"},
       {"a number of the tableau", "pendulum", in_c({.scheme = "rk4"}), "0.5 * h * f_2[k]",
        "0.5000000000000002 * h * f_2[k]"},
@@ -52,7 +53,8 @@ TEST(PlantedFaultInC, OfAddressesAndNamesIsFound) {
   const Request single = in_c({.scalar = "float"});
   const std::vector<Fault> faults = {
       {"in double", "pendulum", single, "par->eps * sinf(q)", "par->eps * sin(q)"},
-      {"of another scalar", "pendulum", single, "hamgen_two_sumf(&z->q", "hamgen_two_sum(&z->q"},
+      {"of another scalar", "pendulum", single, "hamgen_two_sumf(&self->z.q",
+       "hamgen_two_sum(&self->z.q"},
       {"in C++", "pendulum", in_c(), "par->eps * sin(q)", "par->eps * std::sin(q)"},
       {"another literal", "pendulum", single, "0.5f * (p * p)", "0.5 * (p * p)"},
       {"another type", "pendulum", in_c(), "const double p_bar =", "const float p_bar ="},
@@ -71,7 +73,8 @@ TEST(PlantedFaultInC, OfAddressesAndNamesIsFound) {
        "pendulum_implicit_midpoint_State* z) {"},
       {"start without its rule", "pendulum", in_c(), "NewtonRule_of_power(2);",
        "NewtonRule_of_power(1);"},
-      {"carry of z", "pendulum", in_c(), "self->carry = carry;", "self->carry = z;"},
+      {"carry of z", "pendulum", in_c({.scheme = "yoshida-4"}), "self->carry = carry;",
+       "self->carry = z;"},
       {"not reset", "pendulum", in_c(), "self->carry = (pendulum_State){0};", "self->steps = 0;"},
       {"extrapolation of another degree", "pendulum", in_c(), "(double)(degree + 1) * solution[i]",
        "(double)(degree + 2) * solution[i]"},

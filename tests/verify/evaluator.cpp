@@ -275,6 +275,7 @@ class Evaluator {
       cell(name(f, refine.refinement) + ".slope" + end) = slope;
     }
   }
+  void run(Frame&, const InstructionOfRun auto&) {}  // routines of steps have none
   void run(Frame& f, const Return& end) {
     if (end.value) results_.push_back(value(f, *end.value));
     f.ended = true;

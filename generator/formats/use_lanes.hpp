@@ -1,10 +1,10 @@
-// What takes steps of W trajectories together: the class Propagator and the function step of a
-// batch.
+// Programs whose numbers are packs: W trajectories together.
 #pragma once
 
 #include <string_view>
 
-#include "generator/formats/emit_context.hpp"
+#include "generator/formats/emit_options.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -13,8 +13,5 @@ namespace hamgen {
 [[nodiscard]] Program in_lanes(Program program, const EmitOptions& options);
 // Throws UsageError if the options ask for lanes, of which `what` knows nothing.
 void refuse_lanes(const EmitOptions& options, std::string_view what);
-
-// The class Propagator and step(par, h, z).
-void write_lane_steps(CodeWriter& out, const EmitContext& context);
 
 }  // namespace hamgen

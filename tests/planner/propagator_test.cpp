@@ -1,0 +1,91 @@
+// What a run keeps from step to step, and what a step does with it.
+#include <gtest/gtest.h>
+
+#include "generator/base/source_text.hpp"
+#include "generator/pipeline.hpp"
+
+namespace hamgen {
+namespace {
+
+constexpr const char* kSwing = "system swing\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+
+// The routine of this name in what `show --stage program` prints.
+std::string shown(const std::string& routine, const Request& request = {}) {
+  const std::string text = show_stage(make_source("test.ham", kSwing), request, "program");
+  const auto begin = text.find("\n" + routine + "(");
+  if (begin == std::string::npos) return "not found in\n" + text;
+  auto end = text.find('\n', begin + 1);
+  while (end + 1 < text.size() && text[end + 1] == ' ') end = text.find('\n', end + 1);
+  return text.substr(begin + 1, end - begin);
+}
+
+TEST(Propagator, TriesAgainFromTheState) {
+  EXPECT_EQ(shown("step"), R"(step():
+  new State: dz
+  self.start.known <- self.history.known > 0
+  if self.start.known:
+    History.extrapolate(self.history, self.start.value)
+  report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz)
+  if not report.converged and self.start.known:
+    wasted = report.iterations
+    self.start <- new Start
+    report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz)
+    report.iterations += wasted
+  if not report.converged:
+    return report
+  NewtonRule.watch(self.start.rule_0, self.history, self.start.value, 0, 1)
+  History.record(self.history, self.start.value)
+  two_sum(self.z.q, self.carry.q, dz.q)
+  two_sum(self.z.p, self.carry.p, dz.p)
+  self.steps += 1
+  return report
+)");
+}
+
+TEST(Propagator, ForgetsWhatTheSubstepsOfAStepThatFailedHaveSeen) {
+  EXPECT_EQ(shown("step", {.scheme = "yoshida-4"}), R"(step():
+  z <- self.z
+  carry <- self.carry
+  new StepReport: total
+  substeps times:
+    report <- substep(i, z, carry)
+    total.iterations += report.iterations
+    total.increment <- report.increment
+    if not report.converged:
+      each self.start <- new Start
+      each self.history <- new History
+      return total
+  self.z <- z
+  self.carry <- carry
+  self.steps += 1
+  total.converged <- true
+  return total
+)");
+}
+
+TEST(Propagator, BeginsAnew) {
+  EXPECT_EQ(shown("reset", {.scheme = "yoshida-4"}), R"(reset(z):
+  self.z <- z
+  self.carry <- new State
+  self.steps <- 0
+  each self.start <- new Start
+  each self.history <- new History
+)");
+}
+
+// Of an explicit step nothing is remembered.
+TEST(Propagator, OfAnExplicitStepOnlyAddsUp) {
+  EXPECT_EQ(shown("step", {.scheme = "symplectic-euler-a", .plain_sums = true}), R"(step():
+  new State: dz
+  report <- solve(self.par, self.h, self.z, dz)
+  if not report.converged:
+    return report
+  self.z.q += dz.q
+  self.z.p += dz.p
+  self.steps += 1
+  return report
+)");
+}
+
+}  // namespace
+}  // namespace hamgen
