@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "app/output/plain_number.hpp"
 
@@ -29,6 +30,26 @@ std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method
   return rows;
 }
 
+constexpr std::size_t kMostCurves = 8;
+
+// All of a few methods; of many those that are somewhere on a front, the most often first, the
+// first of the list and baselines.
+std::vector<bool> methods_to_draw(const Bench& bench) {
+  const std::size_t count = bench.methods.size();
+  if (count <= kMostCurves) return std::vector<bool>(count, true);
+  std::vector<std::pair<int, std::size_t>> merit;  // negative: the largest first
+  for (std::size_t m = 0; m < count; ++m)
+    merit.emplace_back(bench.methods[m].is_baseline || m == 0 ? -1000 : 0, m);
+  for (const Observed observed : {Observed::energy, Observed::state}) {
+    for (const std::size_t row : pareto_front(bench.rows, observed))
+      --merit[bench.rows[row].method].first;
+  }
+  std::ranges::sort(merit);
+  std::vector<bool> drawn(count, false);
+  for (std::size_t i = 0; i < kMostCurves; ++i) drawn[merit[i].second] = merit[i].first < 0;
+  return drawn;
+}
+
 }  // namespace
 
 PlotPanel bench_panel(const Bench& bench, Observed observed) {
@@ -41,7 +62,9 @@ PlotPanel bench_panel(const Bench& bench, Observed observed) {
                   .logarithmic_y = true,
                   .series = {},
                   .floor = bench_floor(bench, observed)};
+  const std::vector<bool> drawn = methods_to_draw(bench);
   for (std::size_t m = 0; m < bench.methods.size(); ++m) {
+    if (!drawn[m]) continue;
     PlotSeries series{.label = bench.methods[m].spec, .points = {}};
     for (const BenchRow* row : rows_by_step(bench, m)) {
       const std::optional<double> error = error_of(*row, observed);

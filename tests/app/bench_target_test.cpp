@@ -7,6 +7,7 @@
 
 #include "app/bench_options.hpp"
 #include "app/output/bench_output.hpp"
+#include "app/output/bench_picture.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
 
@@ -139,6 +140,34 @@ TEST(BenchAnswer, LastsTenTimesAsLong) {
   EXPECT_NE(result.rows[0].unstable, "");
   EXPECT_EQ(result.rows[1].unstable, "");
   EXPECT_EQ(result.answers.at(0).row, 1u);
+}
+
+// A method m takes m + 1 microseconds; three have errors that fall with their time, the last is a
+// baseline, the others are slow and bad.
+TEST(BenchPicture, OfManyMethodsShowsThoseThatAreSomewhereTheQuickest) {
+  Bench bench{.observed = app::Observed::state};
+  constexpr std::size_t count = 12;
+  for (std::size_t m = 0; m < count; ++m) {
+    BenchMethod method{.spec = "method " + std::to_string(m)};
+    method.is_baseline = m + 1 == count;
+    bench.methods.push_back(std::move(method));
+    BenchRow row{.method = m, .h = Rational(1), .steps = 1, .outcome = "done"};
+    const bool wins = m == 3 || m == 5 || m == 7;
+    row.state_error = wins ? std::pow(10.0, -static_cast<double>(m)) : 1.0;
+    row.samples = {1e-6 * static_cast<double>(m + 1)};
+    bench.rows.push_back(std::move(row));
+  }
+  const auto drawn = [&bench] {
+    std::vector<std::string> labels;
+    for (const app::PlotSeries& each : app::bench_panel(bench, app::Observed::state).series)
+      labels.push_back(each.label);
+    return labels;
+  };
+  EXPECT_EQ(drawn(), (std::vector<std::string>{"method 0", "method 3", "method 5", "method 7",
+                                               "method 11"}));
+  bench.methods.resize(8);
+  bench.rows.resize(8);
+  EXPECT_EQ(drawn().size(), 8u);
 }
 
 const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
