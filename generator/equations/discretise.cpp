@@ -20,6 +20,18 @@ Substitution state_to_stage(const StepEquations& equations) {
   return replacements;
 }
 
+// For people: the derivatives of H by name.
+std::string shown(const StepEquations& equations, const Expression& e) {
+  Substitution names;
+  for (int i = 0; i < 2 * equations.mechanics.degrees_of_freedom; ++i) {
+    const Expression slope = equations.gradient_symbol(i);
+    if (!slope.is_zero())
+      names.emplace(slope.name(),
+                    Expression::symbol("dH/d" + name_of(equations, i), kRankOfTemporary + i));
+  }
+  return to_text(substitute(e, names));
+}
+
 // Exact where that is short, else to 20 digits.
 std::string coefficient_text(const Expression& e) {
   const std::string exact = to_text(e);
@@ -170,13 +182,14 @@ std::string to_text(const StepEquations& equations) {
   if (equations.mechanics.keeps_sums()) {
     return text + fmt::format(
                       "for every degree of freedom i = 1..{}:\n"
-                      "  bar(q_i) = q_i + h*alpha*H(p_i) + h*gamma*H(q_i)\n"
-                      "  bar(p_i) = p_i - h*(1 - alpha)*H(q_i) - h*beta*H(p_i)\n"
-                      "  new q_i = q_i + h*H(p_i), new p_i = p_i - h*H(q_i)\n",
+                      "  bar(q_i) = q_i + h*alpha*dH/dp_i + h*gamma*dH/dq_i\n"
+                      "  bar(p_i) = p_i - h*(1 - alpha)*dH/dq_i - h*beta*dH/dp_i\n"
+                      "  new q_i = q_i + h*dH/dp_i, new p_i = p_i - h*dH/dq_i\n",
                       n);
   }
   for (int i = 0; i < 2 * n; ++i) {
-    text += fmt::format("{} = {}\n", to_text(equations.stage(i)), to_text(equations.row(i)));
+    text +=
+        fmt::format("{} = {}\n", to_text(equations.stage(i)), shown(equations, equations.row(i)));
   }
   if (equations.function) text += to_text(*equations.function);
   // Written out, a graph with shared subexpressions may be far longer than its operations.
@@ -185,11 +198,13 @@ std::string to_text(const StepEquations& equations) {
   for (int i = 0; readable && i < 2 * n; ++i) {
     const Expression symbol = equations.gradient_symbol(i);
     if (symbol.is_zero()) continue;
-    text += fmt::format("{} = {}\n", to_text(symbol), to_text(equations.stage_gradient(i)));
+    text +=
+        fmt::format("{} = {}\n", shown(equations, symbol), to_text(equations.stage_gradient(i)));
   }
   for (int i = 0; i < 2 * n; ++i) {
-    text += fmt::format("new {} = {} + ({})\n", name_of(equations, i), name_of(equations, i),
-                        to_text(equations.increment(i)));
+    const std::string& name = name_of(equations, i);
+    const Expression now = Expression::symbol(name, kRankOfVariable + i);
+    text += fmt::format("new {} = {}\n", name, shown(equations, now + equations.increment(i)));
   }
   return text;
 }

@@ -11,6 +11,11 @@
 namespace hamgen {
 namespace {
 
+// Functions of other languages whose derivatives jump.
+constexpr std::string_view kJumping[] = {"min",       "max",       "sign",  "sgn",
+                                         "floor",     "ceil",      "round", "step",
+                                         "heaviside", "piecewise", "mod",   "clamp"};
+
 using enum SymbolKind;
 
 class NameCheck {
@@ -120,7 +125,10 @@ class NameCheck {
     if (name == "ln") help = "did you mean 'log', the natural logarithm?";
     if (name == "pow") help = "write a power as q^2";
     const std::string near = nearest(name, names);
-    if (!near.empty() && name.size() > 1 && name != "ln") {
+    const bool jumps = std::ranges::find(kJumping, name) != std::end(kJumping);
+    if (jumps) {
+      help = "H needs two derivatives: a smooth step, say, is tanh(q/width)";
+    } else if (!near.empty() && name.size() > 1 && name != "ln") {
       help = fmt::format("did you mean '{}'?", near);
     }
     fail(span, fmt::format("unknown function '{}'", name), help);

@@ -340,7 +340,8 @@ void ExpressionParser::expect_operator_or_end() {
   }
   reject_non_operator();
   fail(token.span, fmt::format("expected an operator or the end of the line, {}", describe(token)),
-       "the terms of an expression are joined by + - * / ^");
+       is_symbol(token, ",") ? "one formula a line: what follows begins a line of its own"
+                             : "the terms of an expression are joined by + - * / ^");
 }
 
 // What can never go on an expression, wherever it stands.

@@ -317,7 +317,11 @@ std::string to_text(const SolvePlan& plan) {
   } else if (plan.sweeps) {
     text += "predict Z by explicit Euler; sweep all stage values together\n";
   } else {
-    for (const Block& block : plan.blocks) text += describe(plan.equations, block) + "\n";
+    for (const Block& block : plan.blocks) {
+      const std::string line = describe(plan.equations, block);
+      const bool is_said = plan.blocks.size() == 1 && plan.solver.ends_with(line);
+      if (!is_said) text += line + "\n";
+    }
   }
   if (plan.equations.function) text += to_text(*plan.equations.function);
   text += "left out:\n";

@@ -40,14 +40,14 @@ TEST(GaugeBlocks, TheStageEquationsHaveTheEntriesOfTheMatrices) {
                         .gamma = "[[0, -h], [-h, 0]]"};
   const std::string equations = show_stage(two(), request, "equations");
   // zbar = z + h (I/2 + C) J grad H with C = [[alpha - 1/2, -gamma], [-beta, 1/2 - alpha^T]]:
-  // bar(y) = y + h (H(py)/2 + gamma_21 H(x)), and so on.
-  EXPECT_EQ(equations.substr(0, equations.find("H(x) =")),
+  // bar(y) = y + h (dH/dpy/2 + gamma_21 dH/dx), and so on.
+  EXPECT_EQ(equations.substr(0, equations.find("dH/dx =")),
             "scheme member: alpha = [[1/2, a], [0, 1/2]], beta = [[h, 2*h], [2*h, 0]], gamma = "
             "[[0, -h], [-h, 0]], order 1\n"
-            "bar(x) = x + h*H(px)/2 - H(y)*h^2 + h*a*H(py)\n"
-            "bar(y) = y + h*H(py)/2 - H(x)*h^2\n"
-            "bar(px) = px - h*H(x)/2 - H(px)*h^2 - 2*H(py)*h^2\n"
-            "bar(py) = py - h*H(y)/2 - 2*H(px)*h^2 + h*a*H(x)\n");
+            "bar(x) = x + h*dH/dpx/2 - dH/dy*h^2 + h*a*dH/dpy\n"
+            "bar(y) = y + h*dH/dpy/2 - dH/dx*h^2\n"
+            "bar(px) = px - h*dH/dx/2 - dH/dpx*h^2 - 2*dH/dpy*h^2\n"
+            "bar(py) = py - h*dH/dy/2 - 2*dH/dpx*h^2 + h*a*dH/dx\n");
 }
 
 TEST(GaugeBlocks, ADiagonalMatrixIsTheListAndAListMayStandInBrackets) {

@@ -34,11 +34,11 @@ TEST(LocallyExact, TheGaugeOfAnOscillatorIsWrittenAsAFunctionOfH) {
   // C = A/w (cot(h w/2)/2 - 1/(h w)) with A = [[0, 1], [-w^2, 0]], w = 3: the row of bar(q) has
   // C_qp J = C_qp for H(q) with the sign of -J, that is -(1/(6 tan(3h/2)) - 1/(9 h)).
   const std::string equations = show_stage(model(kOscillator), locally_exact(), "equations");
-  EXPECT_EQ(equations.substr(0, equations.find("H(q) =")),
+  EXPECT_EQ(equations.substr(0, equations.find("dH/dq =")),
             "scheme locally-exact: C = (h A)^-1 - coth(h A/2)/2, A = J H'' at the origin, w = 3; "
             "poles at multiples of h = 2.094, order 2, symmetric\n"
-            "bar(q) = q + h*H(p)/2 + h*H(q)*(1/9/h - 1/6/tan(3*h/2))\n"
-            "bar(p) = p - h*H(q)/2 + h*H(p)*(1/h - 3/2/tan(3*h/2))\n");
+            "bar(q) = q + h*dH/dp/2 + h*dH/dq*(1/9/h - 1/6/tan(3*h/2))\n"
+            "bar(p) = p - h*dH/dq/2 + h*dH/dp*(1/h - 3/2/tan(3*h/2))\n");
 }
 
 TEST(LocallyExact, CoefficientsAreEvaluatedOnceARunAndTheHeaderSaysWhereTheyHold) {
