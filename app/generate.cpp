@@ -116,12 +116,27 @@ int compare(const OutputFiles& files, const std::string& directory, const std::s
   return numerical_failure;
 }
 
-// Says which files there are and which have changed.
+// The outermost directory above the file that is not there yet; empty if all are.
+std::filesystem::path first_missing_directory(const std::string& path) {
+  std::filesystem::path missing;
+  for (std::filesystem::path above = std::filesystem::path(path).parent_path();
+       !above.empty() && !std::filesystem::exists(above); above = above.parent_path())
+    missing = above;
+  return missing;
+}
+
+// Says which files there are and which have changed; a directory above the one that was named may
+// be a slip of the pen.
 int write(const OutputFiles& files, const std::string& directory, const GenerateOptions& options) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const OutputFile& file : files) {
     const std::string path = path_in(directory, file);
+    const std::filesystem::path made = first_missing_directory(path);
     const bool changed = runtime::atomic_write(path, file.text);
+    const bool is_asked_for =
+        made == std::filesystem::path(directory.empty() ? path : directory + "/x").parent_path();
+    if (!made.empty() && !is_asked_for && !options.quiet && !options.json)
+      print_error(fmt::format("{}/ (a new directory)\n", made.string()));
     rows.push_back({{"path", path}, {"changed", changed}});
     if (!options.quiet && !options.json)
       print_error(fmt::format("{}{}\n", path, changed ? "" : " (unchanged)"));

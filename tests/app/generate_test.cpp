@@ -57,6 +57,15 @@ TEST(Generate, WritesAndThenFindsNoDifference) {
   EXPECT_EQ(compared.out + compared.err, "");
 }
 
+TEST(Generate, SaysWhichDirectoryItMakes) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  const std::string file = scratch.path("new/deep/m.hpp");
+  const Result made = hamgen({"generate", model, "-o", file});
+  EXPECT_EQ(made.err, scratch.path("new") + "/ (a new directory)\n" + file + "\n");
+  EXPECT_EQ(hamgen({"generate", model, "-o", file}).err, file + " (unchanged)\n");
+}
+
 TEST(Generate, WritesAFileThatIsNamedAsOne) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
