@@ -12,6 +12,8 @@
 namespace hamgen::app {
 namespace {
 
+constexpr std::size_t kMostCurves = 8;
+
 double bench_floor(const Bench& bench, Observed observed) {
   constexpr double half_unit = std::numeric_limits<double>::epsilon() / 2;
   if (observed == Observed::energy) return half_unit;
@@ -30,10 +32,8 @@ std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method
   return rows;
 }
 
-constexpr std::size_t kMostCurves = 8;
+}  // namespace
 
-// All of a few methods; of many those that are somewhere on a front, the most often first, the
-// first of the list and baselines.
 std::vector<bool> methods_to_draw(const Bench& bench) {
   const std::size_t count = bench.methods.size();
   if (count <= kMostCurves) return std::vector<bool>(count, true);
@@ -49,8 +49,6 @@ std::vector<bool> methods_to_draw(const Bench& bench) {
   for (std::size_t i = 0; i < kMostCurves; ++i) drawn[merit[i].second] = merit[i].first < 0;
   return drawn;
 }
-
-}  // namespace
 
 PlotPanel bench_panel(const Bench& bench, Observed observed) {
   PlotPanel panel{.title = "",

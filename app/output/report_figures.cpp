@@ -238,16 +238,17 @@ Figure state_over_time(const SceneValues& scene, const SourceText& source, const
                   .logarithmic_y = true,
                   .series = {},
                   .floor = floor};
-  for (const BenchMethod& method : bench.methods) {
-    if (method.refusal.empty())
+  const std::vector<bool> drawn = methods_to_draw(bench);
+  for (std::size_t m = 0; m < bench.methods.size(); ++m) {
+    const BenchMethod& method = bench.methods[m];
+    if (drawn[m] && method.refusal.empty())
       panel.series.push_back(error_over_time(method, scene, chunk, track));
   }
-  return {.name = "state",
-          .caption =
-              fmt::format("Distance from the reference solution over time, every method with h = "
-                          "{}.",
-                          plain_number(to_double(*scene.h), 6)),
-          .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight + 60}};
+  return {
+      .name = "state",
+      .caption = fmt::format("Distance from the reference solution over time, each with h = {}.",
+                             plain_number(to_double(*scene.h), 6)),
+      .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight + 60}};
 }
 
 // The method of the page at the scene's step among the others.
