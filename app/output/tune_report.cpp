@@ -129,7 +129,9 @@ std::string tune_text(const TuneReport& report) {
                     report.polish_ended ? ""
                                         : ";\n              stopped there, the most that are "
                                           "allowed: not yet at a minimum");
-  return text + fmt::format("  use         {}\n", generate_command(report.path, report.request));
+  return text + fmt::format("  use         for h = {}\n              {}\n",
+                            runtime::number_text(report.h),
+                            generate_command(report.path, report.request));
 }
 
 std::string tune_json(const TuneReport& report) {
