@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -140,6 +141,28 @@ TEST(BenchAnswer, LastsTenTimesAsLong) {
   EXPECT_NE(result.rows[0].unstable, "");
   EXPECT_EQ(result.rows[1].unstable, "");
   EXPECT_EQ(result.answers.at(0).row, 1u);
+}
+
+// Stopped in the third measurement, it has the rows of the two before and says so.
+TEST(BenchStopped, KeepsTheRowsThatWereMeasured) {
+  const Scratch scratch;
+  app::BenchRequest request = app::read_bench({.model = scratch.write("m.ham", pendulum),
+                                               .schemes = "stormer-verlet",
+                                               .h = "0.4,0.2,0.1,0.05",
+                                               .time = "10",
+                                               .quiet = true});
+  std::atomic<bool> stop = false;
+  request.stop = &stop;
+  int measured = 0;
+  request.clock = [&](const BenchMethod&, const runtime::InitialValues&, long steps) {
+    if (++measured == 3) stop = true;
+    return 1e-6 * static_cast<double>(steps);
+  };
+  const Bench result = app::run_bench(request);
+  EXPECT_TRUE(result.is_stopped);
+  ASSERT_EQ(result.rows.size(), 2u);
+  for (const BenchRow& row : result.rows) EXPECT_TRUE(row.ok()) << row.outcome;
+  EXPECT_TRUE(contains(app::table_text(result), "stopped before all was measured"));
 }
 
 // A method m takes m + 1 microseconds; three have errors that fall with their time, the last is a
