@@ -231,9 +231,11 @@ int run(const RunOptions& options) {
 
   const runtime::LoadedPlugin loaded =
       options.interpret ? interpreted_integrator(source, request, plugin)
-                        : load_integrator(plugin, options.compiler, &interrupt_flag());
+                        : load_integrator(plugin, options.compiler, &interrupt_flag(),
+                                          static_cast<double>(*scene.steps));
   report.interpreted = options.interpret;
   report.from_cache = loaded.from_cache;
+  report.optimisation = loaded.optimisation;
   report.compile_seconds = loaded.compile_seconds;
   if (!options.quiet) {
     for (const std::string& warning : loaded.warnings)

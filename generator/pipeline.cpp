@@ -15,6 +15,7 @@
 #include "generator/formats/scalar.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"
+#include "generator/program/code_cost.hpp"
 #include "generator/program/names.hpp"
 #include "generator/program/without_tangent.hpp"
 #include "generator/read_request.hpp"
@@ -307,6 +308,8 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
     plugin.invariant_names.push_back(fmt::format("modified_energy_{}", power));
   plugin.without_tangent = without_tangent(stages.plan).value_or("");
   plugin.singular_steps = singular_steps(stages.equations.scheme);
+  plugin.operations_per_step = operations_per_step(stages.program);
+  plugin.has_stages = std::holds_alternative<RungeKutta>(stages.equations.scheme.method);
   plugin.needs_eigen = stages.program.facts.needs_eigen;
   plugin.needs_quadmath = request.scalar->type->digits == 113;
   plugin.model = std::move(stages.model);

@@ -107,6 +107,8 @@ struct PluginSource {
   std::vector<double> singular_steps;   // the scheme has poles at their multiples
   bool needs_eigen = false;
   bool needs_quadmath = false;
+  double operations_per_step = 0;  // about: additions and multiplications, others for some of these
+  bool has_stages = false;         // is the method an implicit one of Runge and Kutta?
 };
 // The header as generate() emits it, with what is proved in its first lines, or without: a proof
 // can take longer than all else.

@@ -187,7 +187,8 @@ std::string cache_key(const PluginSource& source, const Compiler& compiler,
   }
   hash.update_field(compiler.identity);
   bool native = false;
-  for (const std::vector<std::string>& words : {compiler.command, compile_flags(source, options)}) {
+  for (const std::vector<std::string>& words :
+       {compiler.command, compile_flags(source, compiler, options)}) {
     for (const std::string& word : words) {
       hash.update_field(word);
       native = native || word.ends_with("=native");

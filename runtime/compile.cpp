@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -23,9 +24,7 @@ constexpr const char* kExports = "exports.map";
 
 // Contraction to fused multiply-adds is off so that every machine takes the same steps; errno is
 // never read.  Nothing else may touch the meaning of the arithmetic: compensated sums need it.
-constexpr std::array<const char*, 8> kFlags = {"-std=c++20",
-                                               "-O3",
-                                               "-w",
+constexpr std::array<const char*, 6> kFlags = {"-w",
                                                "-fPIC",
                                                "-shared",
                                                "-ffp-contract=off",
@@ -50,6 +49,14 @@ void refuse_flags(std::span<const std::string> flags) {
     throw ToolError({.message = *reason});
 }
 
+const std::string* own_optimisation(const Compiler& compiler) {
+  const auto asks = [](const std::string& word) {
+    return word.starts_with("-O") || word.starts_with("--optimize");
+  };
+  const auto last = std::find_if(compiler.command.rbegin(), compiler.command.rend(), asks);
+  return last == compiler.command.rend() ? nullptr : &*last;
+}
+
 void write_file(const std::filesystem::path& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text);
@@ -58,8 +65,16 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string> compile_flags(const PluginSource& source, const CompileOptions& options) {
-  std::vector<std::string> flags(kFlags.begin(), kFlags.end());
+std::string optimisation_of(const Compiler& compiler, const CompileOptions& options) {
+  const std::string* own = own_optimisation(compiler);
+  return own != nullptr ? *own : options.optimisation;
+}
+
+std::vector<std::string> compile_flags(const PluginSource& source, const Compiler& compiler,
+                                       const CompileOptions& options) {
+  std::vector<std::string> flags = {"-std=c++20"};
+  if (own_optimisation(compiler) == nullptr) flags.push_back(options.optimisation);
+  flags.insert(flags.end(), kFlags.begin(), kFlags.end());
   refuse_flags(options.extra_flags);
   flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
   if (source.uses_eigen) {
@@ -93,7 +108,8 @@ std::filesystem::path compile_sources(const PluginSource& source, const Compiler
                                   fmt::format("-Wl,--version-script={}", kExports)}) {
     request.command.push_back(word);
   }
-  for (const std::string& flag : compile_flags(source, options)) request.command.push_back(flag);
+  for (const std::string& flag : compile_flags(source, compiler, options))
+    request.command.push_back(flag);
 
   const ProcessResult result = run_process(request);
   const std::filesystem::path object = directory / kObject;

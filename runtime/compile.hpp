@@ -31,16 +31,21 @@ struct PluginSource {
 
 // How a plugin is compiled.
 struct CompileOptions {
-  std::vector<std::string> extra_flags;                              // after the default ones
+  std::string optimisation = "-O3";      // unless the compiler's own arguments ask for another
+  std::vector<std::string> extra_flags;  // after the default ones
   std::string eigen_include = "/usr/include/eigen3";                 // a directory
   std::chrono::milliseconds time_limit = std::chrono::seconds(120);  // of wall clock
   std::uint64_t memory_limit = std::uint64_t{8} << 30;  // bytes, of each process of the compiler
   const std::atomic<bool>* stop = nullptr;              // gives up the compilation when set
 };
 
+// The compiler's own last argument that asks for one, or else what the options ask for: "-O3".
+[[nodiscard]] std::string optimisation_of(const Compiler& compiler, const CompileOptions& options);
+
 // The flags for a source, without file names.  Throws ToolError if an extra flag would change what
 // the arithmetic means (runtime/arithmetic.hpp).
 [[nodiscard]] std::vector<std::string> compile_flags(const PluginSource& source,
+                                                     const Compiler& compiler,
                                                      const CompileOptions& options);
 
 // Writes the texts into the directory.  Throws ToolError.

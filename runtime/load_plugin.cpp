@@ -92,7 +92,8 @@ Built compile(const PluginSource& source, const Compiler& compiler, const Compil
 LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
                          const CompileOptions& options, const Cache& cache) {
   LoadedPlugin loaded{.library = nullptr,
-                      .key = cache_key(source, compiler, options),
+                      .key = {},
+                      .optimisation = {},
                       .from_cache = false,
                       .compile_seconds = 0.0,
                       .warnings = {}};
@@ -101,7 +102,15 @@ LoadedPlugin load_plugin(const PluginSource& source, const Compiler& compiler,
   if (checked.usable()) checked.problem = directory_problem(checked.directory);
   if (!checked.usable()) loaded.warnings.push_back(checked.problem);
 
-  loaded.library = load_cached(checked, loaded.key);
+  // One that was optimised more is as good: it takes the same steps.
+  CompileOptions more = options;
+  more.optimisation = CompileOptions().optimisation;
+  for (const CompileOptions& each : {more, options}) {
+    loaded.key = cache_key(source, compiler, each);
+    loaded.optimisation = optimisation_of(compiler, each);
+    loaded.library = load_cached(checked, loaded.key);
+    if (loaded.library != nullptr) break;
+  }
   loaded.from_cache = loaded.library != nullptr;
   if (loaded.from_cache) {
     try {

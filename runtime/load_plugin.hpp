@@ -17,6 +17,7 @@ namespace hamgen::runtime {
 struct LoadedPlugin {
   std::shared_ptr<const Library> library;  // never null
   std::string key;                         // of the cache
+  std::string optimisation;                // what the compiler was asked for, as "-O3"
   bool from_cache = false;                 // else it was compiled
   double compile_seconds = 0.0;            // 0 from the cache
   std::vector<std::string> warnings;       // about the cache; one sentence each

@@ -27,7 +27,7 @@ std::string processor_name() {
 Provenance provenance_of(const Compiler& compiler) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::vector<std::string> flags(compiler.command.begin() + 1, compiler.command.end());
-  const std::vector<std::string> always = compile_flags({}, {});
+  const std::vector<std::string> always = compile_flags({}, compiler, {});
   flags.insert(flags.end(), always.begin(), always.end());
   return {.machine =
               fmt::format("{}, {} threads", processor_name(), std::thread::hardware_concurrency()),

@@ -115,10 +115,11 @@ std::string energy_text(const RunReport& report) {
 }
 
 std::string time_text(const RunReport& report) {
-  const std::string compile = report.interpreted ? "interpreted"
-                              : report.from_cache
-                                  ? "compiled before"
-                                  : "compile " + seconds_text(report.compile_seconds);
+  std::string compile = report.interpreted  ? "interpreted"
+                        : report.from_cache ? "compiled before"
+                                            : "compile " + seconds_text(report.compile_seconds);
+  if (!report.interpreted && report.optimisation != "-O3")
+    compile += fmt::format(" with {}", report.optimisation);
   return fmt::format(
       "generate {}, {}, run {}: {:.3g} ns/step", seconds_text(report.generate_seconds), compile,
       seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
@@ -387,6 +388,7 @@ std::string json_text(const RunReport& report) {
       {"generate_s", report.generate_seconds}, {"compile_s", report.compile_seconds},
       {"run_s", summary.total_seconds},        {"ns_per_step", summary.nanoseconds_per_step()},
       {"from_cache", report.from_cache},       {"interpreted", report.interpreted}};
+  if (!report.interpreted) result["time"]["optimisation"] = report.optimisation;
   return json_document(result);
 }
 

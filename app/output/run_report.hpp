@@ -25,6 +25,7 @@ struct RunReport {
   std::vector<runtime::Wide> final_invariants;
   int scalar_digits = 53;  // binary, of the scalar
   bool from_cache = false;
+  std::string optimisation;  // what the compiler was asked for, as "-O3"
   bool interpreted = false;  // there was no compiler
   double generate_seconds = 0.0;
   double compile_seconds = 0.0;

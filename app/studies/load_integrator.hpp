@@ -1,6 +1,7 @@
 // From emitted text to a loaded integrator, as every command that runs one does it.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "app/studies/stop.hpp"
@@ -23,10 +24,15 @@ struct CompilerChoice {
 // arithmetic means, ToolError if it is not there.
 [[nodiscard]] runtime::Compiler chosen_compiler(const CompilerChoice& choice);
 
+// What the compiler is asked for if so many steps are all that is taken: "-O1", "-O2" or "-O3".
+[[nodiscard]] std::string optimisation_for(const PluginSource& plugin, double steps);
+
 // Compiles the plugin, or takes it from the cache, and loads it; `stop` gives up the compilation.
-// Throws ToolError, and what chosen_compiler throws.
-[[nodiscard]] runtime::LoadedPlugin load_integrator(const PluginSource& plugin,
-                                                    const CompilerChoice& compiler, StopFlag stop);
+// Few steps are not worth the time of an optimiser.  Throws ToolError, and what chosen_compiler
+// throws.
+[[nodiscard]] runtime::LoadedPlugin load_integrator(
+    const PluginSource& plugin, const CompilerChoice& compiler, StopFlag stop,
+    double steps = std::numeric_limits<double>::infinity());
 
 // Of the code alone, the compiler and its flags: two plugins with the same digest do the same,
 // wherever their model is.  Throws as chosen_compiler.

@@ -125,6 +125,17 @@ StepCost step_cost(const Program& code) {
   return {count.iterated, count.once};
 }
 
+double operations_per_step(const Program& code) {
+  const auto operations = [](const Cost& cost) {
+    return static_cast<double>(cost.additions + cost.multiplications) +
+           10 * static_cast<double>(cost.divisions + cost.functions);
+  };
+  const StepCost cost = step_cost(code);
+  const double iterations = code.rules.empty() ? 8 : 1;
+  return static_cast<double>(code.substeps.size()) *
+         (operations(cost.besides) + iterations * operations(cost.iteration));
+}
+
 Cost routine_cost(const Program& code, const std::string& name) {
   CodeCost count(code);
   count.run(name);

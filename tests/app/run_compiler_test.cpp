@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "runtime/process.hpp"
 #include "tests/app/hamgen_command.hpp"
@@ -35,6 +36,28 @@ TEST(Run, RefusesFlagsThatChangeTheArithmeticToo) {
   EXPECT_TRUE(contains(result.err, "--flags: ") && contains(result.err, "'-ffast-math'"))
       << result.err;
   EXPECT_EQ(hamgen({"run", model, "--interpret", "--portable"}).status, 2);
+}
+
+// The same steps, however much the optimiser did.
+TEST(Run, AsksTheCompilerForWhatTheNumberOfStepsRepays) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const auto state_with = [&](const std::string& optimisation, const std::string& cache,
+                              const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"run", model, "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Result result = hamgen(words, {"HAMGEN_CACHE=" + scratch.path(cache), "CXX=g++"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const auto found = nlohmann::json::parse(result.out);
+    EXPECT_EQ(found["time"]["optimisation"], optimisation) << result.out;
+    return found["state"];
+  };
+  const auto few = state_with("-O1", "one", {"--steps", "1000"});
+  EXPECT_EQ(state_with("-O2", "one", {"--steps", "1000", "--flags=-O2"}), few);
+  static_cast<void>(state_with("-O3", "one", {"--steps", "4000000"}));
+  EXPECT_EQ(state_with("-O3", "one", {"--steps", "1000"}), few);
+  static_cast<void>(state_with("-O1", "two", {"--steps", "100", "--scheme", "gauss-4"}));
+  static_cast<void>(state_with("-O2", "two", {"--steps", "400000", "--scheme", "gauss-4"}));
 }
 
 // The same steps, in an object of their own.

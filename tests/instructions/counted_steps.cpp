@@ -80,7 +80,7 @@ void compile(const std::vector<EmittedStep>& steps, const std::string& compiler,
   // Nor with what some distributions add by default.
   const std::vector<std::string> plain = {"-march=x86-64", "-mtune=generic", "-fno-stack-protector",
                                           "-fcf-protection=none"};
-  for (const std::string& flag : runtime::compile_flags({}, {.extra_flags = plain})) {
+  for (const std::string& flag : runtime::compile_flags({}, {}, {.extra_flags = plain})) {
     if (flag != "-shared") command.push_back(flag);
   }
   (void)checked_run(command, directory);

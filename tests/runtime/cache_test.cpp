@@ -52,6 +52,21 @@ class CacheTest : public testing::Test {
   TemporaryDirectory directory_ = private_directory();
 };
 
+// Objects that take the same steps.
+TEST_F(CacheTest, TakesWhatWasOptimisedMoreButNotLess) {
+  const Cache cache = open_cache(cache_path());
+  const auto load = [&](const std::string& asked) {
+    const LoadedPlugin plugin =
+        load_plugin(oscillator(), find_compiler(), {.optimisation = asked}, cache);
+    expect_works(plugin);
+    return std::pair(plugin.optimisation, plugin.from_cache);
+  };
+  EXPECT_EQ(load("-O1"), std::pair(std::string("-O1"), false));
+  EXPECT_EQ(load("-O1"), std::pair(std::string("-O1"), true));
+  EXPECT_EQ(load("-O3"), std::pair(std::string("-O3"), false));
+  EXPECT_EQ(load("-O1"), std::pair(std::string("-O3"), true));
+}
+
 TEST_F(CacheTest, FollowsTheEnvironment) {
   const Environment home("HOME", "/home/someone");
   const Environment mine("HAMGEN_CACHE", "/mine");

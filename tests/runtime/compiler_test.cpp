@@ -140,7 +140,7 @@ TEST_F(CompilerTest, LeavesTheEndOfItsOutputInTheError) {
   EXPECT_TRUE(failure.output_tail.ends_with("line 100\n"));
   EXPECT_TRUE(failure.command.ends_with(
       "/compiler -o plugin.so plugin.cpp -Wl,--version-script=exports.map " +
-      command_text(compile_flags({}, {}))))
+      command_text(compile_flags({}, {}, {}))))
       << failure.command;
 }
 
@@ -160,17 +160,30 @@ TEST_F(CompilerTest, ShowsAMistakeWithTheNameOfTheSource) {
 
 TEST(CompileFlags, NeverIncludeFastMath) {
   for (const std::string flag : {"-ffast-math", "-Ofast", "@flags"}) {
-    EXPECT_THROW((void)compile_flags({}, {.extra_flags = {flag}}), ToolError) << flag;
+    EXPECT_THROW((void)compile_flags({}, {}, {.extra_flags = {flag}}), ToolError) << flag;
   }
-  const std::string flags = command_text(compile_flags({}, {.extra_flags = {"-march=native"}}));
+  const std::string flags = command_text(compile_flags({}, {}, {.extra_flags = {"-march=native"}}));
   EXPECT_EQ(flags.find("fast"), std::string::npos) << flags;
   EXPECT_NE(flags.find("-ffp-contract=off"), std::string::npos) << flags;
   EXPECT_TRUE(flags.ends_with(" -march=native")) << flags;
 }
 
+TEST(CompileFlags, LeaveTheOptimisationToWhoAsksForOne) {
+  const auto flags = [](const std::vector<std::string>& arguments, const CompileOptions& options) {
+    Compiler compiler{.command = {"/usr/bin/g++"}, .identity = "", .chosen_by = ""};
+    compiler.command.insert(compiler.command.end(), arguments.begin(), arguments.end());
+    return command_text(compile_flags({}, compiler, options));
+  };
+  EXPECT_NE(flags({"-g"}, {}).find(" -O3 "), std::string::npos);
+  EXPECT_NE(flags({"-g"}, {.optimisation = "-O1"}).find(" -O1 "), std::string::npos);
+  EXPECT_EQ(flags({"-g"}, {.optimisation = "-O1"}).find("-O3"), std::string::npos);
+  for (const std::string own : {"-O", "-O0", "-O2", "-Os", "--optimize=2"})
+    EXPECT_EQ(flags({own}, {}).find("-O"), std::string::npos) << own;
+}
+
 TEST(CompileFlags, NameEigenAndQuadmathWhenTheyAreUsed) {
-  const std::vector<std::string> flags =
-      compile_flags({.uses_eigen = true, .uses_quadmath = true}, {.eigen_include = "/opt/eigen"});
+  const std::vector<std::string> flags = compile_flags({.uses_eigen = true, .uses_quadmath = true},
+                                                       {}, {.eigen_include = "/opt/eigen"});
   ASSERT_GE(flags.size(), 3u);
   EXPECT_EQ(std::vector<std::string>(flags.end() - 3, flags.end()),
             (std::vector<std::string>{"-isystem", "/opt/eigen", "-lquadmath"}));
