@@ -1,95 +1,92 @@
 // Solutions of earlier steps, extrapolated by polynomials, as for one trajectory (history.hpp); the
-// degree is chosen in each lane.  With s_d the prediction of degree d and x the solution that came,
-// the next predictions are
-//   (d + 1) x - s_0 - ... - s_(d-1).
-// None depends on one of the same or a higher degree: degrees that other lanes know and a lane does
-// not change nothing in it.
+// degree is chosen in each lane.  With x_0, x_1, ... the last solutions, the newest first, the
+// prediction of degree d is
+//   (d + 1) x_0 - (d + 1 over 2) x_1 + (d + 1 over 3) x_2 - ...
+// and its error, once the solution came, a backward difference.  The weights of a lane beyond its
+// degree are 0 and add nothing to what the others sum up to: what other lanes need changes no bit.
 template <int Unknowns>
 struct History {
   static constexpr int degrees = Unknowns > 32 ? 8 : 16;
-  Real predicted[degrees][Unknowns] = {};
-  Real known = 0;  // degrees that are kept up to date
+  Real past[2 * degrees][Unknowns] = {};  // each solution twice, so that the last stand in a row
+  Real weight[degrees] = {1.0};
   Real best = 0;
-  Mask growing = true;  // lanes that try one more degree: they choose at every step
-  int age = 15;
-  int fewest = 0, most = 0;     // of `known` in all lanes
-  int lowest = 0, highest = 0;  // of `best`
+  int newest = 0;  // x_k is past[newest + k]
+  int known = 0;   // of them
+  int age = 0;
+  int highest = 0;  // of `best` in all lanes
 
   void record(const Real (&solution)[Unknowns]) {
-    age = (age + 1) % 16;
-    if (age == 0) {
-      choose(true, solution);
-    } else if (any(growing)) {
-      choose(growing, solution);
-    }
-    Real sum[Unknowns] = {};
-    Real number = 0;
-    for (int degree = 0; degree < most; ++degree) {
-      number += 1;
-      for (int i = 0; i < Unknowns; ++i) {
-        const Real kept = predicted[degree][i];
-        predicted[degree][i] = number * solution[i] - sum[i];
-        sum[i] += kept;
+    age = (age + 1) % 32;
+    if (age == 0 || known < degrees) choose(solution);
+    if (known < degrees) ++known;
+    newest = newest == 0 ? degrees - 1 : newest - 1;
+    for (int i = 0; i < Unknowns; ++i) past[newest][i] = past[newest + degrees][i] = solution[i];
+  }
+  // The degree that would have been the best, at most two higher than the last one.  Seldom done,
+  // and no part of a step's code.
+  __attribute__((noinline)) void choose(const Real (&solution)[Unknowns]) {
+    const int tried = highest + 3 < known ? highest + 3 : known;
+    Real errors[degrees] = {};
+    for (int i = 0; i < Unknowns; ++i) {
+      Real differences[degrees + 1] = {solution[i]};
+      for (int k = 0; k < tried; ++k) differences[k + 1] = past[newest + k][i];
+      for (int degree = 0; degree < tried; ++degree) {
+        for (int k = 0; k < tried - degree; ++k) differences[k] -= differences[k + 1];
+        errors[degree] += magnitude(differences[0]);
       }
     }
-  }
-  void choose(const Mask& lanes, const Real (&solution)[Unknowns]) {
-    Real least = 0;
-    for (int degree = 0; degree < most; ++degree) {
-      const Real now = error_of(degree, solution, 0, Unknowns);
-      const Mask better = degree == 0 ? lanes : lanes & (known > degree) & (now < least);
-      least = select(better, now, least);
-      best = select(better, Real(degree), best);
+    Real chosen = 0;
+    Real least = errors[0];
+    for (int degree = 1; degree < tried; ++degree) {
+      const Mask better = (errors[degree] < least) & (best + 3 > degree);
+      least = select(better, errors[degree], least);
+      chosen = select(better, Real(degree), chosen);
     }
-    const Mask fewer = lanes & (best + 2 < known);
-    growing = lanes & !fewer & (known < degrees);
-    known = select(fewer, known - 1, select(growing, known + 1, known));
-    range_of(known, fewest, most);
-    range_of(best, lowest, highest);
+    if (!all(chosen == best)) use(chosen);
   }
-  static void range_of(const Real& numbers, int& least, int& largest_one) {
-    least = largest_one = int(numbers[0]);
-    for (int lane = 1; lane < lanes_of(numbers); ++lane) {
-      const int number = int(numbers[lane]);
-      least = number < least ? number : least;
-      largest_one = number > largest_one ? number : largest_one;
+  void use(const Real& chosen) {
+    best = chosen;
+    highest = 0;
+    for (int lane = 0; lane < lanes_of(best); ++lane) {
+      const int degree = int(best[lane]);
+      highest = degree > highest ? degree : highest;
+    }
+    Real binomial = 1;
+    for (int k = 0; k < degrees; ++k) {
+      binomial = binomial * (best + 1 - k) / (k + 1);
+      weight[k] = k % 2 == 0 ? binomial : -binomial;
     }
   }
-  // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
+  // The difference of order Degree + 1 at the solution that came, of lower order if fewer steps are
   // known, and 0 if none is: summed over `count` unknowns.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    Real result = 0;
-    for (int d = fewest > degree ? degree
-                 : fewest > 0    ? fewest - 1
-                                 : 0;
-         d <= degree && d < most; ++d) {
-      result = select(known > d, error_of(d, solution, first, count), result);
+  template <int Degree>
+  Real error(const Real (&solution)[Unknowns], int first, int count) const {
+    Real total = 0;
+    if (known > Degree) {
+      for (int i = first; i < first + count; ++i) {
+        Real difference = solution[i];
+        double binomial = 1;
+        for (int k = 0; k <= Degree; ++k) {
+          binomial = -binomial * (Degree + 1 - k) / (k + 1);
+          difference += binomial * past[newest + k][i];
+        }
+        total += magnitude(difference);
+      }
+    } else if constexpr (Degree > 0) {
+      total = error<Degree - 1>(solution, first, count);
     }
-    return result;
-  }
-  Real error_of(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    Real sum_of_errors = 0;
-    for (int i = first; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
-    }
-    return sum_of_errors;
+    return total;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {
-    for (int i = 0; i < Unknowns; ++i) {
-      Real value = predicted[lowest][i];
-      for (int degree = lowest + 1; degree <= highest; ++degree) {
-        value = select(best >= degree, predicted[degree][i], value);
-      }
-      solution[i] = value;
+    Real sum[Unknowns] = {};
+    for (int k = 0; k <= highest; k += 2) {
+      for (int i = 0; i < Unknowns; ++i)
+        sum[i] += weight[k] * past[newest + k][i] + weight[k + 1] * past[newest + k + 1][i];
     }
+    for (int i = 0; i < Unknowns; ++i) solution[i] = sum[i];
   }
 };
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
-  history.known = 0;
-  history.best = 0;
-  history.growing = true;
-  history.age = 15;
-  history.fewest = history.most = 0;
-  history.lowest = history.highest = 0;
+  history = History<Unknowns>();
 }

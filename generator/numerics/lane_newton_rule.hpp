@@ -33,8 +33,8 @@ struct NewtonRule {
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>
   void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
-    motion.move = past.error(0, solution, first, count);
-    motion.bend = past.error(Power + 1, solution, first, count);
+    motion.move = past.template error<0>(solution, first, count);
+    motion.bend = past.template error<Power + 1>(solution, first, count);
   }
   void end_with(const Mask& lanes, const Real& size) {
     failed = failed | lanes;

@@ -150,7 +150,48 @@ TEST(LaneBlocks, PolynomialsArePredictedInTheirLanes) {
   EXPECT_GE(history.best[0], 3);
   EXPECT_LE(history.best[1], 4);
   forget(history);
-  EXPECT_FALSE(any(history.known > 0));
+  EXPECT_EQ(history.known, 0);
+}
+
+// Whatever degrees the others need.
+TEST(LaneBlocks, APredictionDoesNotDependOnTheOtherLanes) {
+  packs::History<2> mixed;
+  packs::History<2> equal;
+  Numbers numbers;
+  for (int step = 0; step < 200; ++step) {
+    packs::Real point = 0;
+    const double x = 0.1 * step;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double smooth = std::sin(x * (lane + 1));
+      point.set(lane, lane % 2 == 0 ? smooth : numbers.next());
+    }
+    const packs::Real same = point[0];
+    mixed.record({point, -point});
+    equal.record({same, -same});
+    packs::Real predicted[2] = {};
+    packs::Real alone[2] = {};
+    mixed.extrapolate(predicted);
+    equal.extrapolate(alone);
+    EXPECT_EQ(predicted[0][0], alone[0][0]) << step;
+    EXPECT_EQ(predicted[1][0], alone[1][0]) << step;
+    if (step > 20) EXPECT_GT(mixed.highest, mixed.best[1]) << step;
+  }
+}
+
+// k^4 has the first difference 4 k^3 - ... and the fourth 24.
+TEST(LaneBlocks, ErrorsAreDifferences) {
+  packs::History<2> history;
+  const auto power = [](int k) { return double(k) * k * k * k; };
+  for (int k = 0; k < 10; ++k) {
+    const packs::Real solution[2] = {packs::Real(power(k)), packs::Real(1)};
+    const packs::Real first = history.error<0>(solution, 0, 2);
+    const packs::Real fourth = history.error<3>(solution, 0, 1);
+    EXPECT_EQ(first[0], k == 0 ? 0 : power(k) - power(k - 1)) << k;
+    if (k >= 4) EXPECT_EQ(fourth[1], 24) << k;
+    if (k == 3) EXPECT_EQ(fourth[1], 81 - 3 * 16 + 3) << k;
+    EXPECT_EQ((history.error<0>(solution, 1, 1)[0]), 0) << k;
+    history.record(solution);
+  }
 }
 
 TEST(LaneBlocks, WhatAProductLosesIsExact) {
