@@ -1,5 +1,7 @@
 #include "benchmarks/emitted_program.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -52,7 +54,7 @@ std::string emitted_header(const std::string& model, Request request, const std:
   return generate(make_source("benchmark.ham", model), request).at(0).text;
 }
 
-std::string output_of_program(const std::vector<ProgramFile>& headers, const std::string& program,
+std::string output_of_sources(const std::vector<ProgramFile>& files,
                               const std::vector<std::string>& flags) {
   const Directory directory;
   runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
@@ -63,16 +65,24 @@ std::string output_of_program(const std::vector<ProgramFile>& headers, const std
     compile.command.emplace_back(flag);
   }
   compile.command.insert(compile.command.end(), flags.begin(), flags.end());
-  for (const ProgramFile& header : headers) {
-    std::ofstream(directory.path() / header.name) << header.text;
-    compile.command.insert(compile.command.end(), {"-include", header.name});
+  for (const ProgramFile& file : files) {
+    std::ofstream(directory.path() / file.name) << file.text;
+    if (file.name.ends_with(".cpp")) compile.command.push_back(file.name);
   }
-  std::ofstream(directory.path() / "program.cpp") << program;
-  compile.command.insert(compile.command.end(), {"program.cpp", "-o", "program", "-lquadmath"});
+  compile.command.insert(compile.command.end(), {"-o", "program", "-lquadmath"});
   (void)checked_run(compile);
   return checked_run({.command = {(directory.path() / "program").string()},
                       .working_directory = directory.path(),
                       .time_limit = std::chrono::hours(24)});
+}
+
+std::string output_of_program(const std::vector<ProgramFile>& headers, const std::string& program,
+                              const std::vector<std::string>& flags) {
+  std::vector<ProgramFile> files = headers;
+  std::string text;
+  for (const ProgramFile& header : headers) text += fmt::format("#include \"{}\"\n", header.name);
+  files.push_back({"program.cpp", text + program});
+  return output_of_sources(files, flags);
 }
 
 }  // namespace hamgen

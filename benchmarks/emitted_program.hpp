@@ -17,6 +17,11 @@ struct ProgramFile {
 [[nodiscard]] std::string emitted_header(const std::string& model, Request request,
                                          const std::string& scalar, const std::string& name_space);
 
+// What the program made of the files whose names end in ".cpp" prints; they may include the others.
+// More flags come at the end of those there are.  Throws as output_of_program.
+[[nodiscard]] std::string output_of_sources(const std::vector<ProgramFile>& files,
+                                            const std::vector<std::string>& flags);
+
 // What program.cpp prints, the headers included before it in their order, with more flags at the
 // end of those there are.  Throws std::runtime_error with the compiler's or the program's words.
 [[nodiscard]] std::string output_of_program(const std::vector<ProgramFile>& headers,

@@ -1,5 +1,6 @@
 // Nanoseconds per trajectory and step of batches of 1, 2, 4, 8 and 16 lanes, beside the header of
-// one trajectory, all of a row in one program: the least of eleven rounds in turn.
+// one trajectory, all of a row in one program: the least of eleven rounds in turn.  Each has a
+// translation unit of its own: what the compiler inlines depends on how much there is in one.
 //
 //   batch [FLAG...]     flags of the compiler, default: -march=native
 #include <fmt/format.h>
@@ -57,55 +58,62 @@ bool done(const Mask& converged, int lanes) {
   for (int i = 0; i < lanes; ++i) all_done = all_done && converged[i];
   return all_done;
 }
-volatile double step_size = 0;
-// A round; the time of the best one so far, in nanoseconds per trajectory and step.
+static volatile double step_size = STEP_SIZE;
+// A round: its time in nanoseconds per trajectory and step.
 template <class Propagator, class Parameters, class State>
-void measure(const State& z, int lanes, double& best) {
+double measure(const State& z, int lanes) {
   constexpr long long steps = 20000;
   Propagator propagator(Parameters(), step_size, z);
   const auto begin = std::chrono::steady_clock::now();
   const auto report = propagator.advance(steps);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
   if (!done(report.converged, lanes)) std::puts("a step failed");
-  const double each = time.count() / static_cast<double>(steps) / lanes * 1e9;
-  if (each < best) best = each;
+  return time.count() / static_cast<double>(steps) / lanes * 1e9;
 }
-int main() {
 )";
 
-std::string program_of(const BatchRow& row) {
-  std::string rounds;
-  std::string text = std::string(kMeasure) + fmt::format("  step_size = {};\n", row.h);
-  for (const int width : kWidths) {
-    const int lanes = width == 0 ? 1 : width;
-    text += fmt::format("  w{0}::State z{0};\n  double best{0} = 1e300;\n", width);
-    for (const auto& [name, value] : row.start) {
-      text +=
-          fmt::format("  for (int i = 0; i < {0}; ++i) put(z{1}.{2}, i, {3} * (1 - 1e-3 * i));\n",
-                      lanes, width, name, value);
-    }
-    rounds += fmt::format(
-        "    measure<w{0}::method::Propagator, w{0}::Parameters>(z{0}, {1}, best{0});\n", width,
-        lanes);
+// `double round_W()` of the header wW.hpp.
+std::string unit_of(const BatchRow& row, int width) {
+  const int lanes = width == 0 ? 1 : width;
+  std::string text = fmt::format("#include \"w{}.hpp\"\n#define STEP_SIZE {}\n", width, row.h);
+  text += kMeasure + fmt::format("double round_{0}() {{\n  w{0}::State z;\n", width);
+  for (const auto& [name, value] : row.start) {
+    text += fmt::format("  for (int i = 0; i < {}; ++i) put(z.{}, i, {} * (1 - 1e-3 * i));\n",
+                        lanes, name, value);
   }
-  text += "  for (int round = 0; round < 11; ++round) {\n" + rounds + "  }\n";
-  for (const int width : kWidths)
-    text += fmt::format("  std::printf(\" %8.2f\", best{});\n", width);
-  return text + "}\n";
+  return text +
+         fmt::format("  return measure<w{0}::method::Propagator, w{0}::Parameters>(z, {1});\n}}\n",
+                     width, lanes);
+}
+
+std::string program_text() {
+  std::string declared = "#include <cstdio>\n";
+  std::string rounds;
+  std::string printed;
+  for (const int width : kWidths) {
+    declared += fmt::format("double round_{0}();\ndouble best{0} = 1e300;\n", width);
+    rounds += fmt::format(
+        "    if (const double time = round_{0}(); time < best{0}) best{0} = time;\n", width);
+    printed += fmt::format("  std::printf(\" %8.2f\", best{});\n", width);
+  }
+  return fmt::format(
+      "{}int main() {{\n  for (int round = 0; round < 11; ++round) {{\n{}  }}\n{}}}\n", declared,
+      rounds, printed);
 }
 
 std::string measured(const BatchRow& row, const std::vector<std::string>& flags) {
   const std::string path = fmt::format("{}/hamiltonians/{}.ham", HAMGEN_SOURCE_DIR, row.model);
   const std::string model = hamgen::runtime::read_file(path);
-  std::vector<hamgen::ProgramFile> headers;
+  std::vector<hamgen::ProgramFile> files = {{"main.cpp", program_text()}};
   for (const int width : kWidths) {
     hamgen::Request request;
     request.scheme = row.scheme;
     request.batch = width;
-    headers.push_back({fmt::format("w{}.hpp", width),
-                       emitted_header(model, request, "", fmt::format("w{}::method", width))});
+    files.push_back({fmt::format("w{}.hpp", width),
+                     emitted_header(model, request, "", fmt::format("w{}::method", width))});
+    files.push_back({fmt::format("w{}.cpp", width), unit_of(row, width)});
   }
-  return output_of_program(headers, program_of(row), flags);
+  return output_of_sources(files, flags);
 }
 
 }  // namespace
