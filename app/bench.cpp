@@ -21,10 +21,12 @@ namespace {
 struct BenchCommand {
   BenchOptions bench;
   std::string output, csv, plot;
+  bool all = false;
   bool json = false;
 };
 
 void write_files(const BenchCommand& options, const Bench& bench) {
+  make_directories_above({options.output, options.csv, options.plot}, options.bench.quiet);
   namespace fs = std::filesystem;
   const auto write = [&options](const fs::path& path, const std::string& text) {
     runtime::atomic_write(path, text);
@@ -59,9 +61,10 @@ int bench(const BenchCommand& options) {
     return interrupted;
   }
   print_error(warning_text(result));
-  print(options.json                   ? json_text(result)
-        : kind == OutputKind::standard ? csv_text(result)
-                                       : table_text(result));
+  print(options.json ? json_text(result)
+        : kind == OutputKind::standard
+            ? csv_text(result)
+            : table_text(result, options.all || !options.bench.h.empty()));
   write_files(options, result);
   if (result.is_stopped) {
     print_error("hamgen: stopped; these rows were measured\n");
@@ -112,7 +115,8 @@ Command add_bench(CLI::App& app) {
   parser->add_option("--csv", options->csv, "the table as CSV")->type_name("FILE");
   parser->add_option("--plot", options->plot, "a picture, .svg or .png, and its script .gp")
       ->type_name("FILE");
-  parser->add_flag("--json", options->json, "the table as JSON on standard output");
+  parser->add_flag("--all", options->all, "");
+  parser->add_flag("--json", options->json, "print all rows; the table as JSON");
   parser->add_flag("--quiet", options->bench.quiet, "no progress, no names of files");
   add_compiler_options(*parser, options->bench.compiler);
   return {parser, [options] { return bench(*options); }};

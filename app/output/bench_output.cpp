@@ -10,6 +10,7 @@
 
 #include "app/output/generate_command.hpp"
 #include "app/output/json_document.hpp"
+#include "app/output/plain_number.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -59,7 +60,7 @@ std::string remark(const Bench& bench, std::size_t row, const std::vector<std::s
   const BenchRow& values = bench.rows[row];
   if (!values.ok()) return values.outcome;
   if (!values.unstable.empty()) return "unstable: " + values.unstable;
-  if (bench.methods[values.method].is_baseline) return "not symplectic";
+  if (bench.methods[values.method].is_baseline) return "";
   const bool is_answer = std::ranges::any_of(
       bench.answers, [row](const BenchAnswer& answer) { return answer.row == row; });
   const std::string mark = is_answer ? "<-" : is_in(front, row) ? "*" : "";
@@ -214,6 +215,46 @@ std::string csv_number(const std::optional<double>& value) {
   return value ? runtime::number_text(*value) : "";
 }
 
+// Where not all rows are shown: the answers, the Pareto front, and what no row can be had of.
+bool is_shown(const Bench& bench, std::size_t row, const std::vector<std::size_t>& front) {
+  const BenchRow& values = bench.rows[row];
+  if (!bench.methods[values.method].refusal.empty() || !values.unstable.empty()) return true;
+  const bool is_answer = std::ranges::any_of(
+      bench.answers, [row](const BenchAnswer& answer) { return answer.row == row; });
+  return is_answer || is_in(front, row);
+}
+
+// The rows below the names of their methods.
+std::string rows_text(const Bench& bench, const std::vector<std::size_t>& order,
+                      const std::vector<std::size_t>& front) {
+  std::vector<Cells> lines = {{"", "h", "s/time", "+-", "ns/step", "it/step", "grad/step",
+                               "H error", "q error", "p error", ""}};
+  for (const std::size_t i : order) {
+    const BenchRow& row = bench.rows[i];
+    const BenchTime time = time_of(row);
+    const bool timed = !row.samples.empty();
+    lines.push_back(
+        {"", fmt::format("{:.6g}", to_double(row.h)),
+         timed ? fmt::format("{:.2e}", time.seconds_per_time) : "-",
+         timed ? fmt::format("{:.0f} %", 100.0 * time.spread) : "-",
+         timed ? fmt::format("{:.0f}", time.nanoseconds_per_step) : "-",
+         row.iterations_per_step > 0.0 ? fmt::format("{:.2f}", row.iterations_per_step) : "-",
+         row.gradients_per_step > 0.0 ? terminal_number(row.gradients_per_step, 3) : "-",
+         error_cell(row.relative_energy_error()), error_cell(row.q_error), error_cell(row.p_error),
+         remark(bench, i, front)});
+  }
+  const std::vector<std::string> rows = aligned(lines, "lrrrrrrrrrl");
+  std::string text = rows.front();
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t method = bench.rows[order[k]].method;
+    if (k == 0 || method != bench.rows[order[k - 1]].method)
+      text += fmt::format("  {}{}\n", bench.methods[method].spec,
+                          bench.methods[method].is_baseline ? ", not symplectic" : "");
+    text += rows[k + 1];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string warning_text(const Bench& bench) {
@@ -222,31 +263,22 @@ std::string warning_text(const Bench& bench) {
                      bench.reference.failure);
 }
 
-std::string table_text(const Bench& bench) {
+std::string table_text(const Bench& bench, bool all_rows) {
   const std::vector<std::size_t> front = pareto_front(bench.rows, bench.observed);
   std::string text = fmt::format("{}{}: T = {:.10g}\n", bench.model,
                                  bench.scene.empty() ? "" : ", scene " + bench.scene, bench.time);
   text += answer_text(bench);
   text +=
       fmt::format("  reference  {}\n  errors     {}\n", reference_text(bench), errors_text(bench));
-  std::vector<Cells> lines = {{"scheme", "h", "s/time", "+-", "ns/step", "it/step", "grad/step",
-                               "energy error", "q error", "p error", ""}};
-  for (const std::size_t i : in_order(bench)) {
-    const BenchRow& row = bench.rows[i];
-    const BenchTime time = time_of(row);
-    const bool timed = !row.samples.empty();
-    lines.push_back(
-        {bench.methods[row.method].spec, fmt::format("{:.6g}", to_double(row.h)),
-         timed ? fmt::format("{:.2e}", time.seconds_per_time) : "-",
-         timed ? fmt::format("{:.0f} %", 100.0 * time.spread) : "-",
-         timed ? fmt::format("{:.0f}", time.nanoseconds_per_step) : "-",
-         row.iterations_per_step > 0.0 ? fmt::format("{:.2f}", row.iterations_per_step) : "-",
-         row.gradients_per_step > 0.0 ? fmt::format("{:.3g}", row.gradients_per_step) : "-",
-         error_cell(row.relative_energy_error()), error_cell(row.q_error), error_cell(row.p_error),
-         remark(bench, i, front)});
-  }
-  for (const std::string& line : aligned(lines, "lrrrrrrrrrl")) text += line;
-  const auto any = [&bench](const auto& is_so) { return std::ranges::any_of(bench.rows, is_so); };
+  std::vector<std::size_t> order = in_order(bench);
+  if (!all_rows)
+    std::erase_if(order, [&](std::size_t row) { return !is_shown(bench, row, front); });
+  if (!order.empty()) text += rows_text(bench, order, front);
+  if (order.size() < bench.rows.size())
+    text += fmt::format("{} of {} rows; --all shows all\n", order.size(), bench.rows.size());
+  const auto any = [&](const auto& is_so) {
+    return std::ranges::any_of(order, [&](std::size_t row) { return is_so(bench.rows[row]); });
+  };
   if (!front.empty())
     text += fmt::format("* nothing here is both faster and better in {} error (Pareto front)\n",
                         to_text(bench.observed));

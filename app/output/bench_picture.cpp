@@ -32,6 +32,15 @@ std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method
   return rows;
 }
 
+// Of points from the largest step on: without the first ones to which a smaller step is both faster
+// and better, as where a solver takes more iterations than a larger step saves.
+void drop_dominated(std::vector<PlotPoint>& points) {
+  const auto wins = std::ranges::adjacent_find(points, [](const auto& large, const auto& small) {
+    return large.x < small.x || large.y < small.y;
+  });
+  points.erase(points.begin(), points.size() < 2 ? points.begin() : wins);
+}
+
 }  // namespace
 
 std::vector<bool> methods_to_draw(const Bench& bench) {
@@ -69,6 +78,7 @@ PlotPanel bench_panel(const Bench& bench, Observed observed) {
       if (error && !row->samples.empty())
         series.points.push_back({time_of(*row).seconds_per_time, *error});
     }
+    drop_dominated(series.points);
     if (!series.points.empty()) panel.series.push_back(std::move(series));
   }
   return panel;

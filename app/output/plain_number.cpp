@@ -72,6 +72,13 @@ std::string plain_number(double value, int digits) {
   return number_with(value, digits, power_of_ten);
 }
 
+std::string terminal_number(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
+  const int exponent = parts_of(value, digits).second;
+  return exponent < -3 || exponent > 12 ? fmt::format("{:.{}g}", value, digits)
+                                        : without_power(value, digits, exponent);
+}
+
 std::string html_number(double value, int digits) { return number_with(value, digits, html_power); }
 
 }  // namespace hamgen::app

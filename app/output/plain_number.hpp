@@ -13,4 +13,7 @@ namespace hamgen::app {
 [[nodiscard]] std::string plain_number(double value, int digits);
 [[nodiscard]] std::string html_number(double value, int digits);
 
+// For a terminal: so many digits and all those before the point, "3450", "73.4", "0.0123".
+[[nodiscard]] std::string terminal_number(double value, int digits);
+
 }  // namespace hamgen::app
