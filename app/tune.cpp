@@ -11,6 +11,7 @@
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/draw_picture.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/terminal.hpp"
 #include "app/output/tune_picture.hpp"
@@ -123,6 +124,7 @@ MapRequest map_request_of(const TuneOptions& options) {
 
 // FILE.csv, FILE.gp and, if gnuplot is there, FILE.png (or .svg).
 void write_map(const TuneOptions& options, const EnergyMap& map, const TuneReport& report) {
+  make_directories_above({options.map}, options.quiet);
   namespace fs = std::filesystem;
   fs::path picture = options.map;
   if (picture.extension() != ".svg") picture.replace_extension(".png");
@@ -163,7 +165,10 @@ int run_tune(const TuneOptions& options) {
     print_error(
         fmt::format("hamgen: the orbit cannot be followed: {}\nhelp: try a shorter --time\n",
                     report.orbit_failure));
-  if (interrupt_flag()) return interrupted;
+  if (interrupt_flag()) {
+    print_error("hamgen: stopped; no gauge was found\n");
+    return interrupted;
+  }
   if (!report.orbit_failure.empty()) return numerical_failure;
   print(options.json ? tune_json(report) : tune_text(report));
   if (!options.map.empty()) {

@@ -92,8 +92,7 @@ std::string verdict_of(const TuneReport& report) {
 }
 
 std::string tune_text(const TuneReport& report) {
-  const GaugeTexts texts =
-      gauge_texts(report.shape, number_texts(report.gauges.back().coefficients));
+  const GaugeTexts texts = gauge_texts(report.shape, number_texts(report.shown));
   std::string text =
       fmt::format("{}{}: h = {}, t = {} ({} steps)\n", report.model,
                   report.scene.empty() ? "" : ", scene " + report.scene,

@@ -1,7 +1,10 @@
 #include "app/studies/tune.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace hamgen::app {
 namespace {
@@ -62,8 +65,8 @@ TuneReport Tuner::run() {
   add("tuned", flat.coefficients);
   if (request_.polish) polish_all();
   report_.request = request_.setting.request;
-  const GaugeTexts texts =
-      gauge_texts(request_.shape, number_texts(report_.gauges.back().coefficients));
+  report_.shown = in_few_digits(report_.gauges.back().coefficients);
+  const GaugeTexts texts = gauge_texts(request_.shape, number_texts(report_.shown));
   report_.request.beta = texts.beta;
   report_.request.gamma = texts.gamma;
   return report_;
@@ -120,21 +123,34 @@ void Tuner::add(const std::string& name, const std::vector<double>& coefficients
   report_.gauges.push_back(std::move(gauge));
 }
 
+double Tuner::spread_of(const std::vector<double>& coefficients) const {
+  const Measurement measured = integrator_.measure(coefficients, h_, request_.steps);
+  return measured.failure.empty() ? measured.energy_spread : HUGE_VAL;
+}
+
+std::vector<double> Tuner::in_few_digits(const std::vector<double>& coefficients) const {
+  constexpr double no_worse = 1.001;
+  const double whole = spread_of(coefficients);
+  for (int digits = 3; digits < 17; ++digits) {
+    std::vector<double> rounded;
+    for (const double x : coefficients)
+      rounded.push_back(std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr));
+    if (spread_of(rounded) <= no_worse * whole) return rounded;
+  }
+  return coefficients;
+}
+
 // From the narrowest form on, each from the better of its own fit and of the form before: a wider
 // form never ends worse than one that it contains.
 void Tuner::polish_all() {
   std::vector<double> best = report_.gauges.back().coefficients;
-  const auto spread = [this](const std::vector<double>& coefficients) {
-    const Measurement measured = integrator_.measure(coefficients, h_, request_.steps);
-    return measured.failure.empty() ? measured.energy_spread : HUGE_VAL;
-  };
   std::optional<GaugeShape> before;
   for (const GaugeForm form : {GaugeForm::scalar, GaugeForm::diagonal, GaugeForm::matrix}) {
     if (form > request_.shape.form) break;
     const GaugeShape shape = {.form = form, .n = request_.shape.n};
     if (before && shape.size() == before->size()) continue;
     const auto value = [&](const std::vector<double>& coefficients) {
-      return spread(widened(shape, coefficients, request_.shape));
+      return spread_of(widened(shape, coefficients, request_.shape));
     };
     std::vector<double> start = fit_gauge(orbit_, shape).coefficients;
     if (before) {

@@ -57,7 +57,8 @@ struct TuneReport {
   bool polish_ended = true;        // at a minimum, not at the most runs that are allowed
   std::string reference_failure;   // why there are no state errors
   std::string orbit_failure;       // why there are no gauges: the orbit cannot be followed
-  Request request;                 // the last gauge
+  std::vector<double> shown;       // the last gauge, in the digits that matter
+  Request request;                 // of that
 
   // Energy spread of the midpoint rule over that of the last gauge; empty if one was not measured.
   [[nodiscard]] std::optional<double> gain() const;
@@ -92,6 +93,9 @@ class Tuner {
   void follow_orbit();
   void compute_reference();
   void add(const std::string& name, const std::vector<double>& coefficients);
+  // Rounded to the fewest digits that measure no worse: those behind them are noise.
+  [[nodiscard]] std::vector<double> in_few_digits(const std::vector<double>& coefficients) const;
+  [[nodiscard]] double spread_of(const std::vector<double>& coefficients) const;
   void polish_all();
   [[nodiscard]] Polished polish_from(const std::function<double(const std::vector<double>&)>& value,
                                      const std::vector<double>& start) const;
