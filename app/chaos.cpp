@@ -95,6 +95,7 @@ struct ChaosTexts {
 
 void write_chaos_files(const ChaosOptions& options, const ChaosTexts& texts,
                        const std::string& script) {
+  make_directories_above({options.output, options.plot}, options.quiet);
   const OutputKind kind = table_kind(options.output);
   print(options.json ? texts.json : kind == OutputKind::standard ? texts.csv : texts.people);
   if (kind == OutputKind::csv || kind == OutputKind::json) {
@@ -181,6 +182,12 @@ int run_chaos(const ChaosOptions& options) {
       axes.push_back(read_axis(std::string(piece), names));
   }
   if (axes.size() > 2) throw UsageError("--over: two axes at most");
+  constexpr std::size_t most = 1'000'000;
+  if (axes.size() == 2 && axes[0].values.size() * axes[1].values.size() > most)
+    throw UsageError(
+        fmt::format("--over: {} orbits, more than the {} of a map\n"
+                    "help: smaller COUNTs: a picture of 1000 by 1000 is a fine one",
+                    axes[0].values.size() * axes[1].values.size(), most));
   const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()});
   return axes.empty() ? run_orbit(options, loaded) : run_map(options, loaded, std::move(axes));
 }

@@ -12,6 +12,7 @@
 #include "app/interrupt.hpp"
 #include "app/output/ensemble_file.hpp"
 #include "app/output/ensemble_output.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/crew.hpp"
@@ -162,6 +163,7 @@ int run_ensemble(const EnsembleOptions& options, Crew& crew) {
   bool has_all = false;
   if (crew.leads()) has_all = is_complete(options, manifest);
   if (crew.leads() && !has_all) {
+    make_directories_above({options.output}, options.quiet);
     parts = std::make_unique<EnsembleParts>(options.output, manifest, options.resume);
     parts->scan();
     missing = parts->missing();

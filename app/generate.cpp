@@ -8,6 +8,7 @@
 #include "app/command_line.hpp"
 #include "app/output/difference.hpp"
 #include "app/output/json_document.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"
@@ -116,27 +117,13 @@ int compare(const OutputFiles& files, const std::string& directory, const std::s
   return numerical_failure;
 }
 
-// The outermost directory above the file that is not there yet; empty if all are.
-std::filesystem::path first_missing_directory(const std::string& path) {
-  std::filesystem::path missing;
-  for (std::filesystem::path above = std::filesystem::path(path).parent_path();
-       !above.empty() && !std::filesystem::exists(above); above = above.parent_path())
-    missing = above;
-  return missing;
-}
-
-// Says which files there are and which have changed; a directory above the one that was named may
-// be a slip of the pen.
+// Says which files there are and which have changed.
 int write(const OutputFiles& files, const std::string& directory, const GenerateOptions& options) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  make_directories_above({options.output}, options.quiet || options.json);
   for (const OutputFile& file : files) {
     const std::string path = path_in(directory, file);
-    const std::filesystem::path made = first_missing_directory(path);
     const bool changed = runtime::atomic_write(path, file.text);
-    const bool is_asked_for =
-        made == std::filesystem::path(directory.empty() ? path : directory + "/x").parent_path();
-    if (!made.empty() && !is_asked_for && !options.quiet && !options.json)
-      print_error(fmt::format("{}/ (a new directory)\n", made.string()));
     rows.push_back({{"path", path}, {"changed", changed}});
     if (!options.quiet && !options.json)
       print_error(fmt::format("{}{}\n", path, changed ? "" : " (unchanged)"));
@@ -199,6 +186,7 @@ int generate_files(const GenerateOptions& options) {
   record_origin(options.method, source, request);
   OutputFiles files = generate(source, request);
   const bool one_file = is_code_file(options.output);
+  if (!one_file && options.output != "-") require_directory("-o", options.output);
   if (one_file) files = under_one_name(files, options.output);
   const std::string directory = one_file ? "" : options.output;
   if (options.check) return compare(files, directory, options.output, source, request);

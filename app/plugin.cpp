@@ -8,6 +8,8 @@
 #include <set>
 
 #include "app/command_line.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/terminal.hpp"
 #include "app/studies/domain.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/orbit_watch.hpp"
@@ -22,6 +24,7 @@ struct PluginOptions {
   MethodOptions method;
   SceneOptions scene;
   std::string output;
+  bool quiet = false;
 };
 
 std::vector<runtime::Wide> wide_values(const std::vector<Rational>& values) {
@@ -81,7 +84,14 @@ SystemFacts facts_of(const PluginSource& plugin, std::vector<WatchedEvent> event
   return facts;
 }
 
+void write(const PluginOptions& options, const std::filesystem::path& path,
+           const std::string& text) {
+  runtime::atomic_write(path, text);
+  if (!options.quiet) print_error(path.string() + "\n");
+}
+
 int run_plugin(const PluginOptions& options) {
+  require_directory("-o", options.output);
   Setting setting = read_setting(options.method, options.scene);
   const Model& model = setting.model;
   SceneValues scene = scene_values(model, setting.scene);
@@ -94,8 +104,9 @@ int run_plugin(const PluginOptions& options) {
   specialise(whole, scene, {}, Observing::everything, setting);
   const PluginSource plugin = generate_plugin(setting.source, setting.request);
   const std::filesystem::path directory = options.output;
-  runtime::atomic_write(directory / "plugin.cpp", plugin.text);
-  runtime::atomic_write(directory / "facts.txt", to_text(facts_of(plugin, std::move(events))));
+  make_directories_above({options.output}, options.quiet);
+  write(options, directory / "plugin.cpp", plugin.text);
+  write(options, directory / "facts.txt", to_text(facts_of(plugin, std::move(events))));
   return done;
 }
 
@@ -105,13 +116,13 @@ Command add_plugin(CLI::App& app) {
   const auto options = std::make_shared<PluginOptions>();
   CLI::App* parser =
       app.add_subcommand("plugin", "writes what a program loads by hamgen::load: code and names");
-  parser->group("");  // of programs, not of people
   parser->add_option("-o,--output", options->output, "where plugin.cpp and facts.txt are written")
       ->type_name("DIRECTORY")
       ->required();
   parser->group("");  // for programs: not listed in the help
   add_repeated(*parser, "--set", options->scene.set, "sizes of the model")
       ->type_name("NAME=VALUE,...");
+  parser->add_flag("--quiet", options->quiet, "no names of files");
   add_method_options(*parser, options->method);
   return {parser, [options] { return run_plugin(*options); }};
 }

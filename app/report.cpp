@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/output/bench_output.hpp"
 #include "app/output/gnuplot.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/report_page.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
@@ -141,6 +142,7 @@ std::string file_name(const std::string& path) {
 }
 
 int report(const ReportOptions& options) {
+  require_directory("-o", options.output);
   Setting setting = read_setting(options.method, options.scene);
   const SourceText& source = setting.source;
   const Model& model = setting.model;
@@ -177,6 +179,7 @@ int report(const ReportOptions& options) {
 
   const std::filesystem::path directory =
       options.output.empty() ? model.name + "-report" : options.output;
+  make_directories_above({directory.string()}, options.quiet);
   const ReportContent content{.plugin = &method.plugin,
                               .mechanics = &mechanics,
                               .scene = &scene,

@@ -12,6 +12,7 @@
 #include "app/interrupt.hpp"
 #include "app/output/draw_picture.hpp"
 #include "app/output/event_file.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress_bars.hpp"
 #include "app/output/run_report.hpp"
 #include "app/output/run_rows.hpp"
@@ -250,6 +251,7 @@ int run(const RunOptions& options) {
   runtime::Integrator integrator(loaded.library, start);
   const std::optional<double> energy_scale = scale_of(integrator, columns);
   const std::vector<std::string> remarks = metadata(plugin, scene, start, every, energy_scale);
+  make_directories_above({options.output, options.plot, options.watch.events}, options.quiet);
   std::optional<RunKeeper> keeper;
   if (options.checkpoint.is_wanted())
     keeper.emplace(options.checkpoint, manifest(options, setting, scene, plugin, every),

@@ -153,6 +153,7 @@ SceneValues scene_of(const Setting& setting) {
 }
 
 void write_files(const SectionOptions& options, const Section& section, const SectionTitle& title) {
+  make_directories_above({options.output, options.plot}, options.quiet);
   const OutputKind kind = table_kind(options.output);
   if (kind == OutputKind::standard) print(section_csv(section, title));
   if (kind == OutputKind::csv || kind == OutputKind::json) {

@@ -26,13 +26,14 @@ struct StressOptions {
   SceneOptions scene;
   std::vector<std::string> vary;
   std::string seconds = "1";
-  std::string reference_seconds = "10";
+  std::string reference_seconds = "2";
   std::string output, csv, plot;
   bool json = false;
   bool quiet = false;
 };
 
 void write_stress_files(const StressOptions& options, const StressMap& map) {
+  make_directories_above({options.output, options.csv, options.plot}, options.quiet);
   namespace fs = std::filesystem;
   const auto write = [&options](const fs::path& path, const std::string& text) {
     runtime::atomic_write(path, text);
@@ -131,7 +132,7 @@ Command add_stress(CLI::App& app) {
       ->type_name("N");
   parser
       ->add_option("--reference-seconds", options->reference_seconds,
-                   "for all state errors; 0: none; default 10")
+                   "for all state errors; 0: none; default 2")
       ->type_name("N");
   parser
       ->add_option("-o,--output", options->output,

@@ -43,7 +43,8 @@ runtime::ProcessResult run(const runtime::ProcessRequest& request) {
 void emit(const std::filesystem::path& model, const LoadOptions& options,
           const std::filesystem::path& directory) {
   runtime::ProcessRequest request;
-  request.command = {command_of(options), "plugin", model.string(), "-o", directory.string()};
+  request.command = {command_of(options), "plugin", model.string(), "-o",
+                     directory.string(),  "--quiet"};
   request.command.insert(request.command.end(), options.method.begin(), options.method.end());
   request.time_limit = options.time_limit;
   request.stop = options.stop;

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <filesystem>
 
+#include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
+namespace {
 
-OutputKind output_kind(const std::string& name) {
+OutputKind kind_by_ending(const std::string& name) {
   if (name.empty()) return OutputKind::none;
   if (name == "-") return OutputKind::standard;
   const std::string ending = std::filesystem::path(name).extension().string();
@@ -21,12 +25,50 @@ OutputKind output_kind(const std::string& name) {
   return OutputKind::directory;
 }
 
+void make_directory_above(const std::string& name, bool quiet) {
+  namespace fs = std::filesystem;
+  if (name.empty() || name == "-") return;
+  const fs::path path = name;
+  const fs::path parent = (path.has_filename() ? path : path.parent_path()).parent_path();
+  fs::path missing;
+  for (fs::path above = parent; !above.empty() && !fs::exists(above); above = above.parent_path())
+    missing = above;
+  if (missing.empty()) return;
+  std::error_code failed;
+  fs::create_directories(parent, failed);
+  if (failed) throw runtime::file_error("create the directory", parent, failed.value());
+  if (!quiet) print_error(fmt::format("{}/ (a new directory)\n", missing.string()));
+}
+
+}  // namespace
+
+OutputKind output_kind(const std::string& name) {
+  const OutputKind kind = kind_by_ending(name);
+  if (kind == OutputKind::directory) require_directory("-o", name);
+  return kind;
+}
+
 OutputKind table_kind(const std::string& name) {
-  const OutputKind kind = output_kind(name);
+  const OutputKind kind = kind_by_ending(name);
   if (kind != OutputKind::directory) return kind;
   throw UsageError(fmt::format(
       "-o {}: one table is written, and its name ends in .csv or .json\nhelp: -o {}.csv", name,
       (std::filesystem::path(name) / "").parent_path().replace_extension().string()));
+}
+
+void require_directory(const std::string& option, const std::string& name) {
+  const std::string ending = std::filesystem::path(name).extension().string();
+  const bool is_word = ending.size() > 1 && ending.size() <= 5 &&
+                       std::isalpha(static_cast<unsigned char>(ending[1])) != 0;
+  if (!is_word || std::filesystem::is_directory(name)) return;
+  throw UsageError(
+      fmt::format("{0} {1}: files are written into a directory, and this is the name of a file\n"
+                  "help: for a directory of that name: {0} {1}/",
+                  option, name));
+}
+
+void make_directories_above(std::initializer_list<std::string> names, bool quiet) {
+  for (const std::string& name : names) make_directory_above(name, quiet);
 }
 
 void require_one_document(bool json, OutputKind kind) {

@@ -1,6 +1,7 @@
 // What the name behind -o means, to every command that writes a table.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 namespace hamgen::app {
@@ -12,6 +13,12 @@ enum class OutputKind { none, directory, csv, json, standard };
 [[nodiscard]] OutputKind output_kind(const std::string& name);
 // Of a command that writes one table: no directory.  Throws UsageError for any other ending.
 [[nodiscard]] OutputKind table_kind(const std::string& name);
+// Throws UsageError where a directory is meant and the name, behind that option, ends as a file's
+// does, "page.html"; "page.html/" is one, and what is a directory already.
+void require_directory(const std::string& option, const std::string& name);
+// Makes the directories above files or directories of these names, and says so unless quiet: it may
+// be a slip of the pen.
+void make_directories_above(std::initializer_list<std::string> names, bool quiet);
 // Throws UsageError if both are documents on standard output.
 void require_one_document(bool json, OutputKind kind);
 

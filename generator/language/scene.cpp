@@ -293,6 +293,9 @@ class SceneReader {
     if (sgn(ratio) < 0)
       throw UsageError(fmt::format("--time {} and h = {} go in opposite directions", *request_.time,
                                    short_text(*values.h)));
+    if (sgn(ratio) > 0 && ratio < 1)
+      throw UsageError(fmt::format("--time {}: less than a step of h = {}\nhelp: a smaller --h",
+                                   *request_.time, short_text(*values.h)));
     if (ratio > most_steps)
       throw UsageError(fmt::format("--time {}: more than 1e15 steps of h = {}", *request_.time,
                                    short_text(*values.h)));

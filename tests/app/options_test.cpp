@@ -229,6 +229,42 @@ TEST(Options, OfLengthAgree) {
   EXPECT_TRUE(contains(time.err, "h is an axis")) << time.err;
 }
 
+// What is no length at all is said, not run.
+TEST(Options, OfLengthHaveRoomForAStep) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  for (const char* command : {"run", "chaos", "certify", "section"}) {
+    const Result result = hamgen({command, model, "--h", "0.1", "--time", "0.01"});
+    EXPECT_EQ(result.status, 2) << command << result.err;
+    EXPECT_TRUE(contains(result.err, "--time 0.01: less than a step of h = 0.1")) << result.err;
+  }
+}
+
+// Where a directory is meant, the name of a file is a slip; a directory above a name that is not
+// there is made, and said.
+TEST(Options, OfOutputTellFilesFromDirectories) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"generate", "galaxy.txt"},
+                                                {"report", "page.html"},
+                                                {"bench", "table.txt"},
+                                                {"stress", "map.dat"},
+                                                {"plugin", "plugin.cpp"}}) {
+    const Result result = hamgen({words[0], model, "-o", words[1]}, {}, scratch.path("."));
+    EXPECT_EQ(result.status, 2) << words[0] << result.err;
+    EXPECT_TRUE(contains(result.err, "help: for a directory of that name: -o " + words[1] + "/"))
+        << result.err;
+  }
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"m.ham"}));
+  const Result run = hamgen(
+      {"run", model, "--interpret", "--steps", "1", "-o", "a/b/x.csv", "--events", "c/e.csv"}, {},
+      scratch.path("."));
+  EXPECT_TRUE(run.err.starts_with("a/ (a new directory)\n")) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path("a/b/x.csv"))) << run.err;
+  const Result emitted = hamgen({"generate", model, "-o", "d.d/"}, {}, scratch.path("."));
+  EXPECT_EQ(emitted.err, "d.d/m.hpp\n");
+}
+
 // The command that a run of a model without scenes says it can be emitted with.
 TEST(Options, OfAnEmittedHeaderAreAcceptedWithoutAScene) {
   const Scratch scratch;
