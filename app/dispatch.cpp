@@ -172,7 +172,10 @@ int dispatch(const std::vector<std::string>& words, Crew& crew) {
     print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return proof_failed;
   } catch (const runtime::ToolError& error) {
-    if (interrupt_flag()) return interrupted;  // a compilation that was given up
+    if (interrupt_flag()) {  // a compilation that was given up
+      print_error("hamgen: stopped while compiling; nothing was written\n");
+      return interrupted;
+    }
     print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return tool_failure;
   } catch (const std::bad_alloc&) {

@@ -16,14 +16,6 @@ constexpr std::string_view kGreen = "\x1b[32m";
 constexpr std::string_view kNormal = "\x1b[0m";
 constexpr std::string_view kErase = "\r\x1b[K";
 
-// "0:42", "3:05:00".
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e9)) return "?";
-  const auto whole = static_cast<long long>(std::ceil(seconds));
-  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
-  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 bool is_set(const char* name) {
   const char* const value = std::getenv(name);
   return value != nullptr && value[0] != '\0';
@@ -35,6 +27,13 @@ bool can_draw(int descriptor) {
 }
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e9)) return "?";
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
 
 std::string progress_line(std::string_view label, const Progress& progress, int width,
                           bool colour) {

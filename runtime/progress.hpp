@@ -13,6 +13,9 @@ namespace hamgen::runtime {
 [[nodiscard]] std::string progress_line(std::string_view label, const Progress& progress, int width,
                                         bool colour);
 
+// "0:42", "3:05:00".
+[[nodiscard]] std::string duration_text(double seconds);
+
 // Draws on standard error if that is a terminal that can move its cursor, otherwise does nothing.
 // The line is removed at the end.  No colour if NO_COLOR is set.
 class ProgressBar {

@@ -5,7 +5,8 @@
 
 namespace hamgen::app {
 
-// A bar on standard error for each work in turn, removed at its end; empty if quiet.
+// A bar on standard error for each work in turn, removed at its end; empty if quiet.  Where that is
+// no terminal, a line now and then for work that takes long.
 [[nodiscard]] ProgressSink progress_bars(bool quiet);
 
 }  // namespace hamgen::app

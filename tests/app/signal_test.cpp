@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 #include "tests/app/hamgen_command.hpp"
@@ -121,6 +122,20 @@ TEST(Signals, AFileThatReachesItsLimitIsAnErrorOfWriting) {
   EXPECT_EQ(result.status, 4) << result.err;
   EXPECT_TRUE(contains(result.err, "x.csv")) << result.err;
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham"}));
+}
+
+// Ctrl-C while the compiler is at work: a word, and no file.
+TEST(Signals, EndACompilation) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string compiler = scratch.write("slow", "#!/bin/sh\nkill -INT $PPID\nexec sleep 60\n");
+  std::filesystem::permissions(compiler, std::filesystem::perms::owner_all);
+  for (const char* command : {"run", "bench", "certify"}) {
+    const Result result = hamgen({command, model, "--compiler", compiler}, {"HAMGEN_CACHE="});
+    EXPECT_EQ(result.status, 130) << command << result.err;
+    EXPECT_TRUE(contains(result.err, "hamgen: stopped")) << command << result.err;
+  }
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"pendulum.ham", "slow"}));
 }
 
 }  // namespace
