@@ -7,6 +7,7 @@
 
 #include "app/output/certify_output.hpp"
 #include "app/output/json_document.hpp"
+#include "app/output/plain_number.hpp"
 #include "app/output/wide_text.hpp"
 #include "app/studies/initial_data.hpp"
 #include "runtime/csv_writer.hpp"
@@ -97,8 +98,8 @@ std::string last_state_text(const RunReport& report) {
 }
 
 std::string seconds_text(double seconds) {
-  return seconds < 1e-3 ? fmt::format("{:.2g} ms", 1e3 * seconds)
-                        : fmt::format("{:.3g} s", seconds);
+  return seconds < 1e-3 ? terminal_number(1e3 * seconds, 2) + " ms"
+                        : terminal_number(seconds, 3) + " s";
 }
 
 std::string energy_text(const RunReport& report) {
@@ -120,9 +121,12 @@ std::string time_text(const RunReport& report) {
                                             : "compile " + seconds_text(report.compile_seconds);
   if (!report.interpreted && report.optimisation != "-O3")
     compile += fmt::format(" with {}", report.optimisation);
-  return fmt::format(
-      "generate {}, {}, run {}: {:.3g} ns/step", seconds_text(report.generate_seconds), compile,
-      seconds_text(report.summary.total_seconds), report.summary.nanoseconds_per_step());
+  const std::string all =
+      fmt::format("generate {}, {}, run {}", seconds_text(report.generate_seconds), compile,
+                  seconds_text(report.summary.total_seconds));
+  if (report.summary.steps_done == 0) return all;
+  return fmt::format("{}: {} ns/step", all,
+                     terminal_number(report.summary.nanoseconds_per_step(), 3));
 }
 
 bool is_formula(const std::string& name, const SceneValues& scene) {

@@ -21,7 +21,7 @@ list(TRANSFORM models PREPEND share/hamgen/)
 file(GLOB_RECURSE pages RELATIVE ${SOURCE}/docs ${SOURCE}/docs/*.md ${SOURCE}/docs/*.svg
   ${SOURCE}/docs/*.png ${SOURCE}/docs/*.cff ${SOURCE}/docs/*.c ${SOURCE}/docs/*.py
   ${SOURCE}/docs/*.ham)
-list(TRANSFORM pages PREPEND share/doc/hamgen/)
+list(TRANSFORM pages PREPEND share/doc/hamgen/docs/)
 list(APPEND expected ${models} ${pages})
 
 set(missing ${expected})
