@@ -8,6 +8,7 @@
 #include <span>
 
 #include "app/output/math_symbol.hpp"
+#include "app/output/plain_number.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
@@ -79,13 +80,16 @@ Tightness tightness_of(const MathFormula& formula, FractionForm form) {
 }
 
 // As high as what they hold, where that is higher than a line.
-std::string parenthesised(const std::string& markup) {
+std::string fenced(std::string_view open, const std::string& markup, std::string_view close) {
   const bool is_high = markup.find("<mfrac") != std::string::npos ||
                        markup.find("<munderover") != std::string::npos ||
                        markup.find("<msqrt") != std::string::npos;
   const char* const stretch = is_high ? "" : " stretchy='false'";
-  return fmt::format("<mrow><mo{0}>(</mo>{1}<mo{0}>)</mo></mrow>", stretch, markup);
+  return fmt::format("<mrow><mo{0}>{1}</mo>{2}<mo{0}>{3}</mo></mrow>", stretch, open, markup,
+                     close);
 }
+
+std::string parenthesised(const std::string& markup) { return fenced("(", markup, ")"); }
 
 std::string at_least(Tightness level, const MathFormula& formula, FractionForm form) {
   const std::string markup = markup_of(formula, form);
@@ -154,8 +158,7 @@ std::string list_markup(std::span<const MathFormula> formulas, FractionForm form
 std::optional<std::string> own_notation(const MathFormula& call, FractionForm form) {
   if (call.text == "sqrt")
     return "<msqrt><mrow>" + list_markup(call.parts, form) + "</mrow></msqrt>";
-  if (call.text == "abs")
-    return "<mrow><mo>|</mo>" + list_markup(call.parts, form) + "<mo>|</mo></mrow>";
+  if (call.text == "abs") return fenced("|", list_markup(call.parts, form), "|");
   if (call.text == "exp")
     return "<msup><mi>e</mi><mrow>" + list_markup(call.parts, FractionForm::slash) +
            "</mrow></msup>";
@@ -264,6 +267,15 @@ MathFormula math_number(const std::string& text) {
   return {.kind = MathKind::number, .text = text, .parts = {}};
 }
 
+MathFormula math_value(double value, int digits) {
+  const DecimalParts parts = decimal_parts(value, digits);
+  const MathFormula mantissa = math_number(parts.mantissa);
+  if (!parts.exponent) return mantissa;
+  const MathFormula power =
+      power_of(math_number("10"), math_number(std::to_string(*parts.exponent)));
+  return parts.mantissa == "1" ? power : product_of(mantissa, power);
+}
+
 MathFormula math_symbol(std::string_view name) {
   return {.kind = MathKind::symbol, .text = std::string(name), .parts = {}};
 }
@@ -314,6 +326,10 @@ std::string math_markup(const MathFormula& formula) {
   return markup_of(without_leading_sign(formula), FractionForm::bar);
 }
 
+std::string line_markup(const MathFormula& formula) {
+  return markup_of(without_leading_sign(formula), FractionForm::slash);
+}
+
 std::vector<std::string> math_pieces(const MathFormula& formula) {
   const MathFormula whole = without_leading_sign(formula);
   // A long sum above a number: the number goes in front, so that lines can end between its terms.
@@ -336,9 +352,10 @@ std::vector<std::string> math_pieces(const MathFormula& formula) {
   return pieces;
 }
 
-std::string dotted_markup(const MathFormula& symbol) {
+std::string accented_markup(const MathFormula& symbol, std::string_view accent) {
   const SymbolMarkup parts = symbol_parts(symbol);
-  const std::string letter = "<mover accent='true'>" + parts.letter + "<mo>˙</mo></mover>";
+  const std::string letter =
+      fmt::format("<mover accent='true'>{}<mo>{}</mo></mover>", parts.letter, accent);
   if (parts.subscript.empty()) return letter;
   return fmt::format("<msub>{}<mrow>{}</mrow></msub>", letter, parts.subscript);
 }

@@ -19,6 +19,8 @@ struct MathFormula {
 };
 
 [[nodiscard]] MathFormula math_number(const std::string& text);
+// Rounded to so many digits, with a power of ten where plain_number has one.
+[[nodiscard]] MathFormula math_value(double value, int digits);
 // "omega" is the Greek letter; "q1", "px", "rc", "v_max" have a subscript.
 [[nodiscard]] MathFormula math_symbol(std::string_view name);
 [[nodiscard]] MathFormula with_subscript(std::string_view name, const MathFormula& subscript);
@@ -39,7 +41,9 @@ struct MathFormula {
 [[nodiscard]] std::string math_markup(const MathFormula& formula);
 // The same in parts between which a line may end: the terms of a sum, each with its sign.
 [[nodiscard]] std::vector<std::string> math_pieces(const MathFormula& formula);
-// A symbol with a dot: its derivative by time.
-[[nodiscard]] std::string dotted_markup(const MathFormula& symbol);
+// The same with slashes for bars, as high as a line of text.
+[[nodiscard]] std::string line_markup(const MathFormula& formula);
+// A symbol with a sign above it: "˙" of its derivative by time.
+[[nodiscard]] std::string accented_markup(const MathFormula& symbol, std::string_view accent);
 
 }  // namespace hamgen::app

@@ -3,15 +3,31 @@
 #include <fmt/format.h>
 
 #include "generator/algebra/latex.hpp"
+#include "generator/algebra/polynomial.hpp"
 
 namespace hamgen::app {
 namespace {
 
 std::string formula_of(const Expression& term, bool latex) {
-  return latex ? to_latex(term) : to_text(term);
+  const Expression shown = shown_term(term);
+  return latex ? to_latex(shown) : to_text(shown);
 }
 
 }  // namespace
+
+Expression shown_term(const Expression& term) {
+  constexpr std::size_t most_terms = 200;
+  constexpr double longer = 1.5;
+  try {
+    PolynomialRing ring(most_terms);
+    const Polynomial polynomial = ring.expand(term);
+    const Expression flat = ring.horner(polynomial, [](const Expression&) { return false; });
+    const auto length = [](const Expression& e) { return static_cast<double>(to_text(e).size()); };
+    return length(flat) <= longer * length(term) ? flat : term;
+  } catch (const TooManyTerms&) {
+    return term;
+  }
+}
 
 std::string modified_text(const ModifiedEnergy& modified, bool latex) {
   std::string text = "modified Hamiltonian, which the step conserves as a formal series:\n";

@@ -40,17 +40,12 @@ std::string minus_sign(std::string text) {
 
 std::string number_with(double value, int digits, std::string (*power)(int)) {
   if (!std::isfinite(value)) return "–";
-  const auto [mantissa, exponent] = parts_of(value, digits);
-  if (is_plain(value, exponent)) return minus_sign(without_power(value, digits, exponent));
-  // Of many digits the last zeros are those of a round number.
-  constexpr int many = 3;
-  std::string digits_shown = mantissa;
-  if (digits > many && digits_shown.find('.') != std::string::npos) {
-    digits_shown.erase(digits_shown.find_last_not_of('0') + 1);
-    if (digits_shown.ends_with('.')) digits_shown.pop_back();
-  }
-  const bool is_power = mantissa.substr(0, mantissa.find_last_not_of("0.") + 1) == "1";
-  return minus_sign(is_power ? power(exponent) : digits_shown + "·" + power(exponent));
+  const DecimalParts parts = decimal_parts(value, digits);
+  if (!parts.exponent) return minus_sign(parts.mantissa);
+  const bool is_power = parts.mantissa == "1" || parts.mantissa == "-1";
+  return minus_sign(is_power ? parts.mantissa.substr(0, parts.mantissa.size() - 1) +
+                                   power(*parts.exponent)
+                             : parts.mantissa + "·" + power(*parts.exponent));
 }
 
 std::string html_power(int exponent) {
@@ -58,6 +53,22 @@ std::string html_power(int exponent) {
 }
 
 }  // namespace
+
+DecimalParts decimal_parts(double value, int digits) {
+  if (!std::isfinite(value)) return {"–", std::nullopt};
+  const auto [mantissa, exponent] = parts_of(value, digits);
+  if (is_plain(value, exponent)) return {without_power(value, digits, exponent), std::nullopt};
+  // Of many digits the last zeros are those of a round number, as all are of a power of ten.
+  constexpr int many = 3;
+  const std::string bare = mantissa.substr(0, mantissa.find_last_not_of("0.") + 1);
+  if (bare == "1" || bare == "-1") return {bare, exponent};
+  std::string shown = mantissa;
+  if (digits > many && shown.find('.') != std::string::npos) {
+    shown.erase(shown.find_last_not_of('0') + 1);
+    if (shown.ends_with('.')) shown.pop_back();
+  }
+  return {shown, exponent};
+}
 
 std::string power_of_ten(int exponent) {
   constexpr std::array<std::string_view, 10> digits = {"⁰", "¹", "²", "³", "⁴",

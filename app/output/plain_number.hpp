@@ -1,12 +1,20 @@
 // Numbers as people write them: "0.0125", "1060", "9.6 times ten to the power of -5".
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace hamgen::app {
 
 // A power of ten in Unicode: "10⁻⁶".
 [[nodiscard]] std::string power_of_ten(int exponent);
+
+// So many significant digits: "-9.6" and -5, or "0.0125" without a power of ten.
+struct DecimalParts {
+  std::string mantissa;
+  std::optional<int> exponent;
+};
+[[nodiscard]] DecimalParts decimal_parts(double value, int digits);
 
 // So many significant digits, without a power of ten from 1e-3 to 1e5; "–" for what is not finite.
 // In plain text the power is 10⁻⁵, in HTML it has <sup>.

@@ -165,18 +165,29 @@ std::string floor_text(const PlotPanel& panel, const Range& y) {
       *panel.floor);
 }
 
-// Names beside short pieces of line or markers, in rows below the plot.
-std::string legend_text(const PlotPanel& panel) {
+std::size_t longest_label(const PlotPanel& panel) {
   std::size_t longest = 0;
   for (const PlotSeries& series : panel.series) longest = std::max(longest, series.label.size());
-  if (longest == 0) return "unset key\n";
+  return longest;
+}
+
+// Names side by side.
+int legend_columns(const PlotPanel& panel, int width) {
+  constexpr int letter = 7;  // units of the picture's width
+  constexpr int sample = 45;
+  return std::max(1, width / (letter * static_cast<int>(longest_label(panel)) + sample));
+}
+
+// Names beside short pieces of line or markers, in rows below the plot, as many in one as fit.
+std::string legend_text(const PlotPanel& panel, int picture_width) {
+  const int length = static_cast<int>(longest_label(panel));
+  if (length == 0) return "unset key\n";
   // Gnuplot takes letters for wider than they are, the more the longer a name is.
-  const int length = static_cast<int>(longest);
   const int width = length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
   return fmt::format(
-      "set key below center horizontal Left reverse noenhanced samplen 1.8 width {} height 0.6 "
-      "font ',12'\n",
-      width);
+      "set key below center horizontal maxcols {} Left reverse noenhanced samplen 1.8 width {} "
+      "height 0.6 font ',12'\n",
+      legend_columns(panel, picture_width), width);
 }
 
 std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {
@@ -205,7 +216,7 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
   text += axis_text(x) + axis_text(y);
   text += panel.square ? "set size ratio -1\n" + square_tics(x.drawn(), y.drawn(), width, height)
                        : std::string("set size noratio\n");
-  text += floor_text(panel, y.range) + legend_text(panel);
+  text += floor_text(panel, y.range) + legend_text(panel, width);
   std::string plots;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     if (!has_points(panel, i)) continue;
@@ -220,6 +231,13 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
 }
 
 }  // namespace
+
+int legend_rows(const PlotPanel& panel, int width) {
+  const auto names = std::ranges::count_if(
+      panel.series, [](const PlotSeries& series) { return !series.label.empty(); });
+  const int columns = legend_columns(panel, width);
+  return (static_cast<int>(names) + columns - 1) / columns;
+}
 
 std::string gnuplot_script(const Plot& plot, const std::string& output) {
   const std::size_t count = plot.panels.size();

@@ -40,6 +40,9 @@ struct Plot {
   bool stacked = false;  // panels one below the other, not side by side
 };
 
+// Of the names below a panel in a picture of this width; 0 without names.
+[[nodiscard]] int legend_rows(const PlotPanel& panel, int width);
+
 // The whole script, data and output included; the legend is beneath.  The path's ending chooses svg
 // or png.  Points that a logarithmic axis or a number cannot hold are left out.
 [[nodiscard]] std::string gnuplot_script(const Plot& plot, const std::string& output);

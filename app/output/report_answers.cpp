@@ -31,7 +31,7 @@ std::string method_answer(const ReportContent& content) {
   std::string text = fmt::format("<strong>{}</strong>, {}", html_text(plugin.scheme_name),
                                  proved != nullptr ? with_verdict(order, *proved) : order);
   if (symmetric != nullptr) text += ", " + with_verdict("symmetric", *symmetric);
-  return text + fmt::format("; h = {}", html_number(to_double(*content.scene->h), 6));
+  return text + "; " + named_value("h", to_double(*content.scene->h), 6);
 }
 
 std::string conserved_answer(const ReportContent& content) {
@@ -64,8 +64,9 @@ std::string reached_answer(const ReportContent& content) {
                         html_text(orbit.outcome));
   const BenchRow& row = content.row;
   if (row.q_error && row.p_error)
-    text += fmt::format("; after t = {} q to {} and p to {}", html_number(content.bench->time, 4),
-                        html_number(*row.q_error, 2), html_number(*row.p_error, 2));
+    text += fmt::format("; at {}, {} to {} and {} to {}", named_value("t", content.bench->time, 4),
+                        inline_formula(math_symbol("q")), html_number(*row.q_error, 2),
+                        inline_formula(math_symbol("p")), html_number(*row.p_error, 2));
   if (row.samples.empty()) return text;
   const BenchTime time = time_of(row);
   return text + fmt::format("; {} a step, {} for a unit of time",
@@ -81,10 +82,10 @@ std::string nearest_text(const Bench& bench) {
     if (error && (best == nullptr || *error < *error_of(*best, bench.observed))) best = &row;
   }
   if (best == nullptr) return "no method of the comparison got through";
-  return fmt::format("none of the methods compared reaches it; {} comes to {} with h = {}",
+  return fmt::format("none of the methods compared reaches it; {} comes to {} with {}",
                      html_text(bench.methods[best->method].spec),
                      html_number(*error_of(*best, bench.observed), 2),
-                     html_number(to_double(best->h), 4));
+                     named_value("h", to_double(best->h), 4));
 }
 
 std::string advice_answer(const ReportContent& content) {
@@ -94,11 +95,11 @@ std::string advice_answer(const ReportContent& content) {
   const BenchRow& row = bench.rows[*answer.row];
   const BenchMethod& method = bench.methods[row.method];
   return fmt::format(
-      "take <strong>{}</strong> with h = {}: {} for a unit of time"
-      "<br><code>{}</code>",
-      html_text(method.spec), html_number(to_double(row.h), 4),
+      "take <strong>{}</strong> with {}: {} for a unit of time"
+      "<br>{}",
+      html_text(method.spec), named_value("h", to_double(row.h), 4),
       html_seconds(time_of(row).seconds_per_time),
-      html_text(run_command(content.file, method.request, row.h)));
+      command_markup(run_command(content.file, method.request, row.h)));
 }
 
 std::string left_out_answer(const PluginSource& plugin) {

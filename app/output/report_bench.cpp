@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/output/generate_command.hpp"
 #include "app/output/plain_number.hpp"
@@ -16,6 +17,13 @@ std::string error_number(const std::optional<double>& value) {
 }
 
 std::string number_cell(const std::string& text) { return "<td class='number'>" + text + "</td>"; }
+
+// 0.01 stands among powers of ten.
+std::string target_number(double target) {
+  const double exponent = std::log10(target);
+  if (std::fabs(exponent - std::round(exponent)) > 1e-9) return html_number(target, 2);
+  return inline_formula(power_of(math_number("10"), math_number(fmt::format("{:.0f}", exponent))));
+}
 
 std::string row_text(const Bench& bench, const BenchRow& row, bool is_in_front) {
   const std::string begin = fmt::format(
@@ -60,7 +68,7 @@ std::string ladder_table(const ReportContent& content) {
   std::vector<BenchAnswer> answers(bench.answers.begin() + 1, bench.answers.end());
   std::string rows;
   for (const BenchAnswer& answer : answers) {
-    rows += "<tr>" + number_cell(html_number(answer.target, 2));
+    rows += "<tr>" + number_cell(target_number(answer.target));
     if (!answer.row) {
       rows += "<td colspan='3'>no method here</td></tr>\n";
       continue;

@@ -25,6 +25,12 @@ constexpr int kSmallWidth = 440;
 constexpr int kSmallHeight = 350;
 constexpr const char* kEnergyLabel = "(H − H(0)) / scale";
 
+// With room for the names of the curves.
+int small_height(const PlotPanel& panel) {
+  constexpr int row = 17;
+  return kSmallHeight + 10 + row * legend_rows(panel, kSmallWidth);
+}
+
 runtime::InitialValues start_of_figure(const BenchMethod& method, const SceneValues& scene) {
   return initial_values(method.plugin, scene, *method.loaded.library);
 }
@@ -142,8 +148,9 @@ class EnergyWatch {
                     .floor = kHalfUnit};
     for (const Watched& each : invariants_) panel.series.push_back(each.series);
     return {{.name = "conserved",
-             .caption = "What is conserved: the largest error so far of H, of its scale, and of "
-                        "the invariants, of their values at the start.",
+             .caption =
+                 "What is conserved: the largest error so far of the energy, of its scale, and of "
+                 "the invariants, of their values at the start.",
              .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight}}};
   }
 
@@ -244,11 +251,9 @@ Figure state_over_time(const SceneValues& scene, const SourceText& source, const
     if (drawn[m] && method.refusal.empty())
       panel.series.push_back(error_over_time(method, scene, chunk, track));
   }
-  return {
-      .name = "state",
-      .caption = fmt::format("Distance from the reference solution over time, each with h = {}.",
-                             plain_number(to_double(*scene.h), 6)),
-      .plot = {.panels = {panel}, .width = kSmallWidth, .height = kSmallHeight + 60}};
+  return {.name = "state",
+          .caption = "Distance from the reference solution over time, each with this page's step.",
+          .plot = {.panels = {panel}, .width = kSmallWidth, .height = small_height(panel)}};
 }
 
 // The method of the page at the scene's step among the others.
@@ -266,14 +271,14 @@ Figure errors_against_time(const ReportSubject& subject, const Bench& bench, Obs
   PlotPanel panel = bench_panel(bench, observed);
   add_subject(subject, observed, panel);
   const bool is_energy = observed == Observed::energy;
-  return {.name = is_energy ? "bench_energy" : "bench_state",
-          .caption = is_energy ? "Energy error against run time: one point a step size."
-                               : "State error at the end against run time: one point a step size; "
-                                 "further left and further down is better.",
-          .plot = {.panels = {std::move(panel)},
-                   .width = large ? 1000 : kSmallWidth,
-                   .height = large ? 560 : kSmallHeight + 60},
-          .large = large};
+  const int height = large ? 560 : small_height(panel);
+  return {
+      .name = is_energy ? "bench_energy" : "bench_state",
+      .caption = is_energy ? "Energy error against run time: one point a step size."
+                           : "State error at the end against run time: one point a step size; "
+                             "further left and further down is better.",
+      .plot = {.panels = {std::move(panel)}, .width = large ? 1000 : kSmallWidth, .height = height},
+      .large = large};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "app/output/math_font.hpp"
 #include "app/output/plain_number.hpp"
@@ -51,9 +52,9 @@ std::string bench_section(const ReportContent& content) {
   std::string text = "<h2>Error against run time</h2>\n";
   if (!content.pictures.empty()) text += figure_markup(content.pictures.front());
   text += fmt::format(
-      "<p>Every method to t = {}, with the processor time its steps took: medians of samples taken "
+      "<p>Every method to {}, with the processor time its steps took: medians of samples taken "
       "in turn, to be compared within this page only. {}</p>\n",
-      html_number(bench.time, 6),
+      named_value("t", bench.time, 6),
       bench.reference.state.empty()
           ? "There is no reference solution: " + html_text(bench.reference.failure) + "."
           : fmt::format("The reference was extrapolated in quad precision; its own error is {}.",
@@ -63,22 +64,42 @@ std::string bench_section(const ReportContent& content) {
                        bench_table(bench));
 }
 
+MathFormula size_of(const MathFormula& formula) { return call_of("abs", {formula}); }
+
+// The energies whose largest is the scale: |H|, |p H_p|/2, |H - p H_p/2|, |q H_q|/2.
+std::string scale_text() {
+  const MathFormula h = math_symbol("H");
+  const MathFormula two = math_number("2");
+  const auto work = [&](const char* name) {
+    const MathFormula variable = math_symbol(name);
+    return product_of(variable, with_subscript("H", variable));
+  };
+  return fmt::format("{}, {}, {} and {}", inline_formula(size_of(h)),
+                     inline_formula(quotient_of(size_of(work("p")), two)),
+                     inline_formula(size_of(difference_of(h, quotient_of(work("p"), two)))),
+                     inline_formula(quotient_of(size_of(work("q")), two)));
+}
+
 std::string energy_sentence(const OrbitSummary& orbit) {
   if (!orbit.run.energy) return "";
   const runtime::EnergyStatistics& energy = *orbit.run.energy;
   const double scale = orbit.run.energy_terms;
+  const MathFormula h = math_symbol("H");
+  const MathFormula start = call_of("H", {math_number("0")});
   const std::string relative =
       scale > 0.0 ? fmt::format(", {} of the energy's scale {}",
                                 html_number(energy.max_error() / scale, 3), html_number(scale, 3))
                   : "";
+  const MathFormula initial = orbit.scalar_digits > 53
+                                  ? math_number(wide_text(energy.initial, orbit.scalar_digits))
+                                  : math_value(energy.initial.hi, 10);
   return fmt::format(
-      "<p>{} steps: max |H − H(0)| = {}{}; spread {}, H(0) = {}. The scale is the largest of |H|, "
-      "|p H<sub>p</sub>|/2, |H − p H<sub>p</sub>/2| and |q H<sub>q</sub>|/2 at the start: of a "
-      "mechanical system its kinetic and its potential energy and half its virial.</p>\n",
-      orbit.run.steps_done, html_number(energy.max_error(), 3), relative,
-      html_number(energy.spread(), 3),
-      orbit.scalar_digits > 53 ? wide_text(energy.initial, orbit.scalar_digits)
-                               : html_number(energy.initial.hi, 10));
+      "<p>{} steps: {} reaches {}{}; its spread is {}, {}. The scale is the largest of {} at the "
+      "start: of a mechanical system its kinetic and its potential energy and half its "
+      "virial.</p>\n",
+      orbit.run.steps_done, inline_formula(size_of(difference_of(h, start))),
+      html_number(energy.max_error(), 3), relative, html_number(energy.spread(), 3),
+      inline_equation(start, initial), scale_text());
 }
 
 std::string figures_section(const ReportContent& content) {
@@ -103,14 +124,21 @@ std::string head_comment(const std::string& header) {
   return text;
 }
 
+// "simplified Newton of size 2" begins a sentence.
+std::string capitalised(std::string text) {
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(text.front()));
+  return text;
+}
+
 std::string code_section(const ReportContent& content) {
   const std::string& header = content.plugin->header.text;
   std::string left_out;
   for (const std::string& item : content.plugin->left_out)
     left_out += "<li>" + html_text(item) + "</li>\n";
   if (!left_out.empty()) left_out = folded("What it does without", "<ul>\n" + left_out + "</ul>\n");
-  return fmt::format("<h2>The emitted step</h2>\n<p>{}. Printed by <code>{}</code></p>\n",
-                     html_text(content.plugin->solver), html_text(content.command)) +
+  return fmt::format("<h2>The emitted step</h2>\n<p>{}. Printed by {}</p>\n",
+                     html_text(capitalised(content.plugin->solver)),
+                     command_markup(content.command)) +
          left_out +
          folded("Its first lines", "<pre>" + html_text(head_comment(header)) + "</pre>\n") +
          folded("The whole header", "<pre>" + html_text(header) + "</pre>\n");
@@ -141,6 +169,30 @@ std::string formula_line(const std::string& left, const MathFormula& right) {
 }
 
 std::string inline_formula(const std::string& markup) { return "<math>" + markup + "</math>"; }
+
+std::string inline_formula(const MathFormula& formula) {
+  return inline_formula("<mrow>" + line_markup(formula) + "</mrow>");
+}
+
+std::string inline_equation(const MathFormula& left, const MathFormula& right) {
+  return inline_formula(
+      fmt::format("<mrow>{}<mo>=</mo>{}</mrow>", line_markup(left), line_markup(right)));
+}
+
+std::string named_value(std::string_view name, double value, int digits) {
+  return inline_equation(math_symbol(name), math_value(value, digits));
+}
+
+std::string command_markup(const std::string& command) {
+  std::string words;
+  for (std::size_t at = 0; at <= command.size();) {
+    const std::size_t end = std::min(command.find(' ', at), command.size());
+    words += fmt::format("{}<span>{}</span>", at == 0 ? "" : " ",
+                         html_text(command.substr(at, end - at)));
+    at = end + 1;
+  }
+  return "<code class='command'>" + words + "</code>";
+}
 
 std::string folded(const std::string& summary, const std::string& inside) {
   return "<details><summary>" + summary + "</summary>\n" + inside + "</details>\n";

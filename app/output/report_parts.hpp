@@ -16,6 +16,13 @@ namespace hamgen::app {
 // "name = formula" on lines of its own, broken between terms.
 [[nodiscard]] std::string formula_line(const std::string& left, const MathFormula& right);
 [[nodiscard]] std::string inline_formula(const std::string& markup);
+// Within a line of text; "left = right" and "h = 0.01" do not end a line in the middle.
+[[nodiscard]] std::string inline_formula(const MathFormula& formula);
+[[nodiscard]] std::string inline_equation(const MathFormula& left, const MathFormula& right);
+[[nodiscard]] std::string named_value(std::string_view name, double value, int digits);
+
+// A command, whose lines end between words.
+[[nodiscard]] std::string command_markup(const std::string& command);
 
 [[nodiscard]] std::string verdict_markup(Verdict verdict);
 // Shut until it is opened.

@@ -6,6 +6,7 @@
 
 #include "app/output/math_markup.hpp"
 #include "app/output/math_text.hpp"
+#include "app/output/modified_output.hpp"
 #include "app/output/plain_number.hpp"
 #include "app/output/report_parts.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -42,27 +43,27 @@ std::string oscillations(const LinearStability& linear) {
   const std::vector<double>& w = linear.frequencies;
   if (w.empty()) return "the linear part of the motion has no oscillation";
   if (w.size() == 1)
-    return fmt::format("the linear part of the motion is an oscillation with ω = {}",
-                       html_number(w.front(), 4));
-  return fmt::format("the linear part of the motion is {} oscillations, ω = {} to {}", w.size(),
-                     html_number(w.front(), 4), html_number(w.back(), 4));
+    return "the linear part of the motion is an oscillation with " +
+           named_value("omega", w.front(), 4);
+  const std::string least = named_value("omega", w.front(), 4);
+  const bool alike = least == named_value("omega", w.back(), 4);
+  return fmt::format("the linear part of the motion is {} oscillations, {}{}", w.size(), least,
+                     alike ? " of each" : " to " + html_number(w.back(), 4));
 }
 
 std::string bounded_phrase(const LinearStability& linear) {
   if (linear.frequencies.empty()) return "";
   const std::string verdict = verdict_markup(linear.verdict);
+  const std::string h = named_value("h", linear.h, 4);
   if (linear.verdict == Verdict::refuted)
-    return fmt::format(" At h = {} the step makes it grow without bound ({}).",
-                       html_number(linear.h, 4), verdict);
+    return fmt::format(" At {} the step makes it grow without bound ({}).", h, verdict);
   if (!holds(linear.verdict))
-    return fmt::format(" Whether the step keeps it bounded at h = {} is {}.",
-                       html_number(linear.h, 4), verdict);
+    return fmt::format(" Whether the step keeps it bounded at {} is {}.", h, verdict);
   std::string where;
-  if (linear.bounded_for_every_h) where = ", as at every h";
+  if (linear.bounded_for_every_h) where = ", as at every " + inline_formula(math_symbol("h"));
   if (!linear.bounded_for_every_h && linear.largest_h)
-    where = fmt::format(", as up to h = {}", html_number(*linear.largest_h, 4));
-  return fmt::format(" At h = {} the step keeps it bounded{} ({}).", html_number(linear.h, 4),
-                     where, verdict);
+    where = ", as up to " + named_value("h", *linear.largest_h, 4);
+  return fmt::format(" At {} the step keeps it bounded{} ({}).", h, where, verdict);
 }
 
 // What the numbers mean, in sentences.
@@ -71,11 +72,12 @@ std::string linear_text(const LinearPoint& point) {
   std::string text = fmt::format("<p>At the {} {}.", html_text(point.place), oscillations(linear));
   text += bounded_phrase(linear);
   if (linear.growing > 0)
-    text += fmt::format(" {}, up to exp({} t): that is the system's doing, not the step's.",
-                        linear.growing == 1
-                            ? "One direction grows of its own accord"
+    text += fmt::format(
+        " {}, up to {}: that is the system's doing, not the step's.",
+        linear.growing == 1 ? "One direction grows of its own accord"
                             : fmt::format("{} directions grow of their own accord", linear.growing),
-                        html_number(linear.growth_rate, 4));
+        inline_formula(
+            call_of("exp", {product_of(math_value(linear.growth_rate, 4), math_symbol("t"))})));
   if (linear.iteration_radius)
     text += fmt::format(" Fixed-point iteration would {}: its factor is {} an iteration.",
                         *linear.iteration_radius < 1.0 ? "converge" : "not converge",
@@ -83,9 +85,21 @@ std::string linear_text(const LinearPoint& point) {
   return text + "</p>\n";
 }
 
-std::string term_text(std::size_t power, const Expression& term) {
+// H_4.
+MathFormula term_symbol(std::size_t power) {
+  return with_subscript("H", math_number(std::to_string(power)));
+}
+
+MathFormula power_of_h(std::size_t power) {
+  return power_of(math_symbol("h"), math_number(std::to_string(power)));
+}
+
+std::string modified_symbol() { return accented_markup(math_symbol("H"), "˜"); }
+
+std::string term_text(std::size_t power, const Expression& derived) {
+  const Expression term = shown_term(derived);
   const std::size_t length = to_text(term).size();
-  const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
+  const std::string name = math_markup(term_symbol(power));
   if (length <= kLongestFormula) return formula_line(name, math_formula(term));
   if (length <= kLongestFolded)
     return folded(inline_formula(name) + ", written out", formula_line(name, math_formula(term)));
@@ -108,11 +122,16 @@ std::string variation_text(const ModifiedEnergy& modified) {
           : ": further terms do not take the variation down, h is too large for the series here";
   std::string text = fmt::format(
       "<p>Along the orbit, {} steps of {} in quad precision{}:</p>\n<div "
-      "class='wide'><table>\n<tr><th>terms to</th>"
-      "<th class='number'>max |H̃ − H̃(0)|</th></tr>\n",
-      modified.orbit->steps, html_number(modified.orbit->h, 6), finding);
+      "class='wide'><table>\n<tr><th>terms to</th><th class='number'>largest "
+      "<math><mrow><mo>|</mo>{}<mo>−</mo>{}<mo stretchy='false'>(</mo><mn>0</mn><mo "
+      "stretchy='false'>)</mo>"
+      "<mo>|</mo></mrow></math>"
+      "</th></tr>\n",
+      modified.orbit->steps, named_value("h", modified.orbit->h, 6), finding, modified_symbol(),
+      modified_symbol());
   for (const std::size_t power : modified.powers())
-    text += fmt::format("<tr><td>h<sup>{}</sup></td><td class='number'>{}</td></tr>\n", power,
+    text += fmt::format("<tr><td>{}</td><td class='number'>{}</td></tr>\n",
+                        inline_formula(power_of_h(power)),
                         html_number(modified.orbit->variations[power], 4));
   return text + "</table></div>\n";
 }
@@ -136,21 +155,18 @@ std::string proof_section(const ReportContent& content) {
 std::string modified_section(const ReportContent& content) {
   if (!content.modified) return "";
   const ModifiedEnergy& modified = *content.modified;
-  std::string text =
-      "<h2>The modified Hamiltonian</h2>\n<p>What the step conserves instead of H, as a formal "
-      "series in h.</p>\n";
-  std::string sum;
+  std::string text = fmt::format(
+      "<h2>The modified Hamiltonian</h2>\n<p>What the step conserves instead of {}, as "
+      "a formal series in {}.</p>\n",
+      inline_formula(math_symbol("H")), inline_formula(math_symbol("h")));
+  MathFormula sum = math_symbol("H");
   std::string terms;
   for (const std::size_t power : modified.powers()) {
-    const std::string name = fmt::format("<msub><mi>H</mi><mn>{}</mn></msub>", power);
-    sum += power == 0 ? std::string("<mi>H</mi>")
-                      : fmt::format("<mo>+</mo><msup><mi>h</mi><mn>{}</mn></msup>{}", power, name);
-    if (power > 0) terms += term_text(power, modified.terms[power]);
+    if (power == 0) continue;
+    sum = sum_of(sum, product_of(power_of_h(power), term_symbol(power)));
+    terms += term_text(power, modified.terms[power]);
   }
-  text += fmt::format(
-      "<div class='formula'><math displaystyle='true'><mrow><mover accent='true'><mi>H</mi>"
-      "<mo>˜</mo></mover><mo>=</mo>{}<mo>+</mo><mo>…</mo></mrow></math></div>\n{}",
-      sum, terms);
+  text += formula_line(modified_symbol(), sum_of(sum, math_symbol("…"))) + terms;
   return modified.orbit ? text + variation_text(modified) : text;
 }
 

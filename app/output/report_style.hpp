@@ -71,12 +71,14 @@ pre { background: var(--tint); padding: .9rem 1.1rem; overflow-x: auto; margin: 
   font: .78rem/1.5 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
 code { font-family: 'DejaVu Sans Mono', Menlo, Consolas, monospace; font-size: .82em;
   overflow-wrap: anywhere; }
+.command span { display: inline-block; max-width: 100%; }
 sup { line-height: 0; font-size: .72em; }
 footer { font-size: .88rem; color: var(--soft); }
 footer h2 { font-size: 1.05rem; }
 footer dl { margin: 0; } footer dl div { display: grid; grid-template-columns: 6rem 1fr; gap: 1rem; }
 @media (max-width: 44rem) { main { padding-top: 1.8rem; } h1 { font-size: 1.9rem; }
-  .answers div { grid-template-columns: 1fr; } }
+  .answers div { grid-template-columns: 1fr; }
+  td.name { white-space: normal; overflow-wrap: anywhere; } th, td { padding-right: .7rem; } }
 @media print { body { font-size: 10.5pt; } main { padding: 0; max-width: none; }
   figure { break-inside: avoid; } h2 { break-after: avoid; } }
 )";

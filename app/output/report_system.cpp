@@ -25,7 +25,7 @@ std::string equations_of_motion(const Mechanics& mechanics) {
   std::string text;
   for (std::size_t i = 0; i < std::min(2 * n, kMostEquations); ++i) {
     const Expression right = i < n ? mechanics.gradient[n + i] : -mechanics.gradient[i - n];
-    text += formula_line(dotted_markup(math_variable(mechanics.variables[i].name)),
+    text += formula_line(accented_markup(math_variable(mechanics.variables[i].name), "˙"),
                          math_formula(right));
   }
   if (2 * n > kMostEquations)
@@ -34,7 +34,7 @@ std::string equations_of_motion(const Mechanics& mechanics) {
 }
 
 struct ShownValue {
-  std::string name;  // MathML
+  MathFormula name;
   double value = 0.0;
   std::string unit, comment;
 };
@@ -51,8 +51,7 @@ std::vector<ShownValue> values_of(const ReportContent& content) {
         const std::string name =
             each.range ? fmt::format("{}[{}]", each.name, each.range->first + static_cast<long>(i))
                        : each.name;
-        all.push_back(
-            {math_markup(math_variable(name)), to_double(values[at]), each.unit, each.comment});
+        all.push_back({math_variable(name), to_double(values[at]), each.unit, each.comment});
       }
     }
   };
@@ -80,14 +79,13 @@ std::string scene_text(const ReportContent& content) {
   const std::vector<ShownValue> values = values_of(content);
   std::string list;
   for (std::size_t i = 0; i < std::min(values.size(), kMostValues); ++i)
-    list += fmt::format("{}<span class='value'>{} = {}</span>", i == 0 ? "" : ", ",
-                        inline_formula(values[i].name), html_number(values[i].value, 6));
+    list += (i == 0 ? "" : ", ") + inline_equation(values[i].name, math_value(values[i].value, 6));
   if (values.size() > kMostValues) list += fmt::format(" and {} more", values.size() - kMostValues);
   const std::string scene = content.scene->name.empty()
                                 ? "Initial data"
                                 : "Scene <em>" + html_text(content.scene->name) + "</em>";
-  return fmt::format("<p>{}: {}{} steps of h = {}.</p>\n", scene, list.empty() ? "" : list + "; ",
-                     *content.scene->steps, html_number(to_double(*content.scene->h), 6)) +
+  return fmt::format("<p>{}: {}{} steps of {}.</p>\n", scene, list.empty() ? "" : list + "; ",
+                     *content.scene->steps, named_value("h", to_double(*content.scene->h), 6)) +
          folded("Values with their units", values_table(values));
 }
 

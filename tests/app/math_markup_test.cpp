@@ -11,7 +11,7 @@
 namespace hamgen::app_test {
 namespace {
 
-using app::dotted_markup;
+using app::accented_markup;
 using app::math_formula;
 using app::math_pieces;
 using app::math_variable;
@@ -87,7 +87,7 @@ TEST(MathMarkup, NamesHaveTheirSubscripts) {
   EXPECT_EQ(shown("GM"), "<mi>GM</mi>");
   EXPECT_EQ(shown("mu"), "<mi>μ</mi>");
   EXPECT_EQ(
-      dotted_markup(math_variable("q[1]")),
+      accented_markup(math_variable("q[1]"), "˙"),
       "<msub><mover accent='true'><mi>q</mi><mo>˙</mo></mover><mrow><mn>1</mn></mrow></msub>");
 }
 

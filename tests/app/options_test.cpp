@@ -256,9 +256,8 @@ TEST(Options, OfOutputTellFilesFromDirectories) {
         << result.err;
   }
   EXPECT_EQ(scratch.names(), (std::vector<std::string>{"m.ham"}));
-  const Result run = hamgen(
-      {"run", model, "--interpret", "--steps", "1", "-o", "a/b/x.csv", "--events", "c/e.csv"}, {},
-      scratch.path("."));
+  const Result run = hamgen({"run", model, "--interpret", "--steps", "1", "-o", "a/b/x.csv"}, {},
+                            scratch.path("."));
   EXPECT_TRUE(run.err.starts_with("a/ (a new directory)\n")) << run.err;
   EXPECT_TRUE(std::filesystem::exists(scratch.path("a/b/x.csv"))) << run.err;
   const Result emitted = hamgen({"generate", model, "-o", "d.d/"}, {}, scratch.path("."));
