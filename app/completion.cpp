@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "app/command_line.hpp"
 #include "app/output/terminal.hpp"
@@ -53,7 +54,31 @@ std::map<std::string, std::vector<std::string>> values_of_options() {
           {"--scalar", {"float", "double", "long-double", "quad"}},
           {"--support", {"own", "shared"}},
           {"--math", {"own", "libm"}},
+          {"--gauge", {"locally-exact"}},
+          {"--gauge-form", {"scalar", "diagonal", "matrix"}},
+          {"--indicator", {"megno", "lyapunov", "fli", "sali"}},
+          {"--direction", {"rising", "falling", "both"}},
           {"--stage", {"model", "mechanics", "equations", "plan", "program", "origins"}}};
+}
+
+// What may follow a command that takes no file.
+std::map<std::string, std::vector<std::string>> words_of_commands() {
+  return {{"list", {"functions", "schemes", "solvers", "formats"}},
+          {"cache", {"list", "clear", "prune"}}};
+}
+
+// "-o|--output|--plot": the options of all commands whose value is a path.
+std::string options_with_paths(const CLI::App& app) {
+  std::set<std::string> names;
+  for (const CLI::App* command : listed_commands(app)) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string type = option->get_type_name();
+      if (type != "FILE" && type != "DIRECTORY" && type != "DIR") continue;
+      for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+      for (const std::string& name : option->get_snames()) names.insert("-" + name);
+    }
+  }
+  return fmt::format("{}", fmt::join(names, "|"));
 }
 
 std::string bash_script(const CLI::App& app) {
@@ -67,6 +92,9 @@ std::string bash_script(const CLI::App& app) {
   std::string values;
   for (const auto& [option, names] : values_of_options())
     values += fmt::format("    {}) words=\"{}\" ;;\n", option, fmt::join(names, " "));
+  std::string first;
+  for (const auto& [command, names] : words_of_commands())
+    first += fmt::format("    {}) words=\"{}\" ;;\n", command, fmt::join(names, " "));
   return fmt::format(R"(# Completion of hamgen for bash, made by `hamgen completion bash`.
 _hamgen() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} words=""
@@ -77,21 +105,27 @@ _hamgen() {{
   # The shell takes "--scheme=gauss-4" for three words.
   [ "$current" = = ] && current=""
   [ "$previous" = = ] && previous=${{COMP_WORDS[COMP_CWORD-2]}}
+  local model='*.ham'
+  [ "${{COMP_WORDS[1]}}" = plot ] && model='*.csv'
   case $previous in
-{}  esac
+{}    {}) model='*' ;;
+  esac
   if [ -z "$words" ] && [ "${{current#-}}" != "$current" ]; then
+    case ${{COMP_WORDS[1]}} in
+{}    esac
+  elif [ "$COMP_CWORD" -eq 2 ]; then
     case ${{COMP_WORDS[1]}} in
 {}    esac
   fi
   if [ -n "$words" ]; then
     COMPREPLY=($(compgen -W "$words" -- "$current"))
   else
-    COMPREPLY=($(compgen -f -X '!*.ham' -- "$current") $(compgen -d -S / -- "$current"))
+    COMPREPLY=($(compgen -f -X "!$model" -- "$current") $(compgen -d -S / -- "$current"))
   fi
 }}
 complete -o nospace -o filenames -F _hamgen hamgen
 )",
-                     commands, values, options);
+                     commands, values, options_with_paths(app), options, first);
 }
 
 // In single quotes, and safe for the brackets and colons of _arguments.
@@ -133,7 +167,12 @@ std::string zsh_script(const CLI::App& app) {
                              zsh_text(option->get_description()), what);
       }
     }
-    cases += "      '*:model:_files -g \"*.ham\"' ;;\n";
+    const auto words = words_of_commands();
+    const auto own = words.find(command->get_name());
+    cases += own == words.end()
+                 ? fmt::format("      '*:model:_files -g \"*.{}\"' ;;\n",
+                               command->get_name() == "plot" ? "csv" : "ham")
+                 : fmt::format("      '1:what:({})' ;;\n", fmt::join(own->second, " "));
   }
   return fmt::format(R"(#compdef hamgen
 # Completion of hamgen for zsh, made by `hamgen completion zsh`.

@@ -36,6 +36,11 @@ TEST(Completion, ProposesCommandsOptionsAndNames) {
             (std::vector<std::string>{"gauss-10", "gauss-12", "gauss-14", "gauss-16"}));
   EXPECT_EQ(completed({"run", "a.ham", "--scheme", "=", "stormer"}),
             std::vector<std::string>{"stormer-verlet"});
+  EXPECT_EQ(completed({"cache", "p"}), std::vector<std::string>{"prune"});
+  EXPECT_EQ(completed({"chaos", "a.ham", "--indicator", "m"}), std::vector<std::string>{"megno"});
+  EXPECT_EQ(completed({"run", HAMGEN_SOURCE_DIR "/README"}), std::vector<std::string>{""});
+  EXPECT_EQ(completed({"run", "a.ham", "--plot", HAMGEN_SOURCE_DIR "/README"}),
+            std::vector<std::string>{HAMGEN_SOURCE_DIR "/README.md"});
   EXPECT_EQ(hamgen({"completion", "fish"}).status, 2);
 }
 
