@@ -158,6 +158,15 @@ std::string format_names() {
   return names;
 }
 
+// Empty is the default.
+std::string known_format(const std::string& name) {
+  std::vector<std::string> names;
+  for (const NamedFormat& format : all_formats()) names.emplace_back(format.name);
+  if (name.empty() || std::ranges::find(names, name) != names.end()) return name;
+  throw UsageError(fmt::format("--format {}: no such format\nhelp: the formats are {}", name,
+                               fmt::join(names, ", ")));
+}
+
 int generate_files(const GenerateOptions& options) {
   if (options.check && options.json)
     throw UsageError("--check and --json: what differs is said by a diff\nhelp: drop --json");
@@ -165,7 +174,7 @@ int generate_files(const GenerateOptions& options) {
     throw UsageError("--check compares with the files of a directory\nhelp: add -o DIRECTORY");
   const SourceText source = read_source(options.method.model);
   Request request = request_of(options.method, options.scene, source);
-  request.format = options.format;
+  request.format = known_format(options.format);
   request.name_space = options.name_space;
   request.support = options.support;
   if (!options.batch.empty())

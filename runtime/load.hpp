@@ -120,11 +120,13 @@ class System {
   [[nodiscard]] const std::vector<std::string>& scenes() const;
   // Of a scene; of the first, or of the defaults, without a name.  Throws std::out_of_range.
   [[nodiscard]] Start start(std::string_view scene = {}) const;
-  // One of the model's events, for RunOptions::events: with the parameters of the start.
+  // One of the model's events, for RunOptions::events: with the parameters of the start.  Throws
+  // std::out_of_range.
   [[nodiscard]] runtime::ObservedEvent event(
       std::string_view name, const Start& start,
       std::function<bool(const runtime::EventPoint&)> on_event) const;
-  // The value of an invariant at a state (2n values).
+  // The value of an invariant at a state (2n values), in the model's units.  Throws
+  // std::out_of_range, and std::invalid_argument for another number of values.
   [[nodiscard]] double invariant(std::string_view name, const Start& start,
                                  std::span<const runtime::Wide> state) const;
 

@@ -26,11 +26,15 @@ void expect_commands_work(const std::string& page, const std::string& directory)
 // How many commands the page shows in blocks marked `console` and `sh`.
 [[nodiscard]] std::size_t number_of_commands(const std::string& page);
 
-// The blocks that hold a command of hamgen and are not run: the line of each one's fence, with what
-// stands behind the three ticks and the first line of the block.
-struct SilentBlock {
-  std::string mark, first;
+// What stands between two lines of three ticks.
+struct PageBlock {
+  std::string mark;  // behind the first three
+  std::vector<std::string> lines;
+
+  [[nodiscard]] std::string text() const;
+  // The first line; empty of an empty block.
+  [[nodiscard]] std::string first() const;
 };
-[[nodiscard]] std::vector<SilentBlock> silent_blocks(const std::string& page);
+[[nodiscard]] std::vector<PageBlock> blocks_of_page(const std::string& page);
 
 }  // namespace hamgen::app_test

@@ -5,6 +5,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/page_examples.hpp"
@@ -36,22 +37,127 @@ TEST(Pages, WithCommandsAreAllRun) {
   }
 }
 
-// A block with a command that is not run is the synopsis of one, with MODEL or FILE in it, or one
-// of these: of days, of many machines, of a run that is interrupted (which other tests do).
-TEST(Pages, HaveNoCommandThatIsOnlyShown) {
-  const std::set<std::string> known = {
-      "hamgen run hamiltonians/pendulum.ham --steps 1e11 --every 1e6 -o pendulum.csv --checkpoint "
-      "pendulum.checkpoint",
-      "$ hamgen ensemble pendulum.ham --over q=0:3:10000 --seed 3 --random 'p=normal(0,1)' -o "
-      "x.csv --resume"};
-  std::vector<std::string> all;
-  for (const auto& [name, commands] : pages) all.push_back(path_of(name));
-  for (const std::string& page : all) {
-    for (const SilentBlock& block : silent_blocks(page)) {
-      const bool is_synopsis = contains(block.first, " MODEL") || contains(block.first, " FILE");
-      EXPECT_TRUE(is_synopsis || known.contains(block.first)) << page << ": " << block.first;
-    }
+// The blocks that these tests do not run, each with what looks at it.
+const std::map<std::string, std::string> looked_at_elsewhere = {
+    {"README.md:   for (int iteration = 1;; ++iteration) {", "app/readme_test.cpp"},
+    {"README.md: scripts/quickstart", "app/pages_test.cpp"},
+    {"README.md: sudo apt-get install cmake ninja-build g++ pkg-config libginac-dev libfmt-dev "
+     "libcli11-dev \\",
+     "app/pages_test.cpp"},
+    {"README.md: find_package(hamgen CONFIG REQUIRED)", "consumer/page.cmake"},
+    {"runtime.md: find_package(hamgen 0.1 CONFIG REQUIRED COMPONENTS runtime)",
+     "consumer/page.cmake"},
+    {"runtime.md: // orbit MODEL: loads a Kepler problem, prints its periods, and stops where the "
+     "bodies collide.",
+     "app/load_test.cpp"},
+    {"runtime.md: kepler by gauss-8, order 8", "consumer/pkg_config.cmake"},
+    {"plugin.md: /* A Kepler ellipse by an emitted plugin, in C: what it is, its period, then a "
+     "smaller step. */",
+     "app/readme_test.cpp"},
+    {"plugin.md: \"\"\"A Kepler ellipse by an emitted plugin, with the standard library of Python "
+     "alone.\"\"\"",
+     "app/readme_test.cpp"},
+    {"emitted-code.md: #include <cstdio>", "emitted/documentation_test.cpp"},
+    {"emitted-code.md: #include \"midpoint/fput.hpp\"  // hamgen generate fput.ham -o midpoint",
+     "emitted/documentation_test.cpp"},
+    {"emitted-code.md: #include <cmath>", "emitted/documentation_test.cpp"},
+    {"emitted-code.md: #include <stdio.h>", "emitted/documentation_test.cpp"},
+    {"extending.md: // yoshida-4 three times, of sizes c, 1 - 2c, c with 2 c^5 + (1 - 2c)^5 = 0.",
+     "app/extending_page_test.cpp"},
+    {"extending.md: OutputFiles meson_package(const Program& program, const EmitOptions& options) "
+     "{",
+     "app/extending_page_test.cpp"},
+    {"extending.md:     NamedFormat{\"meson-package\", \"the header as a Meson project with a "
+     "dependency\", meson_package},",
+     "app/extending_page_test.cpp"},
+    {"extending.md:     {.name = \"cbrt\",", "app/extending_page_test.cpp"},
+    {"extending.md:    GiNaC::ex cbrt_value(const GiNaC::ex& x) {", "app/extending_page_test.cpp"},
+    // Of days, of many machines, of a run that is interrupted: with other numbers there.
+    {"command.md: hamgen run hamiltonians/pendulum.ham --steps 1e11 --every 1e6 -o pendulum.csv "
+     "--checkpoint pendulum.checkpoint",
+     "app/checkpoint_test.cpp"},
+    {"ensemble.md: $ hamgen ensemble pendulum.ham --over q=0:3:10000 --seed 3 --random "
+     "'p=normal(0,1)' -o x.csv --resume",
+     "app/ensemble_resume_test.cpp"},
+    {"ensemble.md: mpirun -n 4 hamgen-mpi ensemble hamiltonians/henon_heiles.ham --over "
+     "q2=-0.4:0.6:400,p2=-0.4:0.4:400 --steps 2000 -o map.csv",
+     "app/ensemble_mpi_test.cpp"}};
+
+// The options of the synopsis of a command are those of its help.
+void expect_synopsis(const PageBlock& block) {
+  const std::string text = block.text();
+  std::istringstream stream(text);
+  std::string word;
+  std::string command;
+  stream >> word >> command;
+  const std::string help = hamgen({command, "--help"}).out;
+  const std::regex option("--[a-z][a-z-]*");
+  for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it)
+    EXPECT_TRUE(contains(help, it->str())) << command << ": " << it->str();
+}
+
+bool is_system(const PageBlock& block) {
+  return std::ranges::any_of(block.lines,
+                             [](const std::string& line) { return line.starts_with("system "); });
+}
+
+// What is not run, a model, the synopsis of a command or a program that a command of the page
+// compiles, is looked at by another test.
+void expect_looked_at(const std::string& page, const PageBlock& block,
+                      std::set<std::string>& seen) {
+  const std::string first = block.first();
+  const bool is_program = block.mark == "cpp" && contains(block.text(), "int main()");
+  if (block.mark == "console" || block.mark == "sh") {
+    EXPECT_TRUE(pages.contains(page) || with_own_tests.contains(page)) << page << ": " << first;
+  } else if (page == "language.md") {  // language/documentation_test.cpp
+    EXPECT_TRUE(block.mark == "ham" || block.mark == "ham-error" || block.mark == "text") << first;
+  } else if (block.mark == "ham" && is_system(block)) {
+    const Scratch scratch;
+    const Result result = hamgen({"check", scratch.write("m.ham", block.text())});
+    EXPECT_EQ(result.status, 0) << page << '\n' << result.err;
+  } else if (first.starts_with("hamgen ") &&
+             (contains(first, " MODEL") || contains(first, " FILE.csv"))) {
+    expect_synopsis(block);
+  } else if (!looked_at_elsewhere.contains(page + ": " + first)) {
+    EXPECT_TRUE(is_program && pages.contains(page)) << page << " [" << block.mark << "]: " << first;
+  } else {
+    seen.insert(page + ": " + first);
   }
+}
+
+TEST(Pages, HaveNoBlockThatNobodyLooksAt) {
+  std::set<std::string> seen;
+  std::vector<std::string> names = {"README.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(docs)) {
+    if (entry.path().extension() == ".md") names.push_back(entry.path().filename().string());
+  }
+  for (const std::string& page : names) {
+    for (const PageBlock& block : blocks_of_page(path_of(page)))
+      expect_looked_at(page, block, seen);
+  }
+  for (const auto& [block, test] : looked_at_elsewhere) {
+    EXPECT_TRUE(seen.contains(block)) << block;
+    EXPECT_TRUE(std::filesystem::exists(HAMGEN_SOURCE_DIR "/tests/" + test)) << test;
+  }
+}
+
+// The packages that the page names for a build by hand are those that the script installs.
+TEST(Pages, NameThePackagesThatAreInstalled) {
+  const std::string script = read(HAMGEN_SOURCE_DIR "/scripts/install-dependencies");
+  const std::size_t begin = script.find("packages=(") + 10;
+  const std::string installed = " " + script.substr(begin, script.find(')', begin) - begin) + " ";
+  const std::string page = read(HAMGEN_SOURCE_DIR "/README.md");
+  const std::size_t from = page.find("sudo apt-get install ") + 21;
+  std::istringstream named(page.substr(from, page.find("cmake --preset", from) - from));
+  std::size_t count = 0;
+  for (std::string word; named >> word;) {
+    if (word == "\\") continue;
+    ++count;
+    EXPECT_TRUE(contains(std::regex_replace(installed, std::regex("\\s"), " "), " " + word + " "))
+        << word;
+  }
+  EXPECT_GE(count, 10u);
+  EXPECT_TRUE(std::filesystem::exists(HAMGEN_SOURCE_DIR "/scripts/quickstart"));
 }
 
 // "Runs of days" is "runs-of-days".

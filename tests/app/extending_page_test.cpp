@@ -1,0 +1,79 @@
+// What docs/extending.md shows compiles where it says that it belongs.
+#include <gtest/gtest.h>
+
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/page_examples.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+const std::string tree = HAMGEN_SOURCE_DIR;
+
+// The block of the page that begins so.
+std::string block_of(const std::string& begin) {
+  for (const PageBlock& block : blocks_of_page(tree + "/docs/extending.md")) {
+    if (contains(block.first(), begin)) return block.text();
+  }
+  ADD_FAILURE() << "the page has no block that begins with " << begin;
+  return "";
+}
+
+// A source of the tree with more in it.
+class Edited {
+ public:
+  explicit Edited(const std::string& file) : text_(read(tree + "/" + file)) {}
+
+  Edited& before(const std::string& mark, const std::string& text) {
+    const std::size_t at = text_.find(mark);
+    EXPECT_NE(at, std::string::npos) << mark;
+    if (at != std::string::npos) text_.insert(at, text);
+    return *this;
+  }
+  Edited& instead_of(const std::string& mark, const std::string& text) {
+    before(mark, text);
+    text_.erase(text_.find(mark, text_.find(text) + text.size()), mark.size());
+    return *this;
+  }
+  void compiles() const {
+    const Scratch scratch;
+    scratch.write("edited.cpp", text_);
+    const Result result =
+        shell("g++ -std=gnu++20 -fsyntax-only -Wall -Wextra -Werror -I '" + tree + "' edited.cpp",
+              scratch.path("."));
+    EXPECT_EQ(result.status, 0) << result.out << result.err;
+  }
+
+ private:
+  std::string text_;
+};
+
+TEST(ExtendingPage, ASchemeIsARow) {
+  Edited("generator/schemes/composition.cpp")
+      .before("// One of the nine is free", block_of("// yoshida-4 three times"))
+      .before("suzuki_4(),", "triple_jump_6(),\n")
+      .compiles();
+}
+
+TEST(ExtendingPage, AFormatIsAFunctionAndARow) {
+  Edited("generator/formats/all_formats.cpp")
+      .before("namespace {\n\nconstexpr std::array kFormats",
+              block_of("OutputFiles meson_package(") + "\n")
+      .before("};\n\n}  // namespace", block_of("NamedFormat{"))
+      .before("#include \"generator/formats/cpp_header.hpp\"",
+              "#include \"generator/program/names.hpp\"\n")
+      .compiles();
+}
+
+TEST(ExtendingPage, AFunctionIsARowAndItsValueInGinac) {
+  Edited("generator/algebra/functions.cpp")
+      .instead_of("std::array<Function, 17>", "std::array<Function, 18>")
+      .before("}};\n", block_of(".name = \"cbrt\""))
+      .compiles();
+  Edited("generator/algebra/ginac_functions.cpp")
+      .before("}  // namespace hamgen", "namespace {\n" + block_of("cbrt_value") +
+                                            "}\nunsigned serial() { return cbrt_serial; }\n")
+      .compiles();
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
