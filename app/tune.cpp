@@ -146,9 +146,10 @@ void write_map(const TuneOptions& options, const EnergyMap& map, const TuneRepor
     return;
   }
   if (!options.quiet) print_error(fmt::format("{}\n", csv.string()));
-  if (!draw_picture(
-          {.picture = picture, .script = script, .text = map_script(map, title, picture.string())},
-          options.quiet, &interrupt_flag())) {
+  if (!draw_picture({.picture = picture,
+                     .script = script,
+                     .text = map_script(map, report.energy_scale(), title, picture.string())},
+                    options.quiet, &interrupt_flag())) {
     std::error_code ignored;
     fs::remove(picture, ignored);  // what gnuplot began
   }

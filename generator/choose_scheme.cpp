@@ -49,6 +49,15 @@ Scheme scheme_of_own_order(const Model& model, const Mechanics& mechanics, const
 
 }  // namespace
 
+void require_few_coupled(const Model& model, const Request& request) {
+  if (request.gauge.empty() || !request.gauge->locally_exact) return;
+  const std::vector<std::string> q = element_names(model.coordinates);
+  const std::vector<std::string> p = element_names(model.momenta);
+  if (q.size() <= static_cast<std::size_t>(kMostWrittenOut)) return;
+  require_sparse_row(written_out_hamiltonian(model), q, p,
+                     read_reference(model, request.reference));
+}
+
 Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Request& request) {
   check_gauge(request);
   Scheme scheme = scheme_of_own_order(model, mechanics, request);

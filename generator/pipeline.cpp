@@ -256,6 +256,7 @@ std::string point_beyond_text(const SourceText& source, const Request& request) 
 
 Scheme request_scheme(const SourceText& source, const Request& request) {
   const Model model = read_request(source, request);
+  require_few_coupled(model, request);
   return choose_scheme(model, derive(model, may_keep_sums(request)), request);
 }
 

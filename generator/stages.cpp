@@ -38,6 +38,7 @@ void drop_unused_parameters(StepEquations& equations) {
 Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
                         const Request& request, bool keep_sums,
                         Variables variables = Variables::changed) {
+  require_few_coupled(model, request);
   Mechanics mechanics = derive(model, keep_sums);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/output/math_symbol.hpp"
+#include "app/output/plain_number.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 
@@ -140,6 +141,17 @@ class TrajectoryPlotter {
     std::string x, y;
   };
 
+  // The name of an axis: of the column, or of the array whose elements they all are.
+  static std::string label_of(const std::vector<Curve>& curves, std::string Curve::*axis) {
+    const std::string& first = curves[0].*axis;
+    if (curves.size() == 1) return plain_symbol(first);
+    const std::string array = first.substr(0, first.find('['));
+    const bool is_one = std::ranges::all_of(curves, [&](const Curve& curve) {
+      return (curve.*axis).starts_with(array + "[") || curve.*axis == first;
+    });
+    return plain_symbol(is_one ? array : first) + (is_one ? "" : ", ...");
+  }
+
   // One over another in one panel; two coordinates of a space have the same unit.
   void across(const std::vector<Curve>& curves) {
     const std::vector<std::string> state = state_names();
@@ -149,8 +161,8 @@ class TrajectoryPlotter {
     };
     const bool one = curves.size() == 1;
     PlotPanel panel{.title = title(one ? curves[0].y + " over " + curves[0].x : "orbits"),
-                    .x_label = plain_symbol(curves[0].x) + (one ? "" : ", ..."),
-                    .y_label = plain_symbol(curves[0].y) + (one ? "" : ", ..."),
+                    .x_label = label_of(curves, &Curve::x),
+                    .y_label = label_of(curves, &Curve::y),
                     .square = true,
                     .series = {}};
     for (const auto& [x, y] : curves) {
@@ -187,12 +199,14 @@ class TrajectoryPlotter {
     const std::string& time = table_.columns[std::min<std::size_t>(1, table_.columns.size() - 1)];
     const std::vector<double> times = values_of(time);
     const bool one = names.size() == 1;
-    PlotPanel panel{.title = title(what.empty() ? names.front() : what),
+    const bool is_error = one && names.front() == kEnergyErrorColumn;
+    PlotPanel panel{.title = title(is_error       ? "energy error"
+                                   : what.empty() ? names.front()
+                                                  : what),
                     .x_label = time,
-                    .y_label = one && names.front() != kEnergyErrorColumn
-                                   ? plain_symbol(names.front())
-                               : one ? energy_error_label()
-                                     : what,
+                    .y_label = is_error ? energy_error_label()
+                               : one    ? plain_symbol(names.front())
+                                        : what,
                     .series = {}};
     for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
       panel.series.push_back(series(one ? "" : plain_symbol(names[i]), times, values_of(names[i]),
@@ -201,8 +215,8 @@ class TrajectoryPlotter {
   }
 
   std::string energy_error_label() const {
-    if (!table_.energy_scale) return "H - H(0)";
-    return fmt::format("H - H(0), relative to {:.3g}", *table_.energy_scale);
+    if (!table_.energy_scale) return "H − H(0)";
+    return "H − H(0), relative to " + plain_number(*table_.energy_scale, 3);
   }
 
   // The diagonal of the axes is the line of sight: each leaves it by 120 degrees from the others.

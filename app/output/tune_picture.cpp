@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "app/output/gnuplot.hpp"
+#include "app/output/plain_number.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
 
@@ -85,8 +86,9 @@ std::string mark(const MapPoint& point, int shape, const std::string& title) {
 
 std::string what_stays_bounded(const EnergyMap& map) {
   std::string text;
-  if (map.lowest_b) text += fmt::format("b > {:.3g}", *map.lowest_b);
-  if (map.highest_c) text += fmt::format("{}c < {:.3g}", text.empty() ? "" : ", ", *map.highest_c);
+  if (map.lowest_b) text += fmt::format("b > {}", terminal_number(*map.lowest_b, 3));
+  if (map.highest_c)
+    text += fmt::format("{}c < {}", text.empty() ? "" : ", ", terminal_number(*map.highest_c, 3));
   return text.empty() ? text : "\\n(the linear part is sure to stay bounded for " + text + ")";
 }
 
@@ -113,7 +115,10 @@ std::string map_csv(const EnergyMap& map, const std::string& header) {
   return text;
 }
 
-std::string map_script(const EnergyMap& map, const std::string& title, const std::string& output) {
+std::string map_script(EnergyMap map, double scale, const std::string& title,
+                       const std::string& output) {
+  const double unit = scale > 0.0 ? scale : 1.0;
+  for (double& spread : map.spread) spread /= unit;
   const bool svg = output.ends_with(".svg");
   std::string text = fmt::format(
       "# Drawn by: gnuplot THIS_FILE\n"
@@ -122,7 +127,7 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set encoding utf8\n"
       "set title {} noenhanced\n"
       "set xlabel \"b, β = b h{}\"\nset ylabel 'c, γ = c h'\n"
-      "set cblabel 'max H - min H' offset {},0\nset logscale cb\n"
+      "set cblabel 'max H − min H{}' offset {},0\nset logscale cb\n"
       "set palette defined (0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')\n"
       "set tics out nomirror\n"
       // Room for the numbers and the title of the colours, and for the key below the axis' label.
@@ -130,7 +135,8 @@ std::string map_script(const EnergyMap& map, const std::string& title, const std
       "set tmargin at screen 0.92\nset bmargin at screen 0.25\n"
       "set key at screen 0.455,0.11 center top horizontal maxcols 2 noenhanced\n",
       svg ? "svg size 700,580" : "pngcairo size 1400,1160 fontscale 1.7", output_line(output),
-      gnuplot_text(title), what_stays_bounded(map), svg ? 2 : 1);
+      gnuplot_text(title), what_stays_bounded(map),
+      scale > 0.0 ? ", relative to " + terminal_number(scale, 3) : "", svg ? 2 : 1);
   text += map_range("x", map.b) + map_range("y", map.c);
   std::vector<double> drawn;
   std::ranges::copy_if(map.spread, std::back_inserter(drawn), is_drawn);

@@ -12,9 +12,10 @@ namespace hamgen::app {
 
 // b, c and spread, one cell a row; an empty spread where the run failed.
 [[nodiscard]] std::string map_csv(const EnergyMap& map, const std::string& header);
-// A gnuplot script with its data that draws the logarithm of the spread, with marks at the midpoint
-// rule, the fitted pair and the best cell, and lines where the linear part may become unbounded.
-[[nodiscard]] std::string map_script(const EnergyMap& map, const std::string& title,
+// A gnuplot script with its data that draws the logarithm of the spread, relative to the energy's
+// scale if that is not 0, with marks at the midpoint rule, the fitted pair and the best cell, and
+// lines where the linear part may become unbounded.
+[[nodiscard]] std::string map_script(EnergyMap map, double scale, const std::string& title,
                                      const std::string& output);
 
 }  // namespace hamgen::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "generator/algebra/derivative.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/constant.hpp"
 #include "generator/schemes/matrix_function.hpp"
@@ -134,6 +135,20 @@ RationalMatrix restricted(const RationalMatrix& a, const std::vector<std::size_t
   return result;
 }
 
+void find_symbols(const Expression& e, ExpressionMap<bool>& seen,
+                  std::map<std::string, Expression>& symbols) {
+  if (!seen.emplace(e, true).second) return;
+  if (e.kind() == Kind::symbol) symbols.emplace(e.name(), e);
+  for (const Expression& operand : e.operands()) find_symbols(operand, seen, symbols);
+}
+
+[[noreturn]] void throw_dense(std::size_t coupled) {
+  throw UsageError(fmt::format(
+      "--gauge locally-exact: the linear part couples {} degrees of freedom, more than {}\n"
+      "help: its matrix would be dense; take the midpoint rule, or another --reference",
+      coupled, kMostCoupled));
+}
+
 std::string pole_text(const std::vector<double>& steps) {
   if (steps.empty()) return "";
   constexpr std::size_t most = 3;
@@ -146,17 +161,38 @@ std::string pole_text(const std::vector<double>& steps) {
 
 }  // namespace
 
+void require_sparse_row(const Expression& hamiltonian, const std::vector<std::string>& coordinates,
+                        const std::vector<std::string>& momenta, const Values& reference) {
+  ExpressionMap<bool> seen;
+  std::map<std::string, Expression> symbols;
+  find_symbols(hamiltonian, seen, symbols);
+  const auto first = symbols.find(coordinates.front());
+  if (first == symbols.end()) return;
+  const Expression slope = derivative(hamiltonian, first->second);
+  std::vector<std::size_t> places;
+  std::vector<Expression> variables;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    for (const std::string& name : {coordinates[i], momenta[i]}) {
+      if (!symbols.contains(name)) continue;
+      places.push_back(i);
+      variables.push_back(symbols.at(name));
+    }
+  }
+  const std::vector<Expression> row = gradient(slope, variables);
+  std::set<std::size_t> coupled = {0};
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const std::optional<Rational> value = evaluate(row[k], reference);
+    if (value && sgn(*value) != 0) coupled.insert(places[k]);
+  }
+  if (coupled.size() > kMostCoupled) throw_dense(coupled.size());
+}
+
 Scheme locally_exact_member(const Mechanics& mechanics, const Values& reference) {
   const RationalMatrix a = linear_part(mechanics, reference);
   const auto n = static_cast<std::size_t>(mechanics.degrees_of_freedom);
   Member member{.degrees_of_freedom = mechanics.degrees_of_freedom};
   for (const std::vector<std::size_t>& set : coupled_sets(a)) {
-    if (set.size() > kMostCoupled) {
-      throw UsageError(fmt::format(
-          "--gauge locally-exact: the linear part couples {} degrees of freedom, more than {}\n"
-          "help: its matrix would be dense; take the midpoint rule, or another --reference",
-          set.size(), kMostCoupled));
-    }
+    if (set.size() > kMostCoupled) throw_dense(set.size());
     const MatrixFunction f = gauge_function(restricted(a, set));
     for (const MatrixTerm& term : f.terms) add_term(term, set, n, member.c);
     for (const Rational& w : f.frequencies) {

@@ -1,6 +1,9 @@
 // The gauge that makes a member exact on the linear part of a system at one fixed point.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "generator/algebra/evaluate.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/schemes/scheme.hpp"
@@ -15,5 +18,9 @@ namespace hamgen {
 // `reference` has a value for every variable and every parameter.  Throws UsageError where H'' is
 // not defined there, or A is too large or has no such function.
 [[nodiscard]] Scheme locally_exact_member(const Mechanics& mechanics, const Values& reference);
+// Throws the same where the first coordinate alone couples too many degrees of freedom; without
+// the derivatives by all the others.
+void require_sparse_row(const Expression& hamiltonian, const std::vector<std::string>& coordinates,
+                        const std::vector<std::string>& momenta, const Values& reference);
 
 }  // namespace hamgen

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/choose_scheme.hpp"
 #include "generator/pipeline.hpp"
+#include "generator/read_request.hpp"
 #include "generator/schemes/matrix_function.hpp"
 
 namespace hamgen::schemes_test {
@@ -116,6 +118,19 @@ TEST(LocallyExact, TooManyCoupledDegreesOfFreedomAreRefused) {
       "H = sum(i = 1..N, p[i]^2 + (q[i] - q[i-1])^2)/2");
   EXPECT_NE(refusal(chain, locally_exact()).find("couples 25 degrees of freedom, more than 24"),
             std::string::npos);
+}
+
+// The sums of many bodies are not written out to see it; a chain has to be looked at whole.
+TEST(LocallyExact, ADenseOneIsRefusedBeforeAllIsDerived) {
+  const std::string head = "size N = 30\ncoordinate q[1..N]\nmomentum p[1..N]\n";
+  const Request request = locally_exact();
+  const auto look = [&](const std::string& hamiltonian) {
+    require_few_coupled(read_request(model(head + hamiltonian), request), request);
+  };
+  EXPECT_THROW(look("H = sum(i = 1..N, p[i]^2)/2 - sum(i = 2..N, j = 1..i-1, "
+                    "1/sqrt((q[i] - q[j])^2 + 1))"),
+               UsageError);
+  EXPECT_NO_THROW(look("H = sum(i = 1..N, p[i]^2)/2 + sum(i = 2..N, (q[i] - q[i-1])^2)/2"));
 }
 
 TEST(GaugeFunction, OfARationalMatrixHasRationalCoefficients) {
