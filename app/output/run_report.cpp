@@ -44,13 +44,15 @@ std::string entry(std::string_view label, const std::string& text) {
   return result + "\n";
 }
 
-// At most about two lines of them.
-std::string left_out_text(const std::vector<std::string>& items) {
+// What the scene made unnecessary, at most about two lines of it; the plan says what it lacks
+// itself.
+std::string left_out_text(const PluginSource& plugin) {
+  const std::size_t count = plugin.left_out_for_scene;
   std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (text.size() + items[i].size() > 2 * line_width && i > 0)
-      return text + fmt::format("; and {} more, see hamgen show --stage plan", items.size() - i);
-    text += (i == 0 ? "" : "; ") + items[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    if (text.size() + plugin.left_out[i].size() > 2 * line_width && i > 0)
+      return text + fmt::format("; and {} more, see hamgen show --stage plan", count - i);
+    text += (i == 0 ? "" : "; ") + plugin.left_out[i];
   }
   return text;
 }
@@ -349,7 +351,7 @@ std::string summary_text(const RunReport& report) {
   if (summary.iterations > 0)
     solver += fmt::format("; {:.3g} iterations/step", summary.iterations_per_step());
   text += entry("solver", solver);
-  if (!plugin.left_out.empty()) text += entry("left out", left_out_text(plugin.left_out));
+  if (plugin.left_out_for_scene > 0) text += entry("left out", left_out_text(plugin));
   for (const std::string& line : event_texts(report)) text += entry("event", line);
   if (const std::string ending = ending_text(report); !ending.empty())
     text += entry("ended", ending);

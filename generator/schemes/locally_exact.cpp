@@ -53,7 +53,7 @@ std::string other_point(const Mechanics& mechanics, const Values& reference) {
     });
     if (is_defined && moved <= most) return ", for example --reference " + text;
   }
-  return " with --reference";
+  return " with --reference; without it the initial state of the scene is taken";
 }
 
 // J H'' at the reference.

@@ -145,7 +145,7 @@ TEST(Tune, DrawsTheMapOfTheEnergySpread) {
   EXPECT_EQ(std::ranges::min_element(spreads) - spreads.begin(), 12);
   const std::string script = read(scratch.path("map.gp"));
   for (const char* part : {"with image", "midpoint rule", "fitted: -0.0024978, -0.083333",
-                           "best cell", "sure to stay bounded for b > -100, c < 3.3"})
+                           "best cell", "sure to stay bounded for b > -100, c < 333"})
     EXPECT_TRUE(contains(script, part)) << part;
   EXPECT_FALSE(contains(script, "set arrow")) << "the bound is far outside";
 }
