@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "runtime/csv_writer.hpp"
+#include "app/output/plain_number.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -15,7 +15,8 @@ std::string map_of(const Certificate& certificate) {
 
 // Two digits, and no fewer units than there are.
 std::string units_text(double units) {
-  return units < 0.01 ? "0.01" : fmt::format("{:.2g}", units * 1.05);
+  const std::string text = units < 0.01 ? "0.01" : terminal_number(units * 1.05, 2);
+  return text + (text == "1" ? " unit" : " units");
 }
 
 }  // namespace
@@ -35,8 +36,7 @@ std::string certificate_sentence(const Certificate& certificate) {
                        certificate.certified + certificate.failed, certificate.failed,
                        certificate.first_failed, certificate.failure);
   if (certificate.certified == 0) return "no step was looked at";
-  return fmt::format("each of {} steps{} lies within {} units of rounding of {}",
-                     certificate.certified,
+  return fmt::format("each of {} steps{} lies within {} of rounding of {}", certificate.certified,
                      certificate.certified < certificate.steps ? " looked at" : "",
                      units_text(certificate.units), map_of(certificate));
 }
@@ -45,9 +45,9 @@ std::string certificate_text(const Certificate& certificate) {
   std::string text = fmt::format("  certified   {}\n", certificate_sentence(certificate));
   text += fmt::format("  looked at   {}\n", certificate_sample(certificate));
   if (certificate.certified > 0) {
-    text += fmt::format("  farthest    step {}: {:.3g} units of {} in {}\n", certificate.worst_step,
-                        certificate.units, runtime::number_text(certificate.epsilon),
-                        certificate.worst_component);
+    text +=
+        fmt::format("  farthest    step {}: {:.3g} units of {:.3g} in {}\n", certificate.worst_step,
+                    certificate.units, certificate.epsilon, certificate.worst_component);
     if (certificate.solves)
       text += fmt::format(
           "  unique      no other solution of a step's equations within {:.2g} of its size\n",

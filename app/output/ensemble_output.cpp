@@ -34,8 +34,8 @@ std::string ensemble_text(const EnsembleSummary& summary, const EnsembleTitle& t
       title.model, title.scene.empty() ? "" : ", scene " + title.scene, summary.count,
       fmt::join(title.varied, ", "), title.scheme, title.h, title.steps, endings_text(summary));
   if (title.watches_energy && summary.ended[0] > 0)
-    text +=
-        fmt::format("  energy     largest error {:.4e}, of those done\n", summary.largest_error);
+    text += fmt::format("  energy     largest |H - H(0)| {:.3g}, of those done\n",
+                        summary.largest_error);
   if (title.done_before > 0)
     text += fmt::format("  resumed    {} of them were there\n", title.done_before);
   if (title.spoilt > 0)

@@ -95,7 +95,7 @@ std::string advice_answer(const ReportContent& content) {
   const BenchRow& row = bench.rows[*answer.row];
   const BenchMethod& method = bench.methods[row.method];
   return fmt::format(
-      "take <strong>{}</strong> with {}: {} for a unit of time"
+      "take <strong>{}</strong> with <span class='value'>{}:</span> {} for a unit of time"
       "<br>{}",
       html_text(method.spec), named_value("h", to_double(row.h), 4),
       html_seconds(time_of(row).seconds_per_time),

@@ -47,7 +47,7 @@ std::string entry(std::string_view label, const std::string& text) {
 // What the scene made unnecessary, at most about two lines of it; the plan says what it lacks
 // itself.
 std::string left_out_text(const PluginSource& plugin) {
-  const std::size_t count = plugin.left_out_for_scene;
+  const std::size_t count = std::min(plugin.left_out_for_scene, plugin.left_out.size());
   std::string text;
   for (std::size_t i = 0; i < count; ++i) {
     if (text.size() + plugin.left_out[i].size() > 2 * line_width && i > 0)
