@@ -123,12 +123,10 @@ std::string time_text(const RunReport& report) {
                                             : "compile " + seconds_text(report.compile_seconds);
   if (!report.interpreted && report.optimisation != "-O3")
     compile += fmt::format(" with {}", report.optimisation);
-  const std::string all =
-      fmt::format("generate {}, {}, run {}", seconds_text(report.generate_seconds), compile,
-                  seconds_text(report.summary.total_seconds));
-  if (report.summary.steps_done == 0) return all;
-  return fmt::format("{}: {} ns/step", all,
-                     terminal_number(report.summary.nanoseconds_per_step(), 3));
+  const std::string rate = terminal_number(report.summary.nanoseconds_per_step(), 3) + " ns/step";
+  return fmt::format("generate {}, {}, run {}{}", seconds_text(report.generate_seconds), compile,
+                     seconds_text(report.summary.total_seconds),
+                     report.summary.steps_done > 0 ? ": " + rate : "");
 }
 
 bool is_formula(const std::string& name, const SceneValues& scene) {
