@@ -6,8 +6,8 @@
 
 namespace hamgen {
 
-// Throws UsageError where it is clear before anything is derived that the gauge of the request would
-// be dense: of a large system its derivatives take long.
+// Throws UsageError where it is clear before anything is derived that the gauge of the request
+// would be dense: of a large system its derivatives take long.
 void require_few_coupled(const Model& model, const Request& request);
 
 // A scheme of THE LIST by its name, or the member that alpha, beta, gamma or the gauge choose,
