@@ -120,8 +120,13 @@ OrderFound order_of_composition(const std::vector<Number>& substeps, int weight,
                  false);
 }
 
-bool all_rational(const std::vector<Expression>& values) {
-  return std::ranges::all_of(values, [](const Expression& e) { return e.is_number(); });
+// Can the conditions hold exactly?  Decimals, whose products have thousands of digits, only hold
+// them to their own.
+bool are_exact(const std::vector<Expression>& values) {
+  const Rational largest(1'000'000'000'000);
+  return std::ranges::all_of(values, [&](const Expression& e) {
+    return e.is_number() && Rational(e.number().get_den()) <= largest;
+  });
 }
 
 Precise value_of_exact(const Expression& e) {
@@ -167,7 +172,7 @@ std::vector<std::pair<char, Expression>> factors_of(const Splitting& splitting) 
 
 Proof prove_splitting(const Splitting& splitting, int order, bool nystrom) {
   const auto factors = factors_of(splitting);
-  const bool exact = all_rational(splitting.kicks) && all_rational(splitting.drifts);
+  const bool exact = are_exact(splitting.kicks) && are_exact(splitting.drifts);
   OrderFound found;
   if (exact) {
     std::vector<std::pair<char, Rational>> numbers;
@@ -202,7 +207,7 @@ Proof prove_composition(const Composition& composition, int order, const Surroun
   const bool palindrome = is_palindrome(composition.substeps);
   const Verdict symmetric =
       both(palindrome ? Verdict::proved : Verdict::refuted, base_symmetric.verdict);
-  const bool exact = all_rational(composition.substeps);
+  const bool exact = are_exact(composition.substeps);
   OrderFound found;
   if (exact) {
     std::vector<Rational> numbers;
