@@ -114,6 +114,8 @@ std::vector<std::string> default_specs(const Mechanics& mechanics) {
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=4"}},
       {.most_degrees_of_freedom = 2, .specs = {"implicit-midpoint:order=6"}},
       {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=8"}},
+      {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=10"}},
+      {.specs = {"omelyan-4"}},
       {.specs = {"blanes-moan-rkn-6", "blanes-moan-6", "kahan-li-6"}},
       {.specs = {"kahan-li-8-verlet", "kahan-li-8"}},
       {.specs = {"sofroniou-spaletta-10-verlet", "sofroniou-spaletta-10"}},
@@ -122,7 +124,9 @@ std::vector<std::string> default_specs(const Mechanics& mechanics) {
       {.specs = {"gauss-8"}},
       {.specs = {"gauss-8:solver=fixed-point"}},
       {.specs = {"gauss-12"}},
+      {.specs = {"gauss-12:solver=fixed-point"}},
       {.specs = {"gauss-16"}},
+      {.specs = {"gauss-16:solver=fixed-point"}},
       {.specs = {"rk4"}},
   };
   std::vector<std::string> specs;
