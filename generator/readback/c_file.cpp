@@ -57,10 +57,6 @@ std::string guard_of_blocks(const Precision& precision) {
   return "HAMGEN_C_" + space + "_";
 }
 
-std::string_view tested_text(std::string_view name) {
-  return std::ranges::find(all_numerics(), name, &NumericsText::name)->text;
-}
-
 class CFileReader {
  public:
   CFileReader(std::span<const CppToken> tokens, const Precision& precision, const ShellFacts& facts,

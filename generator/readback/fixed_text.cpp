@@ -135,6 +135,10 @@ std::string read_block(TokenCursor& cursor, std::string_view text, const std::st
 
 }  // namespace
 
+std::string_view tested_text(std::string_view name) {
+  return std::ranges::find(all_numerics(), name, &NumericsText::name)->text;
+}
+
 void expect_directive(TokenCursor& cursor, const std::string& text) {
   const CppToken& found = cursor.peek();
   if (found.kind != CppToken::Kind::directive || found.text != text)

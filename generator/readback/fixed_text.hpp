@@ -30,6 +30,9 @@ struct FixedBlocks {
 // "using numerics::two_sum, ...": of names that the blocks define.
 void read_block_names(TokenCursor& cursor);
 
+// The header of generator/numerics of this name.
+[[nodiscard]] std::string_view tested_text(std::string_view name);
+
 void expect_directive(TokenCursor& cursor, const std::string& text);
 
 }  // namespace hamgen
