@@ -6,7 +6,8 @@
 namespace hamgen {
 
 [[nodiscard]] Pattern event_pattern(const ShellFacts& facts);
-[[nodiscard]] Pattern crossing_pattern();
-[[nodiscard]] Pattern watched_propagator_pattern(const ShellFacts& facts);
+[[nodiscard]] Pattern watched_pattern(const ShellFacts& facts);
+// And behind it what is the same in all of them, from the struct Crossing on.
+[[nodiscard]] Pattern watched_propagator_pattern();
 
 }  // namespace hamgen

@@ -198,11 +198,7 @@ class FileReader {
 
   [[nodiscard]] bool has_events() const { return !program_.events.empty(); }
 
-  void read_class() {
-    if (has_events() && cursor_.peek(1).is("WatchedPropagator"))
-      return once("WatchedPropagator", watched_propagator_pattern(facts_));
-    once("Propagator", propagator_pattern(facts_));
-  }
+  void read_class() { once("Propagator", propagator_pattern(facts_)); }
 
   void read_using() {
     if (cursor_.peek(1).is("Real"))
@@ -230,7 +226,9 @@ class FileReader {
     const std::string name = cursor_.peek(1).text;
     const int line = cursor_.line();
     if (name == "Order") return read_matrix();
-    if (name == "Crossing" && has_events()) return once("Crossing", crossing_pattern());
+    if (name == "Watched" && has_events()) return once("Watched", watched_pattern(facts_));
+    if (name == "Crossing" && has_events())
+      return once("WatchedPropagator", watched_propagator_pattern());
     if (name == "Parameters") return read_parameters(section);
     if (name == "Folded") {
       const std::vector<Quantity>& constants = program_.facts.constants;
@@ -307,7 +305,7 @@ class FileReader {
     for (const char* name :
          {"energy", "gradient", "invariants", "events", "modified_energies", "prepare", "solve"})
       wanted.merge(callees(program_, name));
-    if (has_events()) wanted.insert({"Event", "Crossing", "WatchedPropagator"});
+    if (has_events()) wanted.insert({"Event", "Watched", "WatchedPropagator"});
     if (seen_.contains("tangent")) wanted.merge(callees(program_, "tangent"));
     if (facts_.arrays) wanted.insert({"n", "gradient of a state"});
     if (facts_.modified > 0) wanted.insert("modified_energy");
