@@ -44,7 +44,9 @@ std::string CDialect::block(const std::string& name) const {
 }
 
 std::string CDialect::declaration(const std::string& record_name, const std::string& object) const {
-  return fmt::format("{} {} = {{0}};", record(record_name), object);
+  // The rules of a start do not begin with zeros.
+  const std::string value = record_name == "Start" ? named("start") + "()" : "{0}";
+  return fmt::format("{} {} = {};", record(record_name), object, value);
 }
 
 std::string CDialect::argument(const Argument& argument, const std::string& name,

@@ -25,7 +25,6 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string block(const std::string& name) const override;
   [[nodiscard]] std::string constant(const std::string& name) const override { return block(name); }
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
-    // Its rules do not begin with zeros.
     return name == "Start" ? named("start") + "()" : "(" + record(name) + "){0}";
   }
   [[nodiscard]] std::string empty_array() const override { return "{0}"; }

@@ -9,7 +9,7 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/c_dialect.hpp"
-#include "generator/formats/c_propagator.hpp"
+#include "generator/formats/c_pieces.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/numerics.hpp"
 #include "generator/formats/preamble.hpp"
@@ -51,13 +51,12 @@ void require_c(const EmitContext& context) {
   if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
   if (context.options.tangent) refuse("there is no tangent map in C");
   if (context.options.shared_support) refuse("there is no shared support in C");
-  if (!context.method_parameters.fields.empty()) {
-    refuse(
-        fmt::format("'{}' is a parameter of the method", context.method_parameters.fields[0].name));
-  }
-  for (const Routine& routine : context.program.routines) {
-    if (!context.needs(routine.name)) continue;
-    const std::string found = missing(routine.body);
+  if (const Field* own = parameter_of_method(context.contents))
+    refuse(fmt::format("'{}' is a parameter of the method", own->name));
+  for (const Piece& piece : context.contents.method) {
+    const auto* const routine = std::get_if<Routine>(&piece);
+    if (routine == nullptr) continue;
+    const std::string found = missing(routine->body);
     if (!found.empty()) refuse("there are no " + found + " in C");
   }
 }
@@ -110,42 +109,13 @@ void write_pi(CodeWriter& out, const CDialect& dialect) {
       fmt::format("static const {} {} = {};\n", dialect.real(), name, literal(pi, dialect.scalar)));
 }
 
-std::string system_text(EmitContext& context, const CDialect& dialect) {
-  CodeWriter out;
-  write_c_record(out, context.system_parameters, dialect);
-  write_c_record(out, *context.program.record("State"), dialect);
-  const std::string type = dialect.record("Parameters");
-  out.open(fmt::format("static inline {} {}(void)", type, dialect.named("default_parameters")));
-  std::string values;
-  for (const Field& field : context.system_parameters.fields) {
-    std::string list;
-    for (const Rational& value : field.values) {
-      list += (list.empty() ? "" : ", ") + literal(value, context.scalar);
-    }
-    values += (values.empty() ? "" : ", ") + (field.sizes.empty() ? list : "{" + list + "}");
-  }
-  out.line(fmt::format("const {} par = {{{}}};", type, values.empty() ? "0" : values));
-  out.line("return par;");
-  out.close();
-  out.line();
-  for (const char* name : {"energy", "gradient", "invariants"}) context.write_routine(out, name);
-  return out.text();
-}
-
 std::string method_text(EmitContext& context, const CDialect& dialect) {
   CodeWriter out;
   if (context.program.unknowns > 0) {
     out.lines(block_text("c/history", dialect, context.program.unknowns));
     out.line();
   }
-  context.write_routine(out, "modified_energies");
-  if (const Record* record = context.program.record("Coefficients")) {
-    write_c_record(out, *record, dialect);
-    context.write_with_callees(out, "prepare");
-  }
-  if (const Record* record = context.program.record("Start")) write_c_record(out, *record, dialect);
-  context.write_with_callees(out, "solve");
-  write_c_propagator(out, context, dialect);
+  write_pieces(out, context, dialect, context.contents.method);
   return out.text();
 }
 
@@ -199,7 +169,8 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   const CDialect dialect(find_scalar(options.scalar), options.spaces);
   EmitContext context(program, options, dialect);
   require_c(context);
-  const std::string system = system_text(context, dialect);
+  CodeWriter system;
+  write_pieces(system, context, dialect, context.contents.system);
   const std::string method = method_text(context, dialect);
   CodeWriter out;
   write_preamble(out, context);
@@ -210,7 +181,7 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   begin_ieee_arithmetic(out, context.scalar);
   out.line();
   if (context.used.pi) write_pi(out, dialect);
-  write_section(out, "HAMGEN_C_SYSTEM_" + dialect.system(), system);
+  write_section(out, "HAMGEN_C_SYSTEM_" + dialect.system(), system.text());
   write_blocks(out, dialect, method);
   write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method);
   end_ieee_arithmetic(out);

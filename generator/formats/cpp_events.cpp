@@ -1,7 +1,7 @@
-#include "generator/formats/cpp_events.hpp"
-
+// What finds events along the steps.
 #include <fmt/format.h>
 
+#include "generator/formats/cpp_pieces.hpp"
 #include "generator/formats/numerics.hpp"
 
 namespace hamgen {
@@ -45,10 +45,8 @@ void write_cubic(CodeWriter& out, const EmitContext& context) {
 
 }  // namespace
 
-void write_events(CodeWriter& out, EmitContext& context) {
-  const std::vector<EventName>& events = context.program.events;
-  if (events.empty()) return;
-  context.write_with_callees(out, "events");
+void write_watch(CodeWriter& out, const EmitContext& context, const Watch& watch) {
+  const std::vector<EventName>& events = watch.events;
   out.line("// In the order of their values.");
   out.open("enum class Event");
   for (const EventName& each : events) out.line(each.name + ",");

@@ -11,16 +11,13 @@
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
-#include "generator/formats/cpp_events.hpp"
-#include "generator/formats/cpp_functions.hpp"
 #include "generator/formats/cpp_interface.hpp"
-#include "generator/formats/cpp_step.hpp"
+#include "generator/formats/cpp_pieces.hpp"
 #include "generator/formats/emit_context.hpp"
 #include "generator/formats/lanes_dialect.hpp"
 #include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
 #include "generator/formats/use_lanes.hpp"
-#include "generator/program/records.hpp"
 
 namespace hamgen {
 
@@ -79,8 +76,8 @@ void write_pi(CodeWriter& out, const EmitContext& context) {
 
 // What is said of the system alone: equal for all of its methods.
 std::string system_text(EmitContext& context) {
-  CodeWriter functions;
-  write_functions(functions, context);
+  CodeWriter pieces;
+  write_pieces(pieces, context, context.contents.system);
   CodeWriter out;
   if (context.options.lanes == 0) {
     out.line(context.quad() ? "__extension__ typedef __float128 Real;"
@@ -91,40 +88,20 @@ std::string system_text(EmitContext& context) {
     out.line(fmt::format("inline constexpr int n = {};  // degrees of freedom", context.n()));
   }
   if (!out.text().empty()) out.line();
-  for (const Record* record : std::initializer_list<const Record*>{
-           &context.system_parameters, context.program.record("State")}) {
-    write_record(out, *record, context.scalar);
-    out.line();
-  }
-  const std::vector<Quantity>& constants = context.program.facts.constants;
-  if (!constants.empty()) {
-    out.line("// Parameters whose values are part of the code: to be read, not to be changed.");
-    write_record(out, layout("Folded", constants, Defaults::values).record, context.scalar);
-    out.line();
-  }
-  out.lines(functions.text());
+  out.lines(pieces.text());
   return out.text();
 }
 
 std::string method_text(EmitContext& context) {
   const bool had_pi = context.used.pi;
-  CodeWriter steps;
-  write_modified_energies(steps, context);
-  write_solver(steps, context);
-  write_steps(steps, context);
-  write_events(steps, context);
-  if (context.options.tangent) context.write_with_callees(steps, "tangent");
+  CodeWriter pieces;
+  write_pieces(pieces, context, context.contents.method);
   CodeWriter out;
   if (context.used.pi && !had_pi) {
     write_pi(out, context);
     out.line();
   }
-  if (!context.method_parameters.fields.empty()) {
-    write_record(out, context.method_parameters, context.scalar,
-                 "::" + context.options.spaces.system + "::Parameters");
-    out.line();
-  }
-  out.lines(steps.text());
+  out.lines(pieces.text());
   return out.text();
 }
 

@@ -1,6 +1,7 @@
-#include "generator/formats/cpp_matrices.hpp"
-
+// How the matrix of a system in loops is stored.
 #include <fmt/format.h>
+
+#include "generator/formats/cpp_pieces.hpp"
 
 namespace hamgen {
 

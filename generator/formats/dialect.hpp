@@ -60,6 +60,8 @@ class Dialect {
                                          const std::string& arguments) const = 0;
   // What a run keeps: "start[i]" is start_[i].
   [[nodiscard]] virtual std::string kept(const std::string& name) const = 0;
+  // A number of a record that is kept, or what is kept itself.
+  [[nodiscard]] std::string kept_place(const Place& place) const;
   // A call of a routine that is given that, and one of which nothing is wanted.
   [[nodiscard]] virtual std::string call_of_run(const std::string& routine_name,
                                                 const std::string& arguments) const = 0;

@@ -339,8 +339,9 @@ std::string RoutinePrinter::text(const Place& place) const {
 }
 
 std::string RoutinePrinter::given(const Place& place) const {
-  const bool record =
-      place.field.empty() && (records_.contains(place.object) || place.object.starts_with("self."));
+  const bool ours = records_.contains(place.object) || place.object.starts_with("self.") ||
+                    place.object.starts_with("new ");
+  const bool record = place.field.empty() && ours;
   if (record && !dialect_.has_references()) return "&" + object(place.object);
   if (place.indices.empty()) return text(place);
   const AffineIndex& index = place.indices.front();

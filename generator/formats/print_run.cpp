@@ -18,6 +18,12 @@ std::string beginning(const std::string& place, const std::string& type, const D
 
 }  // namespace
 
+std::string Dialect::kept_place(const Place& place) const {
+  if (place.object == "self") return kept(place.field);
+  const std::string within = to_text(Place{"", place.field, place.indices});
+  return kept(place.object.substr(5)) + within;
+}
+
 std::string RoutinePrinter::call_text(const Call& call) const {
   std::vector<std::string> arguments;
   for (const Place& place : call.arguments) arguments.push_back(given(place));

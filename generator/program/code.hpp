@@ -35,6 +35,7 @@ struct Record {
   std::string name;  // "State"
   std::vector<Field> fields;
   std::vector<std::string> remark = {};
+  bool extends = false;  // has it what the system's record of this name has, too?
   bool operator==(const Record&) const = default;
 };
 

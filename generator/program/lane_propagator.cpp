@@ -9,15 +9,24 @@ namespace {
 
 class LanePropagatorBuilder : public PropagatorParts {
  public:
-  explicit LanePropagatorBuilder(const Program& code) : PropagatorParts(code) {}
+  LanePropagatorBuilder(const Program& code, int lanes) : PropagatorParts(code), lanes_(lanes) {}
 
   Propagator build() {
-    Propagator result;
-    result.record = record();
+    Propagator result = shell();
+    result.remark = {
+        "Trajectories side by side, each as if it were alone.  A lane whose step fails stays for "
+        "good where it was before it, and the others go on."};
+    result.constants.insert(result.constants.begin(), {"lanes", lanes_});
+    const auto h = std::ranges::find(result.accessors, "time", &Accessor::name);
+    if (!h->place) h->remark = {"Since the first state, of each lane."};
+    result.accessors.insert(h, {"running",
+                                "Mask",
+                                running(),
+                                {"The lanes none of whose steps has failed: running()[0], ..."}});
     std::vector<Field>& fields = result.record.fields;
     const auto of_all = std::ranges::find(fields, "steps", &Field::name);
     if (of_all != fields.end()) of_all->type = "Real";
-    fields.push_back({.name = "running", .type = "Mask"});
+    fields.push_back({.name = "running", .values = {1}, .type = "Mask"});
     if (composed_) result.routines.push_back(substep());
     result.routines.push_back(composed_ ? composed_step() : step());
     result.routines.push_back(advance());
@@ -27,6 +36,8 @@ class LanePropagatorBuilder : public PropagatorParts {
   }
 
  private:
+  int lanes_;
+
   static Place running() { return {"self", "running"}; }
   static Use in_lanes(const std::string& block, const Place& lanes, std::vector<Place> arguments) {
     arguments.insert(arguments.begin(), lanes);
@@ -171,6 +182,8 @@ class LanePropagatorBuilder : public PropagatorParts {
 
 }  // namespace
 
-Propagator lane_propagator_of(const Program& code) { return LanePropagatorBuilder(code).build(); }
+Propagator lane_propagator_of(const Program& code, int lanes) {
+  return LanePropagatorBuilder(code, lanes).build();
+}
 
 }  // namespace hamgen

@@ -9,8 +9,8 @@ class PropagatorBuilder : public PropagatorParts {
   explicit PropagatorBuilder(const Program& code) : PropagatorParts(code) {}
 
   Propagator build() {
-    Propagator result;
-    result.record = record();
+    Propagator result = shell();
+    result.remark = {remark_of_many()};
     if (composed_) result.routines.push_back(substep());
     result.routines.push_back(composed_ ? composed_step() : step());
     result.routines.push_back(code_.unchecked ? unchecked_advance() : advance());
@@ -46,6 +46,16 @@ class PropagatorBuilder : public PropagatorParts {
   }
 
  private:
+  [[nodiscard]] std::string remark_of_many() const {
+    std::string text = "Many steps: ";
+    if (code_.retries) text += "start values are extrapolated";
+    if (carry_) {
+      return text + (code_.retries ? ", rounding errors of the updates carried along."
+                                   : "rounding errors of the updates are carried along.");
+    }
+    return text + (code_.retries ? "; sums are plain." : "sums are plain.");
+  }
+
   // A solve and the update of z.
   void add_part(Routine& routine, const std::string& z, const std::string& carry) const {
     if (!large_) add_room(routine);

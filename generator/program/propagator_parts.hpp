@@ -81,16 +81,20 @@ class PropagatorParts {
 
   [[nodiscard]] Record record() const {
     Record result{.name = "Propagator", .fields = {}};
-    const auto add_field = [&](const std::string& type, const std::string& name, bool own_of_each) {
-      std::vector<int> sizes;
-      if (own_of_each && composed_) sizes.push_back(static_cast<int>(code_.substeps.size()));
-      result.fields.push_back({.name = name, .sizes = std::move(sizes), .type = type});
+    const auto add_field = [&](const std::string& type, const std::string& name, bool own_of_each,
+                               const std::string& remark = {}) {
+      Field field{.name = name, .remark = remark, .type = type};
+      if (own_of_each && composed_) field.sizes = {substeps()};
+      result.fields.push_back(std::move(field));
     };
     add_field("Parameters", "par", false);
     add_field("Real", "h", false);
     add_field("State", "z", false);
-    if (carry_) add_field("State", "carry", false);
-    if (counts_) add_field("long long", "steps", false);
+    if (carry_) add_field("State", "carry", false, "what rounding took from z");
+    if (counts_) {
+      add_field("long long", "steps", false, "since the first state");
+      result.fields.back().values = {0};
+    }
     if (composed_) add_field("Real", "lengths", true);
     if (coefficients_) add_field("Coefficients", "k", true);
     if (start_) add_field("Start", "start", true);
@@ -98,6 +102,39 @@ class PropagatorParts {
     if (large_) add_field("State", "dz", false);
     if (large_ && rest_) add_field("State", "rest", false);
     return result;
+  }
+
+  // All but what it does, and what is said of it.
+  [[nodiscard]] Propagator shell() const {
+    Propagator result{.record = record()};
+    if (composed_) {
+      result.constants = {{"substeps", substeps()}};
+      result.fractions = code_.substeps;
+    }
+    result.beginnings = {{"par", "Parameters", "par"}, {"h", "", "h"}, {"z", "State", "z"}};
+    if (coefficients_) {
+      (composed_ ? result.substep_beginnings : result.beginnings)
+          .push_back({"k", "Coefficients", composed_ ? "lengths" : "h", "prepare"});
+    }
+    result.accessors = {{"state", "State", Place{"self", "z"}}};
+    if (carry_) {
+      result.accessors.push_back(
+          {"carry",
+           "State",
+           Place{"self", "carry"},
+           {"What rounding took from the state: the sum of both is what the steps go on from."}});
+    }
+    result.accessors.push_back({"time", "Real", time()});
+    if (!result.accessors.back().place) result.accessors.back().remark = {"Since the first state."};
+    result.accessors.push_back({"h", "Real", Place{"self", "h"}});
+    result.accessors.push_back({"parameters", "Parameters", Place{"self", "par"}});
+    return result;
+  }
+  // None where steps are counted.
+  [[nodiscard]] std::optional<Place> time() const {
+    if (counts_) return std::nullopt;
+    const auto last = static_cast<std::size_t>(code_.environment.degrees_of_freedom - 1);
+    return code_.environment.state_layout.in("self.z", last);
   }
 
   // What is large has its place in the Propagator.

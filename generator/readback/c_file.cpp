@@ -59,16 +59,15 @@ std::string guard_of_blocks(const Precision& precision) {
 
 class CFileReader {
  public:
-  CFileReader(std::span<const CppToken> tokens, const Precision& precision, const ShellFacts& facts,
+  CFileReader(std::span<const CppToken> tokens, const Precision& precision, const Program& program,
               ReadBack& found)
       : tokens_(tokens),
         cursor_(tokens),
         precision_(precision),
-        facts_(facts),
-        code_(facts.code),
+        code_(program),
         found_(found),
         names_{prefix("SYSTEM_"), prefix("METHOD_"), precision},
-        shell_(c_propagator_patterns(facts)) {}
+        contents_(contents_of(program, {.own_space = names_.system != names_.method})) {}
 
   void run() {
     for (const char* line : {"#pragma once", "#include <math.h>", "#include <stdbool.h>"})
@@ -83,7 +82,9 @@ class CFileReader {
       read_section();
     expect_ieee_end(cursor_);
     if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
-    require_all();
+    for (const std::string& macro : {of_system(), of_method()}) {
+      if (!seen_.contains(macro)) throw TextDifference(cursor_.line(), macro + " is missing");
+    }
   }
 
  private:
@@ -120,9 +121,11 @@ class CFileReader {
 
   void read_text(const std::string& macro, int line) {
     const std::string blocks = guard_of_blocks(precision_);
-    if (macro == "HAMGEN_C_SYSTEM_" + names_.system ||
-        macro == "HAMGEN_C_METHOD_" + names_.method) {
-      while (cursor_.peek().kind != CppToken::Kind::directive) read_item();
+    if (macro == of_system()) {
+      read_pieces(contents_.system);
+    } else if (macro == of_method()) {
+      if (code_.unknowns > 0) read_tested("c/history");
+      read_pieces(contents_.method);
     } else if (macro == "HAMGEN_C_" + names_.block("pi")) {
       expect({"static const Real hamgen::pi = " + std::string(kConstant) + ";",
               {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
@@ -173,57 +176,37 @@ class CFileReader {
     ++found_.blocks;
   }
 
-  // Records, what is known word by word, and routines.
-  void read_item() {
-    const std::string name = item_name();
+  void read_pieces(const std::vector<Piece>& pieces) {
+    for (const Piece& piece : pieces) std::visit([this](const auto& each) { read(each); }, piece);
+  }
+  void read(const Record& record) {
+    expect(c_record_pattern(record), record.name);
+    if (record.name == "Parameters") expect(c_defaults_pattern(record), "default_parameters");
+    if (record.name == "Start") expect(c_start_pattern(record), "start");
+  }
+  void read(const Propagator& propagator) {
+    for (const Pattern& pattern : c_propagator_patterns(propagator)) expect(pattern, "Propagator");
+  }
+  void read(const StepOfPropagator&) { expect(c_step_pattern(), "step"); }
+  void read(const ArrayMatrix&) { throw TextDifference(cursor_.line(), "C has no matrices"); }
+  void read(const Watch&) { throw TextDifference(cursor_.line(), "C has no events"); }
+  void read(const Routine& routine) {
+    if (routine.name == "step") return expect({words_of(routine, {.c = true})}, "step");
     const int line = cursor_.line();
-    once(name, line);
-    if (name == "History" && code_.unknowns > 0) return read_tested("c/history");
-    if (name == "default_parameters")
-      return expect(c_defaults_pattern(*code_.record("Parameters")), name);
-    const auto known = shell_.find(name);
-    if (known != shell_.end()) return expect(known->second, name);
-    if (cursor_.peek().is("typedef")) {
-      const Record* record = code_.record(name);
-      if (record == nullptr) throw TextDifference(line, "a record that the step has not: " + name);
-      return expect(c_record_pattern(*record), name);
-    }
-    read_routine(name);
-  }
-
-  // Of the record or the function that begins here, without its prefix.
-  [[nodiscard]] std::string item_name() const {
-    std::size_t at = 0;
-    if (cursor_.peek().is("typedef")) {
-      while (!cursor_.peek(at).is("}") && !ends(at)) ++at;
-      ++at;
-    } else {
-      while (!cursor_.peek(at).is("(") && !ends(at)) ++at;
-      if (at > 0) --at;
-    }
-    const std::string& name = cursor_.peek(at).text;
-    for (const std::string& begin : {names_.system + "_", names_.method + "_"}) {
-      const std::string plain = name.starts_with(begin) ? name.substr(begin.size()) : "";
-      if (!plain.empty() && names_.named(plain) == name) return plain;
-    }
-    throw TextDifference(cursor_.line(), fmt::format("'{}' is nothing that the step has", name));
-  }
-  [[nodiscard]] bool ends(std::size_t ahead) const {
-    return cursor_.peek(ahead).kind == CppToken::Kind::end ||
-           cursor_.peek(ahead).kind == CppToken::Kind::directive;
-  }
-
-  void read_routine(const std::string& name) {
-    const Routine* routine = code_.routine(name);
-    if (routine == nullptr)
-      throw TextDifference(cursor_.line(), fmt::format("'{}' is nothing that the step has", name));
     if (!cursor_.peek().is("static") || !cursor_.peek(1).is("inline"))
-      throw TextDifference(cursor_.line(), name + " is not static and inline");
+      throw TextDifference(line, routine.name + " is not static and inline");
     const CppFunction function = without_addresses(take_function(), code_);
-    RoutineReader reader(function, *routine, precision_, 0);
+    if (function.name != routine.name)
+      throw TextDifference(line, fmt::format("'{}' where {} belongs", function.name, routine.name));
+    RoutineReader reader(function, routine, precision_, 0);
     reader.compare();
     ++found_.routines;
     found_.instructions += reader.instructions();
+  }
+
+  [[nodiscard]] bool ends(std::size_t ahead) const {
+    return cursor_.peek(ahead).kind == CppToken::Kind::end ||
+           cursor_.peek(ahead).kind == CppToken::Kind::directive;
   }
 
   CppFunction take_function() {
@@ -252,38 +235,25 @@ class CFileReader {
     expect_pattern(cursor_, {names_.text(pattern.text), pattern.constants}, precision_, what);
   }
 
-  void require_all() {
-    std::set<std::string> wanted = {"Parameters", "State", "default_parameters"};
-    for (const auto& [name, pattern] : shell_) wanted.insert(name);
-    for (const char* name : {"Coefficients", "Start"}) {
-      if (code_.record(name) != nullptr) wanted.insert(name);
-    }
-    if (code_.unknowns > 0) wanted.insert("History");
-    for (const char* name :
-         {"energy", "gradient", "invariants", "modified_energies", "prepare", "solve"})
-      wanted.merge(callees(code_, name));
-    for (const std::string& name : wanted) {
-      if (!seen_.contains(name)) throw TextDifference(cursor_.line(), name + " is missing");
-    }
-  }
+  [[nodiscard]] std::string of_system() const { return "HAMGEN_C_SYSTEM_" + names_.system; }
+  [[nodiscard]] std::string of_method() const { return "HAMGEN_C_METHOD_" + names_.method; }
 
   std::span<const CppToken> tokens_;
   TokenCursor cursor_;
   const Precision& precision_;
-  const ShellFacts& facts_;
   const Program& code_;
   ReadBack& found_;
   CNames names_;
-  std::map<std::string, Pattern> shell_;
+  Contents contents_;
   std::set<std::string> seen_;
 };
 
 }  // namespace
 
 void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
-                 const ShellFacts& facts, ReadBack& found) {
+                 const Program& program, ReadBack& found) {
   if (precision.is_quad()) throw TextDifference(1, "C has no quad numbers");
-  CFileReader(tokens, precision, facts, found).run();
+  CFileReader(tokens, precision, program, found).run();
 }
 
 }  // namespace hamgen

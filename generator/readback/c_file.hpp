@@ -9,6 +9,6 @@ namespace hamgen {
 
 // Fills in what was found.  Throws TextDifference and TextNotUnderstood.
 void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
-                 const ShellFacts& facts, ReadBack& found);
+                 const Program& program, ReadBack& found);
 
 }  // namespace hamgen

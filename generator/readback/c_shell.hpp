@@ -2,10 +2,8 @@
 // step is, not from what prints it.
 #pragma once
 
-#include <map>
-#include <string>
+#include <vector>
 
-#include "generator/readback/pattern.hpp"
 #include "generator/readback/shell.hpp"
 
 namespace hamgen {
@@ -13,7 +11,9 @@ namespace hamgen {
 // In the words of CNames::text.
 [[nodiscard]] Pattern c_record_pattern(const Record& record);
 [[nodiscard]] Pattern c_defaults_pattern(const Record& parameters);
-// The functions and records of the Propagator by their names: "Propagator_step".
-[[nodiscard]] std::map<std::string, Pattern> c_propagator_patterns(const ShellFacts& facts);
+[[nodiscard]] Pattern c_start_pattern(const Record& start);
+// The record of the Propagator and its functions, and the function step.
+[[nodiscard]] std::vector<Pattern> c_propagator_patterns(const Propagator& propagator);
+[[nodiscard]] Pattern c_step_pattern();
 
 }  // namespace hamgen

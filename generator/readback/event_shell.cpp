@@ -17,45 +17,41 @@ std::string component(const std::string& place, const std::string& derivative) {
                      minus, index);
 }
 
-std::string components(const ShellFacts& facts) {
-  if (facts.arrays)
+std::string components(bool arrays, const std::vector<std::string>& state) {
+  if (arrays)
     return "for (int i = 0; i < n; ++i) {" + component("q[i]", "n + i") + component("p[i]", "-i") +
            "}";
   std::string text;
-  const std::size_t n = facts.state.size() / 2;
-  for (std::size_t i = 0; i < n; ++i) text += component(facts.state[i], std::to_string(n + i));
-  for (std::size_t i = 0; i < n; ++i)
-    text += component(facts.state[n + i], "-" + std::to_string(i));
+  const std::size_t n = state.size() / 2;
+  for (std::size_t i = 0; i < n; ++i) text += component(state[i], std::to_string(n + i));
+  for (std::size_t i = 0; i < n; ++i) text += component(state[n + i], "-" + std::to_string(i));
   return text;
 }
 
 }  // namespace
 
-Pattern event_pattern(const ShellFacts& facts) {
+Pattern watch_pattern(const Watch& watch, const Environment& environment) {
   std::string names;
-  for (const EventName& each : facts.code.events) names += each.name + ",";
-  return {"enum class Event {" + names + "};"};
-}
-
-Pattern watched_pattern(const ShellFacts& facts) {
   std::vector<bool> rising;
   std::vector<bool> falling;
-  for (const EventName& each : facts.code.events) {
+  for (const EventName& each : watch.events) {
+    names += each.name + ",";
     rising.push_back(each.rising);
     falling.push_back(each.falling);
   }
-  return {fmt::format(
-      "struct Watched {{ static constexpr int variables = {}; static constexpr int events = {};"
-      "static constexpr bool rising[events] = {{{}}};"
-      "static constexpr bool falling[events] = {{{}}};"
-      "static State cubic(Real s, Real h, const State& a, const Real (&at_a)[variables],"
-      "const State& b, const Real (&at_b)[variables]) {{ State z; {} return z; }} }};",
-      facts.arrays ? "2 * n" : std::to_string(facts.state.size()), rising.size(),
-      fmt::join(rising, ", "), fmt::join(falling, ", "), components(facts))};
-}
-
-Pattern watched_propagator_pattern() {
-  return {std::string(tested_text("shells/watched_propagator"))};
+  const std::vector<std::string> state = place_texts(environment.state_layout.places);
+  return {
+      fmt::format(
+          "enum class Event {{{}}};"
+          "struct Watched {{ static constexpr int variables = {}; static constexpr int events = {};"
+          "static constexpr bool rising[events] = {{{}}};"
+          "static constexpr bool falling[events] = {{{}}};"
+          "static State cubic(Real s, Real h, const State& a, const Real (&at_a)[variables],"
+          "const State& b, const Real (&at_b)[variables]) {{ State z; {} return z; }} }};",
+          names, environment.arrays ? "2 * n" : std::to_string(state.size()), rising.size(),
+          fmt::join(rising, ", "), fmt::join(falling, ", "),
+          components(environment.arrays, state)) +
+      std::string(tested_text("shells/watched_propagator"))};
 }
 
 }  // namespace hamgen

@@ -5,9 +5,6 @@
 
 namespace hamgen {
 
-[[nodiscard]] Pattern event_pattern(const ShellFacts& facts);
-[[nodiscard]] Pattern watched_pattern(const ShellFacts& facts);
-// And behind it what is the same in all of them, from the struct Crossing on.
-[[nodiscard]] Pattern watched_propagator_pattern();
+[[nodiscard]] Pattern watch_pattern(const Watch& watch, const Environment& environment);
 
 }  // namespace hamgen

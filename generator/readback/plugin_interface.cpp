@@ -12,7 +12,14 @@ namespace {
 class InterfaceText {
  public:
   explicit InterfaceText(const InterfaceFacts& facts)
-      : facts_(facts), arrays_(facts.shell.arrays), size_(static_cast<int>(facts.state.size())) {}
+      : facts_(facts),
+        program_(facts.program),
+        arrays_(program_.environment.arrays),
+        parameters_(place_texts(program_.environment.parameter_layout.places)),
+        state_(place_texts(program_.environment.state_layout.places)),
+        size_(2 * program_.environment.degrees_of_freedom),
+        modified_(static_cast<int>(program_.facts.modified_powers.size())),
+        invariants_(static_cast<int>(program_.facts.invariants.size()) - modified_) {}
 
   std::vector<InterfacePiece> pieces() {
     add("the record of a run",
@@ -25,20 +32,19 @@ class InterfaceText {
         walk("for_invariants", "const Parameters&", "par", "const State&", "z", invariants()));
     add("for_gradient",
         walk("for_gradient", "const Parameters&", "par", "const State&", "z", gradient()));
-    add("carry_of", {facts_.shell.code.has_carry()
+    add("carry_of", {program_.has_carry()
                          ? "const State& carry_of(const Propagator& run) { return run.carry(); }"
                          : "State carry_of(const Propagator&) { return State(); }"});
-    add("never_fails",
-        {fmt::format("constexpr bool never_fails = {};", facts_.shell.code.unchecked)});
+    add("never_fails", {fmt::format("constexpr bool never_fails = {};", program_.unchecked)});
     if (facts_.tangent) add("variables", {fmt::format("constexpr int variables = {};", size_)});
     add("numerics/shells/plugin_run.hpp", {std::string(tested_text("shells/plugin_run"))});
     if (facts_.tangent) {
       add("numerics/shells/plugin_tangent.hpp",
           {std::string(tested_text("shells/plugin_tangent"))});
     }
-    add("the list of the variables", list("variable", facts_.named.variables));
-    add("the list of the parameters", list("parameter", facts_.named.parameters));
-    add("the list of the invariants", list("invariant", facts_.named.invariants));
+    add("the list of the variables", list("variable", program_.environment.variables));
+    add("the list of the parameters", list("parameter", program_.environment.parameters));
+    add("the list of the invariants", list("invariant", program_.facts.invariants));
     add("the table of the interface", table());
     add("the entry of the plugin",
         {fmt::format("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() {{"
@@ -68,8 +74,8 @@ class InterfaceText {
 
   [[nodiscard]] Pattern parameters() const {
     std::string text;
-    for (std::size_t i = 0; i < facts_.parameters.size(); ++i)
-      text += fmt::format("each({}, par.{});", i, facts_.parameters[i]);
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      text += fmt::format("each({}, par.{});", i, parameters_[i]);
     return {text};
   }
 
@@ -81,7 +87,7 @@ class InterfaceText {
       return {"for (int i = 0; i < n; ++i) {" + both("i", "q[i]") + both("n + i", "p[i]") + "}"};
     std::string text;
     for (int i = 0; i < size_; ++i)
-      text += both(std::to_string(i), facts_.state[static_cast<std::size_t>(i)]);
+      text += both(std::to_string(i), state_[static_cast<std::size_t>(i)]);
     return {text};
   }
 
@@ -94,11 +100,10 @@ class InterfaceText {
 
   // The invariants of the model, and behind them the modified energies.
   [[nodiscard]] Pattern invariants() const {
-    const int modified = facts_.shell.modified;
-    Pattern pattern{values("result", facts_.invariants, 0, "invariants(par, z, result);") +
-                    values("modified", modified, facts_.invariants,
+    Pattern pattern{values("result", invariants_, 0, "invariants(par, z, result);") +
+                    values("modified", modified_, invariants_,
                            fmt::format("modified_energies(par, {}, z, modified);", kConstant))};
-    if (modified > 0) pattern.constants.push_back(facts_.watched_step);
+    if (modified_ > 0) pattern.constants.push_back(facts_.watched_step);
     return pattern;
   }
 
@@ -107,8 +112,7 @@ class InterfaceText {
   }
 
   // Elements of an array that follow each other are one entry.
-  [[nodiscard]] static Pattern list(const std::string& of,
-                                    const std::vector<InterfaceQuantity>& all) {
+  [[nodiscard]] static Pattern list(const std::string& of, const std::vector<Quantity>& all) {
     std::string text = fmt::format("const hamgen_quantity {}_list[] = {{", of);
     for (std::size_t i = 0; i < all.size();) {
       const auto bracket = all[i].name.find('[');
@@ -135,15 +139,17 @@ class InterfaceText {
         "save_run, restore_run, variable_list, parameter_list, invariant_list,"
         "default_parameters, get_time, get_h, get_parameters, set_state, set_h, set_parameters}};"
         "}} }}",
-        facts_.degrees_of_freedom, facts_.parameters.size(),
-        facts_.invariants + facts_.shell.modified, facts_.precision.bits,
-        cpp_string(facts_.description), cpp_string(facts_.solver),
-        facts_.tangent ? "tangent_of" : "nullptr")};
+        size_ / 2, parameters_.size(), invariants_ + modified_, facts_.precision.bits,
+        cpp_string(fmt::format("{}, {}", program_.facts.system, program_.facts.scheme)),
+        cpp_string(program_.facts.solver), facts_.tangent ? "tangent_of" : "nullptr")};
   }
 
   const InterfaceFacts& facts_;
+  const Program& program_;
   bool arrays_;
-  int size_;  // 2n
+  std::vector<std::string> parameters_, state_;  // places in their records
+  int size_;                                     // 2n
+  int modified_, invariants_;                    // how many there are
   std::vector<InterfacePiece> pieces_;
 };
 

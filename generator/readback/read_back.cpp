@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "generator/base/numerics_text.hpp"
 #include "generator/readback/c_file.hpp"
@@ -18,19 +17,6 @@ namespace hamgen {
 
 namespace {
 
-// A section of the file: #ifndef macro, namespaces, what stands in them, #endif.
-struct Section {
-  std::string kind;  // "system"
-  std::string name;  // of its namespace: "pendulum"
-  std::string digest;
-};
-
-std::string time_field(const Program& program) {
-  if (!program.facts.has_time) return {};
-  const auto last = static_cast<std::size_t>(program.environment.degrees_of_freedom - 1);
-  return to_text(program.environment.state_layout.places[last]).substr(1);
-}
-
 constexpr std::string_view kPluginGuard = "#ifndef HAMGEN_PLUGIN_H";
 
 TextKind kind_of(std::span<const CppToken> tokens) {
@@ -39,23 +25,23 @@ TextKind kind_of(std::span<const CppToken> tokens) {
   return in_c ? TextKind::c_header : TextKind::header;
 }
 
-std::vector<InterfaceQuantity> names_of(const std::vector<Quantity>& quantities) {
-  std::vector<InterfaceQuantity> names;
-  for (const Quantity& each : quantities) names.push_back({each.name, each.unit, each.comment});
-  return names;
+// What the guard of a section says of its name.
+std::string guarded(std::span<const CppToken> tokens, const std::string& begin) {
+  const auto found = std::ranges::find_if(tokens, [&](const CppToken& token) {
+    return token.kind == CppToken::Kind::directive && token.text.starts_with(begin);
+  });
+  return found == tokens.end() ? "" : found->text.substr(begin.size());
 }
 
-// "q", "q[2]": places in a record.
-std::vector<std::string> place_texts(const std::vector<Place>& places) {
-  std::vector<std::string> texts;
-  for (const Place& place : places) texts.push_back(to_text(place).substr(1));
-  return texts;
-}
-
-ShellFacts facts_of(const Program& program) {
-  return {program, program.environment.arrays, time_field(program),
-          static_cast<int>(program.facts.modified_powers.size()),
-          place_texts(program.environment.state_layout.places)};
+// What the program has of such a file: whether it has a tangent map is free, and where the method
+// has no namespace of its own its parameters are the system's.
+Contents contents_of_file(const Program& program, std::span<const CppToken> tokens) {
+  bool tangent = false;
+  for (std::size_t i = 1; i < tokens.size(); ++i)
+    tangent = tangent || (tokens[i].is("tangent") && tokens[i - 1].is("bool"));
+  const std::string system = guarded(tokens, "#ifndef HAMGEN_SYSTEM_");
+  return contents_of(program, {.own_space = system != guarded(tokens, "#ifndef HAMGEN_METHOD_"),
+                               .tangent = tangent && program.routine("tangent") != nullptr});
 }
 
 // A header or a plugin.
@@ -66,8 +52,8 @@ class FileReader {
       : file_(file),
         program_(program),
         precision_(precision_of(file.scalar)),
-        facts_(facts_of(program)),
-        n_(facts_.arrays ? program.environment.degrees_of_freedom : 0),
+        n_(program.environment.arrays ? program.environment.degrees_of_freedom : 0),
+        contents_(contents_of_file(program, tokens)),
         found_(found),
         cursor_(tokens) {}
 
@@ -81,16 +67,15 @@ class FileReader {
     }
     const std::vector<std::string> included = read_includes(cursor_, precision_);
     expect_ieee_begin(cursor_, precision_);
-    read_section("system");
+    read_section("system", contents_.system);
     std::string digest;
     for (const std::string& name : included) add_blocks(read_support(name), digest);
     add_blocks(read_blocks(cursor_, file_.text, precision_), digest);
     if (!digest.empty()) digest_ = digest;
-    read_section("method");
+    read_section("method", contents_.method);
     expect_ieee_end(cursor_);
     if (plugin) read_interface();
     if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
-    require_all();
   }
 
  private:
@@ -121,30 +106,26 @@ class FileReader {
   }
 
   void read_interface() {
-    const StepFacts& said = program_.facts;
-    const Environment& environment = program_.environment;
-    const InterfaceFacts facts{
-        .shell = facts_,
-        .precision = precision_,
-        .system = system_,
-        .space = method_,
-        .degrees_of_freedom = environment.degrees_of_freedom,
-        .parameters = place_texts(environment.parameter_layout.places),
-        .state = facts_.state,
-        .invariants = static_cast<int>(said.invariants.size() - said.modified_powers.size()),
-        .named = {names_of(environment.variables), names_of(environment.parameters),
-                  names_of(said.invariants)},
-        .tangent = seen_.contains("tangent"),
-        .watched_step = file_.watched_step,
-        .description = fmt::format("{}, {}", said.system, said.scheme),
-        .solver = said.solver};
+    const InterfaceFacts facts{.program = program_,
+                               .precision = precision_,
+                               .system = system_,
+                               .space = method_,
+                               .tangent = has_tangent(),
+                               .watched_step = file_.watched_step};
     for (const InterfacePiece& piece : plugin_interface(facts))
       expect_pattern(cursor_, piece.pattern, precision_, piece.name);
-    found_.places = static_cast<int>(facts.parameters.size() + facts.state.size());
+    const Environment& environment = program_.environment;
+    found_.places = static_cast<int>(environment.parameters.size() + environment.variables.size());
+  }
+  [[nodiscard]] bool has_tangent() const {
+    return std::ranges::any_of(contents_.method, [](const Piece& piece) {
+      const auto* const routine = std::get_if<Routine>(&piece);
+      return routine != nullptr && routine->name == "tangent";
+    });
   }
 
-  void read_section(const std::string& kind) {
-    Section section{.kind = kind, .name = {}, .digest = {}};
+  // #ifndef macro, namespaces, what stands in them, #endif.
+  void read_section(const std::string& kind, const std::vector<Piece>& pieces) {
     const CppToken& guard = cursor_.take();
     const std::string begin =
         fmt::format("#ifndef HAMGEN_{}_", kind == "system" ? "SYSTEM" : "METHOD");
@@ -155,25 +136,27 @@ class FileReader {
     const std::string defines = fmt::format("#define {} 0x", macro);
     if (define.kind != CppToken::Kind::directive || !define.text.starts_with(defines))
       throw TextDifference(define.line, fmt::format("'{}' is not '{}...'", define.text, defines));
-    section.digest = define.text.substr(defines.size());
+    const std::string digest = define.text.substr(defines.size());
     cursor_.expect("namespace");
     const int line = cursor_.line();
-    section.name = cursor_.word();
-    std::string flat = section.name;
+    std::string name = cursor_.word();
+    std::string flat = name;
     while (cursor_.accept("::")) {
       const std::string part = cursor_.word();
-      section.name += "::" + part;
+      name += "::" + part;
       flat += "_" + part;
     }
     if (macro != begin.substr(8) + flat)
-      throw TextDifference(line, fmt::format("{} guards the namespace {}", macro, section.name));
-    (kind == "system" ? system_ : method_) = section.name;
-    const bool inside = section.name == system_ || section.name.starts_with(system_ + "::");
-    if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", section.name, system_));
-    expect(fmt::format("{{ inline namespace emitted_{} {{", section.digest), "a section");
-    while (!cursor_.peek().is("}")) read_item(section);
+      throw TextDifference(line, fmt::format("{} guards the namespace {}", macro, name));
+    (kind == "system" ? system_ : method_) = name;
+    const bool inside = name == system_ || name.starts_with(system_ + "::");
+    if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", name, system_));
+    expect(fmt::format("{{ inline namespace emitted_{} {{", digest), "a section");
+    kind == "system" ? read_type() : read_names();
+    read_constants(kind);
+    for (const Piece& piece : pieces) std::visit([this](const auto& each) { read(each); }, piece);
     expect("} }", "a section");
-    expect_directive(cursor_, fmt::format("#elif {} != 0x{}", macro, section.digest));
+    expect_directive(cursor_, fmt::format("#elif {} != 0x{}", macro, digest));
     expect_directive(cursor_,
                      fmt::format("#error \"another {} of this name is included before: generate "
                                  "one with --namespace\"",
@@ -181,152 +164,64 @@ class FileReader {
     expect_directive(cursor_, "#endif");
   }
 
-  void read_item(const Section& section) {
-    const CppToken& first = cursor_.peek();
-    if (first.is("struct")) return read_struct(section);
-    if (first.is("class")) return read_class();
-    if (first.is("enum") && has_events()) return once("Event", event_pattern(facts_));
-    if (first.is("namespace")) {
-      return expect(fmt::format("namespace numerics = ::hamgen_{}::{};", digest_, precision_.space),
-                    "the name of the fixed blocks");
+  void read_type() {
+    expect(precision_.is_quad() ? "__extension__ typedef __float128 Real;"
+                                : fmt::format("using Real = {};", precision_.type),
+           "Real");
+  }
+  void read_names() {
+    if (!cursor_.peek().is("namespace")) return;
+    expect(fmt::format("namespace numerics = ::hamgen_{}::{}; using", digest_, precision_.space),
+           "the names of the fixed blocks");
+    read_block_names(cursor_);
+  }
+  void read_constants(const std::string& kind) {
+    if (cursor_.peek(3).is("pi")) {
+      expect({fmt::format("inline constexpr Real pi = {};", kConstant),
+              {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
+             "pi");
     }
-    if (first.is("__extension__")) return once("Real", {"__extension__ typedef __float128 Real;"});
-    if (first.is("using")) return read_using();
-    if (first.is("inline") && cursor_.peek(1).is("constexpr")) return read_constant();
-    read_routine();
+    if (kind == "system" && n_ > 0) expect(fmt::format("inline constexpr int n = {};", n_), "n");
   }
 
-  [[nodiscard]] bool has_events() const { return !program_.events.empty(); }
-
-  void read_class() { once("Propagator", propagator_pattern(facts_)); }
-
-  void read_using() {
-    if (cursor_.peek(1).is("Real"))
-      return once("Real", {fmt::format("using Real = {};", precision_.type)});
-    if (cursor_.peek(1).is("numerics")) {
-      cursor_.take();
-      return read_block_names(cursor_);
-    }
-    read_matrix();
+  void read(const Record& record) { expect(record_pattern(record, system_), record.name); }
+  void read(const ArrayMatrix& matrix) { expect(matrix_pattern(matrix), "Matrix"); }
+  void read(const Propagator& propagator) {
+    expect(propagator_pattern(propagator, {.n = n_}), "Propagator");
   }
-
-  void read_matrix() {
-    if (!program_.matrix) throw TextDifference(cursor_.line(), "a matrix that the step has not");
-    once("Matrix", matrix_pattern(*program_.matrix));
+  void read(const StepOfPropagator&) { expect(step_pattern(), "step"); }
+  void read(const Watch& watch) {
+    expect(watch_pattern(watch, program_.environment), "WatchedPropagator");
   }
-
-  void read_constant() {
-    if (cursor_.peek(3).is("n"))
-      return once("n", {fmt::format("inline constexpr int n = {};", n_)});
-    once("pi", {fmt::format("inline constexpr Real pi = {};", kConstant),
-                {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}});
-  }
-
-  void read_struct(const Section& section) {
-    const std::string name = cursor_.peek(1).text;
+  void read(const Routine& routine) {
+    // It keeps what a run does.
+    if (routine.name == "step") return expect({words_of(routine, {.n = n_})}, "step");
     const int line = cursor_.line();
-    if (name == "Order") return read_matrix();
-    if (name == "Watched" && has_events()) return once("Watched", watched_pattern(facts_));
-    if (name == "Crossing" && has_events())
-      return once("WatchedPropagator", watched_propagator_pattern());
-    if (name == "Parameters") return read_parameters(section);
-    if (name == "Folded") {
-      const std::vector<Quantity>& constants = program_.facts.constants;
-      return once_record(layout("Folded", constants, Defaults::values).record);
-    }
-    const Record* record = program_.record(name);
-    if (record == nullptr) throw TextDifference(line, "a record that the step has not: " + name);
-    once_record(*record);
-  }
-
-  void once_record(const Record& record) {
-    Pattern pattern = record_pattern(record);
-    pattern.text = "struct " + record.name + " " + pattern.text;
-    once(record.name, pattern);
-  }
-
-  // Those of the method are added to those of the system: together they are the program's.
-  void read_parameters(const Section& section) {
-    const int line = cursor_.line();
-    const bool of_method = cursor_.peek(2).is(":");
-    expect(of_method ? fmt::format("struct Parameters : ::{}::Parameters {{", system_)
-                     : "struct Parameters {",
-           "the parameters");
-    if (of_method != (section.kind == "method"))
-      throw TextDifference(line, "parameters that are declared twice");
-    for (const Field& field : program_.record("Parameters")->fields) {
-      const bool here = cursor_.peek(1).is(field.name);
-      if (!here) continue;
-      Pattern pattern = record_pattern({.name = "", .fields = {field}});
-      pattern.text = pattern.text.substr(1, pattern.text.size() - 3);  // without { };
-      once("parameter " + field.name, pattern);
-    }
-    expect("};", "the parameters");
-    seen_.insert("Parameters");
-  }
-
-  void read_routine() {
-    const int line = cursor_.line();
-    std::size_t ahead = 0;
-    while (!cursor_.peek(ahead).is("(") && ahead < 12) ++ahead;
-    const std::string name = ahead == 0 ? "" : cursor_.peek(ahead - 1).text;
-    if (name == "step") return once("step", step_pattern(facts_));
-    if (name == "modified_energy" && facts_.modified > 0)
-      return once("modified_energy", modified_energy_pattern(facts_));
-    const bool again = name == "gradient" && facts_.arrays && seen_.contains("gradient");
-    if (again) return once("gradient of a state", gradient_pattern());
-    const Routine* routine = program_.routine(name);
-    if (routine == nullptr)
-      throw TextDifference(line, fmt::format("'{}' is nothing that the step has", name));
-    if (!seen_.insert(name).second) throw TextDifference(line, name + " is there twice");
     const CppFunction function = read_function(cursor_);
-    RoutineReader reader(function, *routine, precision_, n_);
+    if (function.name != routine.name)
+      throw TextDifference(line, fmt::format("'{}' where {} belongs", function.name, routine.name));
+    RoutineReader reader(function, routine, precision_, n_);
     reader.compare();
     ++found_.routines;
     found_.instructions += reader.instructions();
   }
 
-  void once(const std::string& name, const Pattern& pattern) {
-    const int line = cursor_.line();
-    if (!seen_.insert(name).second && name != "pi")
-      throw TextDifference(line, name + " is there twice");
-    expect_pattern(cursor_, pattern, precision_, name);
+  void expect(const Pattern& pattern, const std::string& what) {
+    expect_pattern(cursor_, pattern, precision_, what);
   }
-
   void expect(const std::string& text, const std::string& what) {
     expect_pattern(cursor_, {text}, precision_, what);
-  }
-
-  void require_all() {
-    std::set<std::string> wanted = {"Real", "Parameters", "State", "Propagator", "step"};
-    for (const char* name : {"Coefficients", "Start"}) {
-      if (program_.record(name) != nullptr) wanted.insert(name);
-    }
-    for (const char* name :
-         {"energy", "gradient", "invariants", "events", "modified_energies", "prepare", "solve"})
-      wanted.merge(callees(program_, name));
-    if (has_events()) wanted.insert({"Event", "Watched", "WatchedPropagator"});
-    if (seen_.contains("tangent")) wanted.merge(callees(program_, "tangent"));
-    if (facts_.arrays) wanted.insert({"n", "gradient of a state"});
-    if (facts_.modified > 0) wanted.insert("modified_energy");
-    if (program_.matrix) wanted.insert("Matrix");
-    for (const Field& field : program_.record("Parameters")->fields)
-      wanted.insert("parameter " + field.name);
-    for (const std::string& name : wanted) {
-      if (!seen_.contains(name)) throw TextDifference(cursor_.line(), name + " is missing");
-    }
   }
 
   const EmittedFile& file_;
   const Program& program_;
   const Precision& precision_;
-  ShellFacts facts_;
   int n_;
+  Contents contents_;
   ReadBack& found_;
   TokenCursor cursor_;
   std::string system_, method_;  // namespaces
   std::string digest_;
-  std::set<std::string> seen_;
 };
 
 }  // namespace
@@ -337,7 +232,7 @@ ReadBack read_back(const EmittedFile& file, const Program& program) {
     const std::vector<CppToken> tokens = tokens_of(file.text);
     found.kind = kind_of(tokens);
     if (found.kind == TextKind::c_header) {
-      read_c_file(tokens, precision_of(file.scalar), facts_of(program), found);
+      read_c_file(tokens, precision_of(file.scalar), program, found);
     } else {
       FileReader(file, program, tokens, found).run();
     }

@@ -26,9 +26,11 @@ class RunWords {
     for (const Argument& argument : routine_.arguments)
       arguments += (arguments.empty() ? "" : ", ") + declared(argument);
     std::string name = routine_.name;
-    if (c_) name = "static inline " + type + " N::Propagator_" + name;
-    if (!c_) name = type + " " + name;
-    if (!routine_.of_run) name = "[[nodiscard]] inline " + name;
+    if (c_) {
+      name = "static inline " + type + (routine_.of_run ? " N::Propagator_" : " N::") + name;
+    } else {
+      name = (routine_.of_run ? "" : "[[nodiscard]] inline ") + type + " " + name;
+    }
     words_ = fmt::format("{}({})", name, arguments);
     block(routine_.body);
     return words_;
@@ -84,7 +86,8 @@ class RunWords {
     for (const std::string& object : declare.objects) {
       records_.insert(object);
       list += (list.empty() ? "" : ", ") + object;
-      if (c_) say("{} {} = {{0}};", of_type(declare.record), object);
+      const bool start = declare.record == "Start";
+      if (c_) say("{} {} = {};", of_type(declare.record), object, start ? "N::start()" : "{0}");
     }
     if (!c_) say("{} {};", declare.record, list);
   }
@@ -191,7 +194,8 @@ class RunWords {
   }
   // As it is handed on.
   [[nodiscard]] std::string given(const Place& place) const {
-    const bool record = records_.contains(place.object) || place.object.starts_with("self.");
+    const bool record = records_.contains(place.object) || place.object.starts_with("self.") ||
+                        place.object.starts_with("new ");
     return (c_ && record ? "&" : "") + at(place);
   }
   [[nodiscard]] std::string called(const Call& call) const {

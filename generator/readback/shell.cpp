@@ -2,90 +2,50 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/propagator.hpp"
-#include "generator/readback/run_words.hpp"
-
 namespace hamgen {
 
 namespace {
 
-class PropagatorText {
- public:
-  explicit PropagatorText(const ShellFacts& facts)
-      : facts_(facts),
-        code_(facts.code),
-        propagator_(propagator_of(code_)),
-        language_{.n = facts.arrays ? code_.environment.degrees_of_freedom : 0},
-        composed_(code_.substeps.size() > 1),
-        coefficients_(code_.record("Coefficients") != nullptr) {}
+// z_.t, or h_.
+std::string kept_text(const Place& place) {
+  if (place.object == "self") return place.field + "_";
+  return place.object.substr(5) + "_" + to_text(Place{"", place.field, place.indices});
+}
 
-  Pattern propagator() {
-    text_ = "class Propagator { public: ";
-    constructor();
-    for (const Routine& routine : propagator_.routines) {
-      if (routine.name != "substep") text_ += words_of(routine, language_);
+std::string constructor_text(const Propagator& propagator) {
+  const auto made = [](const Beginning& each, const std::string& from) {
+    return each.routine.empty() ? from : fmt::format("{}(par, {})", each.routine, from);
+  };
+  std::string text = "Propagator(const Parameters& par, Real h, const State& z)";
+  const char* separator = " : ";
+  for (const Beginning& each : propagator.beginnings) {
+    text += fmt::format("{}{}_({})", separator, each.field, made(each, each.from));
+    separator = ", ";
+  }
+  if (propagator.fractions.empty()) return text + "{}";
+  const std::vector<std::string> fractions(propagator.fractions.size(), kConstant);
+  text +=
+      fmt::format("{{ constexpr Real fractions[substeps] = {{{}}};", fmt::join(fractions, ", "));
+  text += "for (int i = 0; i < substeps; ++i) { lengths_[i] = h * fractions[i];";
+  for (const Beginning& each : propagator.substep_beginnings)
+    text += fmt::format("{}_[i] = {};", each.field, made(each, each.from + "_[i]"));
+  return text + "} }";
+}
+
+std::string member_text(const Record& record) {
+  std::string text;
+  for (const Field& field : record.fields) {
+    if (field.name == "rest") {  // beside dz
+      text.back() = ',';
+      text += "rest_;";
+      continue;
     }
-    accessors();
-    text_ += "private: ";
-    if (composed_) text_ += words_of(propagator_.routines.front(), language_);
-    members();
-    text_ += "};";
-    return {text_, composed_ ? code_.substeps : std::vector<Rational>{}};
+    const std::string size = field.sizes.empty() ? "" : "[substeps]";
+    const char* value = field.name == "steps" ? " = 0" : field.name == "lengths" ? " = {}" : "";
+    text += fmt::format("{} {}_{}{};", field.type, field.name, size, value);
   }
-
-  Pattern step() {
-    if (!composed_ && !facts_.arrays) return {words_of(single_step(code_), language_)};
-    return {
-        "[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {"
-        "Propagator propagator(par, h, z); const StepReport report = propagator.step();"
-        "if (report.converged) z = propagator.state(); return report; }"};
-  }
-
- private:
-  void constructor() {
-    if (composed_)
-      text_ += fmt::format("static constexpr int substeps = {};", code_.substeps.size());
-    text_ += "Propagator(const Parameters& par, Real h, const State& z) : par_(par), h_(h), z_(z)";
-    if (!composed_) {
-      text_ += coefficients_ ? ", k_(prepare(par, h)) {}" : "{}";
-      return;
-    }
-    text_ += "{ constexpr Real fractions[substeps] = {";
-    for (std::size_t i = 0; i < code_.substeps.size(); ++i)
-      text_ += (i == 0 ? "" : ", ") + std::string(kConstant);
-    text_ += "}; for (int i = 0; i < substeps; ++i) { lengths_[i] = h * fractions[i];";
-    if (coefficients_) text_ += "k_[i] = prepare(par, lengths_[i]);";
-    text_ += "} }";
-  }
-
-  void accessors() {
-    text_ += "[[nodiscard]] const State& state() const { return z_; }";
-    if (code_.has_carry()) text_ += "[[nodiscard]] const State& carry() const { return carry_; }";
-    text_ += "[[nodiscard]] Real time() const { return ";
-    text_ += facts_.time.empty() ? "static_cast<Real>(steps_) * h_" : "z_." + facts_.time;
-    text_ +=
-        "; } [[nodiscard]] Real h() const { return h_; }"
-        "[[nodiscard]] const Parameters& parameters() const { return par_; }";
-  }
-
-  void members() {
-    const std::vector<Field>& fields = propagator_.record.fields;
-    for (const Field& field : fields) {
-      if (field.name == "rest") continue;  // beside dz
-      text_ +=
-          fmt::format("{} {}_{}", field.type, field.name, field.sizes.empty() ? "" : "[substeps]");
-      if (field.name == "dz" && code_.has_rest()) text_ += ", rest_";
-      text_ += field.name == "steps" ? " = 0;" : field.name == "lengths" ? " = {};" : ";";
-    }
-  }
-
-  const ShellFacts& facts_;
-  const Program& code_;
-  const Propagator propagator_;
-  RunLanguage language_;
-  bool composed_, coefficients_;
-  std::string text_;
-};
+  return text;
+}
 
 // Where row i of the matrix stands in the band.
 std::string order_body(const ArrayMatrix& matrix) {
@@ -103,8 +63,15 @@ std::string order_body(const ArrayMatrix& matrix) {
 
 }  // namespace
 
-Pattern record_pattern(const Record& record) {
-  Pattern pattern{"{"};
+std::vector<std::string> place_texts(const std::vector<Place>& places) {
+  std::vector<std::string> texts;
+  for (const Place& place : places) texts.push_back(to_text(place).substr(1));
+  return texts;
+}
+
+Pattern record_pattern(const Record& record, const std::string& system) {
+  const std::string base = record.extends ? fmt::format(" : ::{}::{}", system, record.name) : "";
+  Pattern pattern{fmt::format("struct {}{} {{", record.name, base)};
   for (const Field& field : record.fields) {
     std::string sizes;
     for (const int size : field.sizes) sizes += fmt::format("[{}]", size);
@@ -130,21 +97,31 @@ Pattern record_pattern(const Record& record) {
   return pattern;
 }
 
-Pattern propagator_pattern(const ShellFacts& facts) { return PropagatorText(facts).propagator(); }
-
-Pattern step_pattern(const ShellFacts& facts) { return PropagatorText(facts).step(); }
-
-Pattern modified_energy_pattern(const ShellFacts& facts) {
-  return {
-      fmt::format("inline Real modified_energy(const Parameters& par, Real h, const State& z) {{"
-                  "Real values[{}]; modified_energies(par, h, z, values); return values[{}]; }}",
-                  facts.modified, facts.modified - 1)};
+Pattern propagator_pattern(const Propagator& propagator, const RunLanguage& language) {
+  const bool composed = !propagator.fractions.empty();
+  std::string text = "class Propagator { public: ";
+  for (const auto& [name, value] : propagator.constants)
+    text += fmt::format("static constexpr int {} = {};", name, value);
+  text += constructor_text(propagator);
+  for (const Routine& routine : propagator.routines) {
+    if (routine.name != "substep") text += words_of(routine, language);
+  }
+  for (const Accessor& accessor : propagator.accessors) {
+    const std::string value =
+        accessor.place ? kept_text(*accessor.place) : "static_cast<Real>(steps_) * h_";
+    const std::string type = accessor.type == "Real" ? "Real" : "const " + accessor.type + "&";
+    text += fmt::format("[[nodiscard]] {} {}() const {{ return {}; }}", type, accessor.name, value);
+  }
+  text += "private: ";
+  if (composed) text += words_of(propagator.routines.front(), language);
+  return {text + member_text(propagator.record) + "};", propagator.fractions};
 }
 
-Pattern gradient_pattern() {
+Pattern step_pattern() {
   return {
-      "inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n]) {"
-      "gradient(par, z.q, z.p, values, values + n); }"};
+      "[[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {"
+      "Propagator propagator(par, h, z); const StepReport report = propagator.step();"
+      "if (report.converged) z = propagator.state(); return report; }"};
 }
 
 Pattern matrix_pattern(const ArrayMatrix& matrix) {
