@@ -8,9 +8,9 @@
 #include "app/output/json_document.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/language/read_model.hpp"
 #include "generator/language/scene.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "app/command_line.hpp"
 #include "app/output/terminal.hpp"
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/solvers/all_solvers.hpp"
 #include "runtime/atomic_file.hpp"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/short_digest.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/program/names.hpp"
 
 namespace hamgen {

@@ -6,13 +6,13 @@
 #include <bit>
 #include <filesystem>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
 #include "generator/emitted_spaces.hpp"
 #include "generator/emitted_text.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "generator/formats/cpp_header.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"
 #include "generator/program/code_cost.hpp"

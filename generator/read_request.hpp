@@ -1,7 +1,7 @@
 // The model as a request reads it.
 #pragma once
 
-#include "generator/formats/scalar.hpp"
+#include "generator/algebra/scalar.hpp"
 #include "generator/pipeline.hpp"
 
 namespace hamgen {

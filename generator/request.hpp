@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/asked.hpp"
 #include "generator/formats/all_formats.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/schemes/read_gauge.hpp"

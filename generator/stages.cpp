@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/budget.hpp"
 #include "generator/choose_scheme.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"

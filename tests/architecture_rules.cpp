@@ -17,11 +17,10 @@ struct Rule {
 
 // The stages as one, and the values that go in and come out.
 std::vector<std::string> with_generator_values(std::vector<std::string> folders) {
-  folders.insert(
-      folders.end(),
-      {"generator/pipeline.hpp", "generator/base/", "generator/algebra/", "generator/language/",
-       "generator/mechanics/", "generator/schemes/", "generator/specialise/", "generator/verify/",
-       "generator/formats/scalar.hpp", "generator/readback/read_back.hpp", "runtime/"});
+  folders.insert(folders.end(), {"generator/pipeline.hpp", "generator/base/", "generator/algebra/",
+                                 "generator/language/", "generator/mechanics/",
+                                 "generator/schemes/", "generator/specialise/", "generator/verify/",
+                                 "generator/readback/read_back.hpp", "runtime/"});
   return folders;
 }
 
@@ -77,7 +76,8 @@ const std::vector<Rule>& rules() {
       // Expressions are what a Program's instructions hold; functions know their C++ names.
       {"generator/formats/",
        {"generator/formats/", "generator/program/", "generator/algebra/expression.hpp",
-        "generator/algebra/exact.hpp", "generator/algebra/functions.hpp", "generator/base/"},
+        "generator/algebra/exact.hpp", "generator/algebra/functions.hpp",
+        "generator/algebra/scalar.hpp", "generator/base/"},
        {fmt}},
       {"generator/verify/",
        {"generator/specialise/", "generator/verify/", "generator/program/",

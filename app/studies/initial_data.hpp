@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/formats/scalar.hpp"
+#include "generator/algebra/scalar.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/pipeline.hpp"
 #include "runtime/integrator.hpp"

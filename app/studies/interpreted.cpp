@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/interpreter/interpreter.hpp"
 
 namespace hamgen::app {

@@ -7,12 +7,13 @@
 #include <variant>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/base/short_digest.hpp"
 #include "generator/formats/c_dialect.hpp"
 #include "generator/formats/c_pieces.hpp"
-#include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/numerics.hpp"
 #include "generator/formats/preamble.hpp"
+#include "generator/formats/support.hpp"
 
 namespace hamgen {
 
@@ -68,12 +69,7 @@ std::string block_text(std::string_view name, const CDialect& dialect, int unkno
     if (word == "Unknowns") return std::to_string(unknowns);
     if (word == "Degrees") return unknowns > 32 ? "8" : "16";
     if (word.starts_with("History")) return dialect.named(word);
-    for (const char* ours :
-         {"StepReport", "two_sum", "two_sum_with_rest", "collect", "product_error", "magnitude",
-          "largest", "epsilon", "Verdict", "go_on", "done", "failed"}) {
-      if (word == ours) return dialect.block(word);
-    }
-    return word.starts_with("NewtonRule") ? dialect.block(word) : word;
+    return is_defined(c_blocks(), word) ? dialect.block(word) : word;
   };
   std::string result;
   std::string word;
@@ -119,42 +115,36 @@ std::string method_text(EmitContext& context, const CDialect& dialect) {
   return out.text();
 }
 
-// The fixed blocks that the text uses.
-void write_blocks(CodeWriter& out, const CDialect& dialect, const std::string& text) {
-  const auto uses = [&](const char* name) {
-    return text.find(dialect.block(name)) != std::string::npos;
-  };
-  std::vector<std::pair<std::string, std::string>> blocks = {
-      {"STEP_REPORT", block_text("c/step_report", dialect, 0)}};
-  if (uses("two_sum") || uses("collect"))
-    blocks.emplace_back("TWO_SUM", block_text("c/two_sum", dialect, 0));
-  if (uses("two_sum_with_rest")) {
-    blocks.emplace_back("SUM_WITH_REST", block_text("c/sum_with_rest", dialect, 0));
+std::string text_of(const FixedBlock& block, const CDialect& dialect) {
+  const ScalarType& scalar = dialect.scalar;
+  if (block.name == kEpsilon)
+    return fmt::format("// The distance from 1 to the next number.\nstatic const {} {} = {};\n",
+                       dialect.real(), dialect.block("epsilon"), scalar.epsilon);
+  if (block.name == kVocabulary)
+    return fmt::format(
+        "static inline {0} {1}({0} x) {{ return {2}(x); }}\n"
+        "static const {0} {3} = {4};  // what is beyond counts as infinite\n",
+        dialect.real(), dialect.block("magnitude"), dialect.function("fabs"),
+        dialect.block("largest"), scalar.largest);
+  return block_text("c/" + std::string(block.name), dialect, 0);
+}
+
+// The fixed blocks that the text uses, and those that these use.
+void write_blocks(CodeWriter& out, const CDialect& dialect, std::string text) {
+  std::vector<std::pair<std::string, std::string>> blocks;
+  for (std::size_t i = c_blocks().size(); i-- > 0;) {
+    const FixedBlock& block = c_blocks()[i];
+    const bool used = std::ranges::any_of(names_of(block), [&](const std::string& name) {
+      return text.find(dialect.block(name)) != std::string::npos;
+    });
+    if (!used) continue;
+    blocks.emplace(blocks.begin(), block.name, text_of(block, dialect));
+    text += blocks.front().second;
   }
-  if (uses("collect")) blocks.emplace_back("COLLECT", block_text("c/collected_sum", dialect, 0));
-  if (uses("NewtonRule") || uses("product_error")) {
-    blocks.emplace_back(
-        "EPSILON", fmt::format("// The distance from 1 to the next number.\n"
-                               "static const {} {} = {};\n",
-                               dialect.real(), dialect.block("epsilon"), dialect.scalar.epsilon));
-  }
-  if (uses("product_error")) {
-    blocks.emplace_back("PRODUCT_ERROR", block_text("c/product_error", dialect, 0));
-  }
-  if (uses("NewtonRule")) {
-    blocks.emplace_back(
-        "NEWTON_RULE",
-        fmt::format("static inline {0} {1}({0} x) {{ return {2}(x); }}\n"
-                    "static const {0} {3} = {4};  // what is beyond counts as infinite\n",
-                    dialect.real(), dialect.block("magnitude"), dialect.function("fabs"),
-                    dialect.block("largest"), dialect.scalar.largest) +
-            block_text("c/newton_rule", dialect, 0));
-  }
-  std::string scalar(dialect.scalar.space);
-  std::ranges::transform(scalar, scalar.begin(), [](unsigned char c) { return std::toupper(c); });
   out.line("// What follows is the same in every header.");
   for (const auto& [name, block] : blocks) {
-    write_section(out, fmt::format("HAMGEN_C_{}_{}", scalar, name), block);
+    const std::string guard = fmt::format("HAMGEN_C_{}_{}", dialect.scalar.space, name);
+    write_section(out, capitals(guard), block);
   }
 }
 
@@ -178,13 +168,13 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   out.line("#include <math.h>");
   out.line("#include <stdbool.h>");
   out.line();
-  begin_ieee_arithmetic(out, context.scalar);
+  out.lines(ieee_begin(context.scalar));
   out.line();
   if (context.used.pi) write_pi(out, dialect);
   write_section(out, "HAMGEN_C_SYSTEM_" + dialect.system(), system.text());
   write_blocks(out, dialect, method);
   write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method);
-  end_ieee_arithmetic(out);
+  out.lines(cpp_numerics("shells/ieee_end"));
   return {{options.file_name + ".h", out.text()}};
 }
 

@@ -9,12 +9,12 @@
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/numerics_text.hpp"
 #include "generator/base/short_digest.hpp"
-#include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/cpp_dialect.hpp"
 #include "generator/formats/cpp_interface.hpp"
 #include "generator/formats/cpp_pieces.hpp"
 #include "generator/formats/emit_context.hpp"
 #include "generator/formats/lanes_dialect.hpp"
+#include "generator/formats/numerics.hpp"
 #include "generator/formats/preamble.hpp"
 #include "generator/formats/support.hpp"
 #include "generator/formats/use_lanes.hpp"
@@ -163,10 +163,11 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
   out.lines(first_lines);
   write_includes(out, context, support);
   out.line();
-  begin_ieee_arithmetic(out, context.scalar);
+  out.lines(ieee_begin(context.scalar));
   out.line();
   if (in_lanes) {
-    write_registers(out);
+    out.lines(cpp_numerics("shells/lane_registers"));
+    out.line();
     support.write(out, false);
     write_section(out, "system", options.spaces.system, short_digest(system + support.digest()),
                   with_names(support, system), true);
@@ -177,7 +178,7 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
   write_section(out, "method", options.spaces.of_method(),
                 short_digest(system + method + support.digest()), with_names(support, method),
                 in_lanes);
-  end_ieee_arithmetic(out);
+  out.lines(cpp_numerics("shells/ieee_end"));
   return out.text();
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/formats/scalar.hpp"
+#include "generator/formats/literal.hpp"
 #include "generator/program/code.hpp"
 
 namespace hamgen {

@@ -31,6 +31,13 @@ inline constexpr double epsilon = {2};  // the distance from 1 to the next numbe
                      lanes, scalar.largest, scalar.epsilon);
 }
 
+std::string ieee_begin(const ScalarType& scalar) {
+  // Wider numbers than double have no wider registers.
+  return cpp_numerics("shells/ieee_flags") +
+         (scalar.digits <= 53 ? cpp_numerics("shells/ieee_registers") : "") +
+         cpp_numerics("shells/ieee_begin");
+}
+
 std::string cpp_numerics(std::string_view name) {
   const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
   if (found == all_numerics().end()) internal_error(fmt::format("no numerics '{}'", name));

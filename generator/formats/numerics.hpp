@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/numerics_text.hpp"
-#include "generator/formats/scalar.hpp"
 
 namespace hamgen {
 
@@ -23,6 +23,11 @@ namespace hamgen {
 
 // Real, Mask and the vocabulary of packs of so many numbers.
 [[nodiscard]] std::string lanes_vocabulary(const ScalarType& scalar, int lanes);
+
+// What is demanded of the compiler's arithmetic, between the includes and the code and up to the
+// text "shells/ieee_end": every operation rounded as IEEE 754 says.  The compensated sums compute
+// what rounding lost, (a + b) - a - b, which is 0 to a compiler that may reorder sums.
+[[nodiscard]] std::string ieee_begin(const ScalarType& scalar);
 
 // The text of generator/numerics/NAME.hpp.
 [[nodiscard]] std::string cpp_numerics(std::string_view name);

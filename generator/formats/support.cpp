@@ -7,81 +7,16 @@
 #include <span>
 #include <sstream>
 
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/base/short_digest.hpp"
-#include "generator/formats/cpp_arithmetic.hpp"
 #include "generator/formats/numerics.hpp"
 
 namespace hamgen {
 
 namespace {
 
-struct FixedBlock {
-  std::string_view name;     // of its file in generator/numerics
-  std::string_view defines;  // with blanks between them
-  bool eigen = false;
-  bool events = false;  // of headers that find events alone
-};
-
-constexpr std::string_view kVocabulary = "vocabulary";  // see numerics.hpp
-
-// In an order in which each uses those before it only.
-constexpr FixedBlock kBlocks[] = {
-    {"step_report", "StepReport"},
-    {kVocabulary, "magnitude largest epsilon"},
-    {"two_sum", "two_sum"},
-    {"sum_with_rest", "two_sum_with_rest"},
-    {"collected_sum", "collect"},
-    {"product_error", "product_error"},
-    {"dense_matrix", "DenseMatrix"},
-    {"diagonal_matrix", "DiagonalMatrix"},
-    {"band_matrix", "BandMatrix"},
-    {"reordered_matrix", "ReorderedMatrix"},
-    {"eigen_dense_matrix", "EigenDenseMatrix", true},
-    {"eigen_sparse_matrix", "EigenSparseMatrix", true},
-    {"inverse", "invert"},
-    {"verdict", "Verdict"},
-    {"newton_rule", "NewtonRule"},
-    {"waiting_newton_rule", "WaitingNewtonRule"},
-    {"fixed_point_rule", "FixedPointRule Distance"},
-    {"contraction_rule", "ContractionRule"},
-    {"impatient_rule", "ImpatientRule"},
-    {"simplified_newton_rule", "SimplifiedNewtonRule"},
-    {"refinement", "Refinement"},
-    {"history", "History"},
-    {"forget", "forget"},
-    {.name = "bracketed_root", .defines = "bracketed_root", .events = true},
-    {.name = "crossings", .defines = "cubic_between find_crossings", .events = true},
-    {.name = "crossing_list", .defines = "CrossingList", .events = true},
-};
-
-// Of a batch, where Real is a pack.
-constexpr FixedBlock kLaneBlocks[] = {
-    {"lane_vectors", "VectorOf MaskOf BitsOf"},
-    {"lane_mask", "LaneMask any all"},
-    {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
-    {"lane_pairs", "Pair"},
-    {"lane_sine", "lane_sin lane_cos lane_tan"},
-    {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
-    {"lane_logarithm", "lane_log lane_asinh lane_acosh lane_atanh"},
-    {"lane_power", "lane_pow"},
-    {"lane_arcs", "lane_atan lane_atan2 lane_asin lane_acos"},
-    {"lane_library", "library"},
-    {kVocabulary, "Real Mask magnitude largest epsilon"},
-    {"two_sum", "two_sum"},
-    {"sum_with_rest", "two_sum_with_rest"},
-    {"collected_sum", "collect"},
-    {"lane_product_error", "product_error"},
-    {"lane_step",
-     "StepReport end_iteration require_finite stop_failed run_lanes astray_lanes add_substep "
-     "take_lanes move_lanes"},
-    {"lane_dense_matrix", "DenseMatrix"},
-    {"lane_newton_rule", "NewtonRule"},
-    {"lane_history", "History forget"},
-};
-
 std::span<const FixedBlock> blocks_of(int lanes) {
-  return lanes > 0 ? std::span<const FixedBlock>(kLaneBlocks)
-                   : std::span<const FixedBlock>(kBlocks);
+  return lanes > 0 ? lane_blocks() : cpp_blocks();
 }
 
 // The words of C++ code, without comments and without members: what follows a dot.
@@ -105,19 +40,12 @@ std::set<std::string> words_of(std::string_view code) {
   return words;
 }
 
-std::vector<std::string> names_of(const FixedBlock& block) {
-  std::istringstream text{std::string(block.defines)};
-  std::vector<std::string> names;
-  for (std::string name; text >> name;) names.push_back(name);
-  return names;
-}
+}  // namespace
 
 std::string capitals(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
 }
-
-}  // namespace
 
 void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
@@ -130,7 +58,7 @@ void Support::require_for(std::string_view code) {
 }
 
 bool Support::uses_eigen() const {
-  return std::ranges::any_of(kBlocks, [&](const FixedBlock& block) {
+  return std::ranges::any_of(cpp_blocks(), [&](const FixedBlock& block) {
     return block.eigen && blocks_.contains(block.name);
   });
 }
@@ -144,7 +72,7 @@ void Support::write(CodeWriter& out, bool shared) const {
   const auto is_written = [&](const FixedBlock& block) {
     return blocks_.contains(block.name) && (block.eigen || !shared);
   };
-  if (std::ranges::none_of(kBlocks, is_written)) return;
+  if (std::ranges::none_of(cpp_blocks(), is_written)) return;
   const std::string name = name_space();
   out.line("// What follows is the same in every header.");
   out.line(fmt::format("namespace {} {{", name));
@@ -206,21 +134,6 @@ std::string Support::text(std::string_view block) const {
   return text.substr(0, text.find_last_not_of('\n') + 1);
 }
 
-void write_registers(CodeWriter& out) {
-  out.lines(
-      R"(#ifndef HAMGEN_REGISTERS  // what is compiled for other registers does not mix with this
-#if defined __AVX512F__
-#define HAMGEN_REGISTERS registers_of_8
-#elif defined __AVX2__
-#define HAMGEN_REGISTERS registers_of_4
-#else
-#define HAMGEN_REGISTERS registers_of_2
-#endif
-#endif
-
-)");
-}
-
 std::string shared_file_name(const ScalarType& scalar, bool events) {
   return fmt::format("hamgen_support{}{}.hpp",
                      scalar.digits == 53 ? "" : "_" + std::string(scalar.space),
@@ -229,7 +142,7 @@ std::string shared_file_name(const ScalarType& scalar, bool events) {
 
 OutputFile shared_file(const ScalarType& scalar, bool events) {
   Support support(scalar, false, events);
-  for (const FixedBlock& block : kBlocks) {
+  for (const FixedBlock& block : cpp_blocks()) {
     if (!block.eigen) support.require_for(block.defines);
   }
   CodeWriter out;
@@ -239,10 +152,10 @@ OutputFile shared_file(const ScalarType& scalar, bool events) {
   out.line("#pragma once");
   if (support.uses_cmath(false)) out.line("#include <cmath>");
   out.line();
-  begin_ieee_arithmetic(out, scalar);
+  out.lines(ieee_begin(scalar));
   out.line();
   support.write(out, false);
-  end_ieee_arithmetic(out);
+  out.lines(cpp_numerics("shells/ieee_end"));
   return {shared_file_name(scalar, events), out.text()};
 }
 

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/formats/code_writer.hpp"
 #include "generator/formats/output_files.hpp"
-#include "generator/formats/scalar.hpp"
 
 namespace hamgen {
 
@@ -52,12 +52,14 @@ class Support {
   std::set<std::string_view> blocks_;
 };
 
+// For the names of guards.
+[[nodiscard]] std::string capitals(std::string text);
+
 // "hamgen_support.hpp" of double numbers, "hamgen_support_events.hpp" of headers with events.
 [[nodiscard]] std::string shared_file_name(const ScalarType& scalar, bool events);
 // The name that inline namespaces of a batch have: what is compiled for other registers is other
 // code, and does not mix.
 inline constexpr const char* kRegisters = "HAMGEN_REGISTERS";
-void write_registers(CodeWriter& out);
 // All blocks that need no library in a header that others include.
 [[nodiscard]] OutputFile shared_file(const ScalarType& scalar, bool events);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "generator/base/numerics_text.hpp"
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/readback/c_function.hpp"
 #include "generator/readback/c_names.hpp"
 #include "generator/readback/c_shell.hpp"
@@ -18,37 +18,6 @@ namespace hamgen {
 namespace {
 
 constexpr std::string_view kGuard = "#ifndef HAMGEN_C_";
-
-struct CBlock {
-  std::string_view guard;     // behind HAMGEN_C_FLOAT64_
-  std::string_view numerics;  // the tested header; empty: numbers of the scalar alone
-};
-constexpr CBlock kCBlocks[] = {{"STEP_REPORT", "c/step_report"},
-                               {"TWO_SUM", "c/two_sum"},
-                               {"SUM_WITH_REST", "c/sum_with_rest"},
-                               {"COLLECT", "c/collected_sum"},
-                               {"EPSILON", ""},
-                               {"PRODUCT_ERROR", "c/product_error"},
-                               {"NEWTON_RULE", "c/newton_rule"}};
-
-// Words of the tested headers that an emitted one calls otherwise.
-constexpr std::string_view kOfBlocks[] = {"StepReport",
-                                          "two_sum",
-                                          "two_sum_with_rest",
-                                          "collect",
-                                          "product_error",
-                                          "magnitude",
-                                          "largest",
-                                          "epsilon",
-                                          "Verdict",
-                                          "go_on",
-                                          "done",
-                                          "failed",
-                                          "NewtonRule",
-                                          "NewtonRule_of_power",
-                                          "NewtonRule_power",
-                                          "NewtonRule_begin",
-                                          "NewtonRule_check"};
 
 // Ends with an underscore: "HAMGEN_C_FLOAT64_"
 std::string guard_of_blocks(const Precision& precision) {
@@ -80,7 +49,7 @@ class CFileReader {
     while (cursor_.peek().kind == CppToken::Kind::directive &&
            cursor_.peek().text.starts_with(kGuard))
       read_section();
-    expect_ieee_end(cursor_);
+    expect_ieee_end(cursor_, precision_);
     if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
     for (const std::string& macro : {of_system(), of_method()}) {
       if (!seen_.contains(macro)) throw TextDifference(cursor_.line(), macro + " is missing");
@@ -131,30 +100,32 @@ class CFileReader {
               {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
              "pi");
     } else if (macro.starts_with(blocks)) {
-      const auto* const block = std::ranges::find(
-          kCBlocks, std::string_view(macro).substr(blocks.size()), &CBlock::guard);
-      if (block == std::end(kCBlocks)) throw TextDifference(line, macro + " guards no fixed block");
-      read_block(*block);
+      std::string name = macro.substr(blocks.size());
+      std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+      if (std::ranges::find(c_blocks(), name, &FixedBlock::name) == c_blocks().end())
+        throw TextDifference(line, macro + " guards no fixed block");
+      read_block(name);
     } else {
       throw TextDifference(line, macro + " guards nothing that this header has");
     }
   }
 
-  void read_block(const CBlock& block) {
-    if (block.guard == "EPSILON") {
+  void read_block(const std::string& name) {
+    if (name == kEpsilon) {
       expect({fmt::format("static const Real hamgen::epsilon = 0x1p-{}{};", precision_.bits - 1,
                           precision_.suffix)},
              "epsilon");
       return;
     }
-    if (block.guard == "NEWTON_RULE") {
+    if (name == kVocabulary) {
       const char* suffix = precision_.bits == 24 ? "f" : precision_.bits == 64 ? "l" : "";
       expect({fmt::format("static inline Real hamgen::magnitude(Real x) {{ return fabs{}(x); }}"
                           "static const Real hamgen::largest = {};",
                           suffix, precision_.largest)},
              "the vocabulary");
+      return;
     }
-    read_tested(block.numerics);
+    read_tested("c/" + name);
   }
 
   // A header of generator/numerics/c, word by word, with the names of this header.
@@ -163,8 +134,7 @@ class CFileReader {
     const std::string degrees = code_.unknowns > 32 ? "8" : "16";
     std::string text;
     for (const CppToken& token : tokens_of(tested_text(numerics))) {
-      const bool of_blocks = std::ranges::find(kOfBlocks, token.text) != std::end(kOfBlocks);
-      text += of_blocks                           ? names_.block(token.text)
+      text += is_defined(c_blocks(), token.text)  ? names_.block(token.text)
               : token.text.starts_with("History") ? names_.named(token.text)
               : token.is("Unknowns")              ? unknowns
               : token.is("Degrees")               ? degrees

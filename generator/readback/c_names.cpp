@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/readback/findings.hpp"
 
 namespace hamgen {
@@ -11,25 +12,6 @@ namespace {
 
 constexpr std::string_view kOfSystem[] = {"Parameters", "State",      "energy",
                                           "gradient",   "invariants", "default_parameters"};
-constexpr std::string_view kBlocks[] = {"StepReport",
-                                        "two_sum",
-                                        "two_sum_with_rest",
-                                        "collect",
-                                        "product_error",
-                                        "magnitude",
-                                        "largest",
-                                        "epsilon",
-                                        "pi",
-                                        "Verdict",
-                                        "go_on",
-                                        "done",
-                                        "failed",
-                                        "NewtonRule",
-                                        "NewtonRule_of_power",
-                                        "NewtonRule_power",
-                                        "NewtonRule_begin",
-                                        "NewtonRule_check"};
-
 constexpr std::string_view kFixed = "hamgen_";
 
 std::string_view suffix_of(const Precision& precision) {
@@ -111,7 +93,7 @@ class WordReader {
     if (text.starts_with(kFixed) && text.ends_with(suffix_)) {
       const std::string name =
           text.substr(kFixed.size(), text.size() - kFixed.size() - suffix_.size());
-      if (is_one_of(kBlocks, name)) return kOfHeader + name;
+      if (name == "pi" || is_defined(c_blocks(), name)) return kOfHeader + name;
     }
     const std::string_view of_method = behind(names_.method);
     if (!of_method.empty() && !is_one_of(kOfSystem, of_method))

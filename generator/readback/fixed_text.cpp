@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/base/numerics_text.hpp"
 #include "generator/readback/findings.hpp"
 #include "generator/readback/pattern.hpp"
@@ -15,18 +16,6 @@ namespace {
 
 constexpr std::string_view kIncludes[] = {"<cmath>", "<algorithm>", "<vector>", "<Eigen/SparseLU>",
                                           "<Eigen/LU>"};
-constexpr std::string_view kBlockNames[] = {
-    "StepReport",       "magnitude",         "largest",
-    "epsilon",          "two_sum",           "two_sum_with_rest",
-    "collect",          "product_error",     "DenseMatrix",
-    "DiagonalMatrix",   "BandMatrix",        "ReorderedMatrix",
-    "EigenDenseMatrix", "EigenSparseMatrix", "invert",
-    "Verdict",          "NewtonRule",        "FixedPointRule",
-    "Distance",         "ImpatientRule",     "SimplifiedNewtonRule",
-    "Refinement",       "History",           "forget",
-    "ContractionRule",  "WaitingNewtonRule", "CrossingList",
-    "cubic_between",    "find_crossings"};
-
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;
@@ -133,6 +122,10 @@ std::string read_block(TokenCursor& cursor, std::string_view text, const std::st
   return name;
 }
 
+void expect_tested(TokenCursor& cursor, const std::string& name, const Precision& precision) {
+  expect_pattern(cursor, {std::string(tested_text(name))}, precision, "numerics/" + name);
+}
+
 }  // namespace
 
 std::string_view tested_text(std::string_view name) {
@@ -167,33 +160,13 @@ std::vector<std::string> read_includes(TokenCursor& cursor, const Precision& pre
 }
 
 void expect_ieee_begin(TokenCursor& cursor, const Precision& precision) {
-  expect_directive(cursor,
-                   "#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined "
-                   "__RECIPROCAL_MATH__ || defined __NO_SIGNED_ZEROS__ || (defined "
-                   "__FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ > 0)");
-  expect_directive(cursor,
-                   "#error \"what rounding loses is kept here: compile without -ffast-math, "
-                   "-Ofast and parts of them\"");
-  expect_directive(cursor, "#endif");
-  if (precision.bits <= 53) {
-    expect_directive(cursor,
-                     "#if defined __FLT_EVAL_METHOD__ && (__FLT_EVAL_METHOD__ < 0 || "
-                     "__FLT_EVAL_METHOD__ == 2)");
-    expect_directive(cursor,
-                     "#error \"numbers must not be kept in wider registers: compile with -msse2 "
-                     "-mfpmath=sse\"");
-    expect_directive(cursor, "#endif");
-  }
-  expect_directive(cursor, "#ifdef __clang__");
-  expect_directive(cursor, "#pragma float_control(push)");
-  expect_directive(cursor, "#pragma clang fp reassociate(off)");
-  expect_directive(cursor, "#endif");
+  expect_tested(cursor, "shells/ieee_flags", precision);
+  if (precision.bits <= 53) expect_tested(cursor, "shells/ieee_registers", precision);
+  expect_tested(cursor, "shells/ieee_begin", precision);
 }
 
-void expect_ieee_end(TokenCursor& cursor) {
-  expect_directive(cursor, "#ifdef __clang__");
-  expect_directive(cursor, "#pragma float_control(pop)");
-  expect_directive(cursor, "#endif");
+void expect_ieee_end(TokenCursor& cursor, const Precision& precision) {
+  expect_tested(cursor, "shells/ieee_end", precision);
 }
 
 FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision) {
@@ -222,8 +195,7 @@ void read_block_names(TokenCursor& cursor) {
     cursor.expect("numerics");
     cursor.expect("::");
     const std::string name = cursor.word();
-    if (std::ranges::find(kBlockNames, name) == std::end(kBlockNames))
-      throw TextDifference(line, name + " is no fixed block");
+    if (!is_defined(cpp_blocks(), name)) throw TextDifference(line, name + " is no fixed block");
   } while (cursor.accept(","));
   cursor.expect(";");
 }

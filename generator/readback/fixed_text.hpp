@@ -17,7 +17,7 @@ namespace hamgen {
                                                      const Precision& precision);
 // What is demanded of the compiler's arithmetic.
 void expect_ieee_begin(TokenCursor& cursor, const Precision& precision);
-void expect_ieee_end(TokenCursor& cursor);
+void expect_ieee_end(TokenCursor& cursor, const Precision& precision);
 
 // The headers of generator/numerics in their namespace: each is compared with the tested one,
 // letter by letter.  The digest in the namespace's name is that of them all.

@@ -73,7 +73,7 @@ class FileReader {
     add_blocks(read_blocks(cursor_, file_.text, precision_), digest);
     if (!digest.empty()) digest_ = digest;
     read_section("method", contents_.method);
-    expect_ieee_end(cursor_);
+    expect_ieee_end(cursor_, precision_);
     if (plugin) read_interface();
     if (!cursor_.at_end()) throw TextDifference(cursor_.line(), "something behind the end");
   }
@@ -100,7 +100,7 @@ class FileReader {
       throw TextDifference(1, name + " includes another file");
     expect_ieee_begin(cursor, precision_);
     FixedBlocks blocks = read_blocks(cursor, text, precision_);
-    expect_ieee_end(cursor);
+    expect_ieee_end(cursor, precision_);
     if (!cursor.at_end()) throw TextDifference(1, "something behind the end of " + name);
     return blocks;
   }

@@ -10,7 +10,7 @@
 #include <random>
 #include <regex>
 
-#include "generator/formats/scalar.hpp"
+#include "generator/algebra/scalar.hpp"
 
 namespace hamgen {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/choose_scheme.hpp"
-#include "generator/formats/scalar.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "runtime/process.hpp"
 #include "runtime/temporary_directory.hpp"

@@ -4,9 +4,9 @@
 
 #include <fstream>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/source_text.hpp"
-#include "generator/formats/scalar.hpp"
 #include "runtime/temporary_directory.hpp"
 #include "tests/emitted/compiled.hpp"
 

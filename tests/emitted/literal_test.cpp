@@ -1,4 +1,6 @@
 // The numbers of a model in the emitted code: what the compiler makes of them.
+#include "generator/formats/literal.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <sstream>
 
 #include "generator/algebra/exact.hpp"
-#include "generator/formats/scalar.hpp"
 #include "tests/emitted/compiled.hpp"
 
 namespace hamgen::emitted_test {

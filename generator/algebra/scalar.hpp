@@ -50,8 +50,7 @@ class OutOfRange : public UsageError {
   Diagnostic diagnostic_;
 };
 
-// A literal, or a quotient of literals, that gives the nearest number of the type.  Throws
-// OutOfRange.
-[[nodiscard]] std::string literal(const Rational& value, const ScalarType& scalar);
+// 2^exponent.
+[[nodiscard]] Rational power_of_two(long exponent);
 
 }  // namespace hamgen

@@ -1,0 +1,98 @@
+#include "generator/base/fixed_blocks.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace hamgen {
+
+namespace {
+
+constexpr FixedBlock kCppBlocks[] = {
+    {"step_report", "StepReport"},
+    {kVocabulary, "magnitude largest epsilon"},
+    {"two_sum", "two_sum"},
+    {"sum_with_rest", "two_sum_with_rest"},
+    {"collected_sum", "collect"},
+    {"product_error", "product_error"},
+    {"dense_matrix", "DenseMatrix"},
+    {"diagonal_matrix", "DiagonalMatrix"},
+    {"band_matrix", "BandMatrix"},
+    {"reordered_matrix", "ReorderedMatrix"},
+    {"eigen_dense_matrix", "EigenDenseMatrix", true},
+    {"eigen_sparse_matrix", "EigenSparseMatrix", true},
+    {"inverse", "invert"},
+    {"verdict", "Verdict"},
+    {"newton_rule", "NewtonRule"},
+    {"waiting_newton_rule", "WaitingNewtonRule"},
+    {"fixed_point_rule", "FixedPointRule Distance"},
+    {"contraction_rule", "ContractionRule"},
+    {"impatient_rule", "ImpatientRule"},
+    {"simplified_newton_rule", "SimplifiedNewtonRule"},
+    {"refinement", "Refinement"},
+    {"history", "History"},
+    {"forget", "forget"},
+    {.name = "bracketed_root", .defines = "bracketed_root", .events = true},
+    {.name = "crossings", .defines = "cubic_between find_crossings", .events = true},
+    {.name = "crossing_list", .defines = "CrossingList", .events = true},
+};
+
+constexpr FixedBlock kLaneBlocks[] = {
+    {"lane_vectors", "VectorOf MaskOf BitsOf"},
+    {"lane_mask", "LaneMask any all"},
+    {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
+    {"lane_pairs", "Pair"},
+    {"lane_sine", "lane_sin lane_cos lane_tan"},
+    {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
+    {"lane_logarithm", "lane_log lane_asinh lane_acosh lane_atanh"},
+    {"lane_power", "lane_pow"},
+    {"lane_arcs", "lane_atan lane_atan2 lane_asin lane_acos"},
+    {"lane_library", "library"},
+    {kVocabulary, "Real Mask magnitude largest epsilon"},
+    {"two_sum", "two_sum"},
+    {"sum_with_rest", "two_sum_with_rest"},
+    {"collected_sum", "collect"},
+    {"lane_product_error", "product_error"},
+    {"lane_step",
+     "StepReport end_iteration require_finite stop_failed run_lanes astray_lanes add_substep "
+     "take_lanes move_lanes"},
+    {"lane_dense_matrix", "DenseMatrix"},
+    {"lane_newton_rule", "NewtonRule"},
+    {"lane_history", "History forget"},
+};
+
+constexpr FixedBlock kCBlocks[] = {
+    {"step_report", "StepReport"},
+    {"two_sum", "two_sum"},
+    {"sum_with_rest", "two_sum_with_rest"},
+    {"collected_sum", "collect"},
+    {kEpsilon, "epsilon"},
+    {"product_error", "product_error"},
+    {kVocabulary, "magnitude largest"},
+    {"newton_rule",
+     "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "
+     "NewtonRule_check"},
+};
+
+}  // namespace
+
+std::span<const FixedBlock> cpp_blocks() { return kCppBlocks; }
+std::span<const FixedBlock> lane_blocks() { return kLaneBlocks; }
+std::span<const FixedBlock> c_blocks() { return kCBlocks; }
+
+std::vector<std::string> names_of(const FixedBlock& block) {
+  std::istringstream text{std::string(block.defines)};
+  std::vector<std::string> names;
+  for (std::string name; text >> name;) names.push_back(name);
+  return names;
+}
+
+bool defines(const FixedBlock& block, std::string_view word) {
+  const std::vector<std::string> names = names_of(block);
+  return std::ranges::find(names, word) != names.end();
+}
+
+bool is_defined(std::span<const FixedBlock> blocks, std::string_view word) {
+  return std::ranges::any_of(blocks, [&](const FixedBlock& block) { return defines(block, word); });
+}
+
+}  // namespace hamgen

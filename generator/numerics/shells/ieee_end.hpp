@@ -1,0 +1,3 @@
+#ifdef __clang__
+#pragma float_control(pop)
+#endif
