@@ -173,7 +173,7 @@ runtime::LoadedPlugin load(Program code, const PluginSource& plugin, int digits)
   all->code = std::move(code);
   all->description = plugin.model.name + ", " + plugin.scheme_name;
   all->solver = plugin.solver;
-  all->parameters = all->code.parameters.size();
+  all->parameters = all->code.environment.parameters.size();
   for (const Field& field : all->code.record("State")->fields) {
     all->state += static_cast<std::size_t>(field.sizes.empty() ? 1 : field.sizes.front());
   }

@@ -19,23 +19,15 @@ namespace hamgen {
 
 namespace {
 
-// What there are no blocks for in C; empty if the body has nothing of the kind.
-std::string missing(const Body& body) {
-  for (const Instruction& instruction : body) {
-    const auto& value = instruction.value;
-    if (std::holds_alternative<Matrix>(value) || std::holds_alternative<Invert>(value)) {
-      return "matrices";
-    }
-    if (std::holds_alternative<Refine>(value) || std::holds_alternative<RefineArray>(value) ||
-        std::holds_alternative<IterateArray>(value) || std::holds_alternative<Alternate>(value)) {
-      return "fixed points";
-    }
-    for (const Body* inner : inner_bodies(instruction)) {
-      const std::string found = missing(*inner);
-      if (!found.empty()) return found;
-    }
-  }
-  return {};
+// What there are no blocks for in C.
+std::string missing(const Instruction& instruction) {
+  const auto& value = instruction.value;
+  if (std::holds_alternative<Matrix>(value) || std::holds_alternative<Invert>(value))
+    return "matrices";
+  const bool fixed_point =
+      std::holds_alternative<Refine>(value) || std::holds_alternative<RefineArray>(value) ||
+      std::holds_alternative<IterateArray>(value) || std::holds_alternative<Alternate>(value);
+  return fixed_point ? "fixed points" : "";
 }
 
 void require_c(const EmitContext& context) {
@@ -57,7 +49,7 @@ void require_c(const EmitContext& context) {
   for (const Piece& piece : context.contents.method) {
     const auto* const routine = std::get_if<Routine>(&piece);
     if (routine == nullptr) continue;
-    const std::string found = missing(routine->body);
+    const std::string found = find_in(routine->body, missing);
     if (!found.empty()) refuse("there are no " + found + " in C");
   }
 }

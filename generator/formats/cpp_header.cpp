@@ -185,12 +185,10 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
 }  // namespace
 
 std::string cpp_header(const Program& program, const EmitOptions& options) {
+  if (options.lanes > 0) require_lanes(program, options);
   const std::unique_ptr<Dialect> dialect = dialect_of(program, options);
-  const auto text = [&](const Program& written) {
-    EmitContext context(written, options, *dialect);
-    return file_text(context, "#pragma once");
-  };
-  return options.lanes > 0 ? text(in_lanes(program, options)) : text(program);
+  EmitContext context(program, options, *dialect);
+  return file_text(context, "#pragma once");
 }
 
 std::string cpp_plugin(const Program& program, const EmitOptions& options) {

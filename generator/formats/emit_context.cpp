@@ -4,29 +4,14 @@
 
 namespace hamgen {
 
-namespace {
-
-std::vector<std::string> texts(const Layout& layout) {
-  std::vector<std::string> result;
-  for (const Place& place : layout.places) {
-    result.push_back(place.field);
-    for (const AffineIndex& index : place.indices) {
-      result.back() += fmt::format("[{}]", index.constant);
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
 EmitContext::EmitContext(const Program& the_program, const EmitOptions& the_options,
                          const Dialect& the_dialect)
     : program(the_program),
       options(the_options),
       dialect(the_dialect),
       scalar(the_dialect.scalar),
-      parameter_fields(texts(program.environment.parameter_layout)),
-      state_fields(texts(program.environment.state_layout)),
+      parameter_fields(place_texts(program.environment.parameter_layout)),
+      state_fields(place_texts(program.environment.state_layout)),
       contents(contents_of(program, {.own_space = !options.spaces.method.empty(),
                                      .tangent = options.tangent,
                                      .lanes = options.lanes})) {}

@@ -12,24 +12,17 @@ namespace hamgen {
 
 namespace {
 
-// What there are no blocks for in lanes; empty if the body has nothing of the kind.
-std::string without_lanes(const Body& body) {
-  for (const Instruction& instruction : body) {
-    const auto& value = instruction.value;
-    const auto* iterate = std::get_if<Iterate>(&value);
-    const bool fixed_point = iterate != nullptr && iterate->rule != Rule::newton;
-    if (fixed_point || std::holds_alternative<Refine>(value) ||
-        std::holds_alternative<RefineArray>(value) || std::holds_alternative<Alternate>(value)) {
-      return "a fixed-point iteration";
-    }
-    if (std::holds_alternative<IterateArray>(value)) return "an iteration of arrays";
-    if (std::holds_alternative<Invert>(value)) return "the inverse of a matrix";
-    for (const Body* inner : inner_bodies(instruction)) {
-      const std::string found = without_lanes(*inner);
-      if (!found.empty()) return found;
-    }
+// What there are no blocks for in lanes.
+std::string without_lanes(const Instruction& instruction) {
+  const auto& value = instruction.value;
+  const auto* iterate = std::get_if<Iterate>(&value);
+  const bool fixed_point = iterate != nullptr && iterate->rule != Rule::newton;
+  if (fixed_point || std::holds_alternative<Refine>(value) ||
+      std::holds_alternative<RefineArray>(value) || std::holds_alternative<Alternate>(value)) {
+    return "a fixed-point iteration";
   }
-  return {};
+  if (std::holds_alternative<IterateArray>(value)) return "an iteration of arrays";
+  return std::holds_alternative<Invert>(value) ? "the inverse of a matrix" : "";
 }
 
 }  // namespace
@@ -40,7 +33,7 @@ void refuse_lanes(const EmitOptions& options, std::string_view what) {
       fmt::format("--batch: {} has no lanes\nhelp: --format cpp-header or cmake-package", what));
 }
 
-Program in_lanes(Program program, const EmitOptions& options) {
+void require_lanes(const Program& program, const EmitOptions& options) {
   if (find_scalar(options.scalar).digits != 53) {
     throw UsageError("--batch: lanes are of double numbers\nhelp: drop --scalar");
   }
@@ -53,7 +46,7 @@ Program in_lanes(Program program, const EmitOptions& options) {
   std::set<std::string> needed = callees(program, "prepare");
   needed.merge(callees(program, "solve"));
   for (const std::string& name : needed) {
-    const std::string found = without_lanes(program.routine(name)->body);
+    const std::string found = find_in(program.routine(name)->body, without_lanes);
     if (found.empty()) continue;
     throw UsageError(
         fmt::format("--batch: {0} has {1} in its step, and there is none in lanes\n"
@@ -62,12 +55,6 @@ Program in_lanes(Program program, const EmitOptions& options) {
                     "of members and their compositions for small systems: --solver newton",
                     program.facts.scheme, found));
   }
-  const auto start = std::ranges::find(program.records, "Start", &Record::name);
-  if (start == program.records.end() || program.unknowns == 0) return program;
-  for (Field& field : start->fields) {
-    if (field.type == "bool") field.type = "Mask";
-  }
-  return program;
 }
 
 }  // namespace hamgen

@@ -8,9 +8,8 @@
 
 namespace hamgen {
 
-// Flags that differ from lane to lane become masks.  Throws UsageError, and says why, for a step
-// that is not there in lanes.
-[[nodiscard]] Program in_lanes(Program program, const EmitOptions& options);
+// Throws UsageError, and says why, for a step that is not there in lanes.
+void require_lanes(const Program& program, const EmitOptions& options);
 // Throws UsageError if the options ask for lanes, of which `what` knows nothing.
 void refuse_lanes(const EmitOptions& options, std::string_view what);
 

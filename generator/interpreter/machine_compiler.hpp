@@ -1,13 +1,13 @@
 // Makes the steps of a machine from the instructions of its routine.
 #pragma once
 
-#include "generator/interpreter/machine_memory.hpp"
+#include "generator/interpreter/machine_iteration_compiler.hpp"
 
 namespace hamgen {
 
 template <class Real>
-class MachineCompiler : public MachineMemory<Real> {
-  using Base = MachineMemory<Real>;
+class MachineCompiler : public MachineIterationCompiler<Real> {
+  using Base = MachineIterationCompiler<Real>;
   using Base::address;
   using Base::code_;
   using Base::compiled;
@@ -24,21 +24,11 @@ class MachineCompiler : public MachineMemory<Real> {
   using Base::range_of;
   using Base::routine_;
   using Base::run_all;
-  using Base::run_contraction;
-  using Base::run_fixed_point;
-  using Base::run_newton;
-  using Base::run_newton_on;
-  using Base::run_settling;
   using Base::size_of;
   using Base::sizes_of;
-  using Base::span;
-  using Base::whole;
-  using typename Base::Array2;
-  using typename Base::Compiled;
   using typename Base::Range;
   using typename Base::Step;
   using typename Base::Steps;
-  using typename Base::Whole;
 
  public:
   using Others = typename Machine<Real>::Others;
@@ -226,136 +216,6 @@ class MachineCompiler : public MachineMemory<Real> {
       return true;
     };
   }
-  Step operator()(const Iterate& iterate) {
-    const bool newton = iterate.rule == Rule::newton;
-    std::vector<Unknown> list = iterate.unknowns;
-    // A fixed point moves by the difference of the new value and the old one.
-    for (Unknown& u : list) {
-      if (!newton) u.correction = u.correction - Expression::symbol(u.symbol);
-    }
-    const std::vector<Compiled> unknowns = compiled(list);
-    const int start = index_of("start");
-    const Address memory = address(Place{"start", "value"});
-    const Steps body = steps(iterate.body);
-    return [this, unknowns, start, memory, body, newton, name = iterate.name] {
-      const bool known = object(start).flags.at("known") != 0;
-      Real* kept = &m_.frame.at(memory);
-      for (const Compiled& u : unknowns) {
-        m_.frame.at(u.target) = known ? kept[u.memory] : u.start(m_.frame);
-      }
-      const bool done = newton ? run_newton(*object(start).rules.at(name), known, unknowns, body)
-                               : run_fixed_point(unknowns, body);
-      if (!done) return false;
-      for (const Compiled& u : unknowns) {
-        kept[u.memory] = m_.frame.at(u.target);
-        if (newton) kept[u.memory] += u.correction(m_.frame);
-      }
-      return true;
-    };
-  }
-  Step operator()(const IterateArray& iterate) {
-    std::vector<Array2> unknowns;
-    for (const UnknownArray& u : iterate.unknowns) {
-      unknowns.push_back({address(u.value), address(u.increment), compiled(u.beside)});
-    }
-    std::vector<Range> ranges;
-    for (const KernelRange& range : iterate.ranges) ranges.push_back(range_of(range));
-    const Address residual = iterate.residual.empty() ? Address{} : address(iterate.residual);
-    const int start = index_of("start");
-    const std::string flag = iterate.factorised ? iterate.factorised->field : "";
-    const Steps body = steps(iterate.body);
-    return [this, unknowns, ranges, residual, start, flag, body, rule = iterate.rule,
-            name = iterate.name, work = iterate.work] {
-      Object<Real>& memory = object(start);
-      const auto each = [&](const std::function<void(const Array2&)>& use) {
-        for_all(ranges, 0, [&] {
-          for (const Array2& u : unknowns) use(u);
-        });
-      };
-      if (rule == Rule::newton) {
-        const bool known = memory.flags.at("known") != 0;
-        return run_newton_on(*memory.rules.at(name), known, each, body);
-      }
-      if (work) return run_settling(*memory.settling.at(name), *work, each, body);
-      return run_contraction(memory, name, flag, each, body, residual);
-    };
-  }
-  Step operator()(const RefineArray& refine) {
-    const Whole point = whole(refine.point);
-    const Whole lack = whole(refine.lack);
-    const Whole gradient = whole(refine.gradient);
-    const std::string& name = refine.refinement.field;
-    const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
-    const Whole change = whole(Place{refine.refinement.object, name + ".change"});
-    const int target = index_of(refine.refinement.object);
-    const int start = refine.rule.empty() ? 0 : index_of("start");
-    return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
-            body = steps(refine.body)] {
-      AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
-      for (bool more = true; more;) {
-        if (!run_all(body)) return false;
-        more = rule.empty() ? refinement(span(point), span(lack), span(gradient))
-                            : refinement.refine(*object(start).settling.at(rule), span(point),
-                                                span(lack), span(gradient));
-      }
-      refinement.get_slope(span(slope));
-      refinement.get_change(span(change));
-      return true;
-    };
-  }
-  Step operator()(const Refine& refine) {
-    std::vector<Unknown> list = refine.unknowns;
-    for (Unknown& u : list) u.correction = u.correction - Expression::symbol(u.symbol);
-    const std::vector<Compiled> unknowns = compiled(list);
-    std::vector<CompiledExpression<Real>> gradient;
-    for (const Expression& e : refine.gradient) gradient.push_back(compiled(e));
-    std::vector<Address> kept;
-    for (const std::string& symbol : refine.kept) kept.push_back(address(symbol));
-    const Address change{index_of(refine.name), 0, {}};
-    return [this, unknowns, gradient, kept, change, body = steps(refine.body)] {
-      const auto refinement = make_refinement<Real>(static_cast<int>(unknowns.size()),
-                                                    static_cast<int>(gradient.size()));
-      std::vector<Real> waiting(kept.size());
-      for (bool more = true; more;) {
-        if (!run_all(body)) return false;
-        std::vector<Real> lack;
-        std::vector<Real> slope;
-        std::vector<Real> point;
-        for (const Compiled& u : unknowns) {
-          lack.push_back(u.correction(m_.frame));
-          point.push_back(m_.frame.at(u.target));
-        }
-        for (const auto& component : gradient) slope.push_back(component(m_.frame));
-        for (std::size_t j = 0; refinement->is_first() && j < kept.size(); ++j) {
-          waiting[j] = m_.frame.at(kept[j]);
-        }
-        more = (*refinement)(point, lack, slope);
-        for (std::size_t j = 0; j < point.size(); ++j) m_.frame.at(unknowns[j].target) = point[j];
-      }
-      for (std::size_t j = 0; j < kept.size(); ++j) m_.frame.at(kept[j]) = waiting[j];
-      refinement->get_change({&m_.frame.at(change), gradient.size()});
-      return true;
-    };
-  }
-  Step operator()(const Sweep& sweep) {
-    const std::vector<Compiled> unknowns = compiled(sweep.unknowns);
-    std::vector<Address> results;
-    for (const std::string& result : sweep.results) results.push_back(address(result));
-    return [this, unknowns, results, body = steps(sweep.body), count = sweep.count] {
-      for (const Compiled& u : unknowns) m_.frame.at(u.target) = u.start(m_.frame);
-      for (int i = 0; i < count; ++i) {
-        if (!run_all(body)) return false;
-        std::vector<Real> next;
-        for (const Compiled& u : unknowns) next.push_back(u.correction(m_.frame));
-        for (std::size_t j = 0; j < next.size(); ++j) m_.frame.at(unknowns[j].target) = next[j];
-      }
-      for (std::size_t j = 0; j < results.size(); ++j) {
-        m_.frame.at(results[j]) = m_.frame.at(unknowns[j].target);
-      }
-      m_.report.iterations = count;
-      return true;
-    };
-  }
   using Base::operator();
   Step operator()(const Repeat& repeat) {
     return [this, count = static_cast<std::size_t>(repeat.count), body = steps(repeat.body)] {
@@ -462,7 +322,7 @@ class MachineCompiler : public MachineMemory<Real> {
     };
   }
 
-  Steps steps(const Body& body) {
+  Steps steps(const Body& body) override {
     Steps result;
     for (const Instruction& instruction : body) {
       result.push_back(std::visit(*this, instruction.value));

@@ -283,11 +283,7 @@ Program build_program(const LoweredStep& lowered) {
   Program code{.records = {environment.parameter_layout.record, environment.state_layout.record},
                .routines = {},
                .changed = {},
-               .parameters = {},
                .environment = environment};
-  for (const Quantity& parameter : environment.parameters) {
-    code.parameters.push_back(parameter.name);
-  }
   if (arrays) {
     add_kernel_functions(code, environment, lowered);
   } else {
@@ -358,8 +354,9 @@ std::string text_with_origins(const Program& code, const std::vector<EnergyTerm>
   for (std::size_t t = 0; t < terms.size(); ++t) {
     text += fmt::format("  {}  line {}: {}\n", t + 1, terms[t].line, terms[t].text);
   }
-  return text +
-         routines_as_text(code, [](const Routine& routine) { return text_with_origins(routine); });
+  text += routines_as_text(code, [](const Routine& routine) { return text_with_origins(routine); });
+  for (const Routine& routine : propagator_of(code).routines) text += text_with_origins(routine);
+  return text;
 }
 
 }  // namespace hamgen

@@ -188,6 +188,17 @@ std::vector<Body*> inner_bodies(Instruction& instruction) {
   return bodies;
 }
 
+std::string find_in(const Body& body, const std::function<std::string(const Instruction&)>& look) {
+  for (const Instruction& instruction : body) {
+    std::string found = look(instruction);
+    for (const Body* inner : inner_bodies(instruction)) {
+      if (found.empty()) found = find_in(*inner, look);
+    }
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
 void for_values(Instruction& instruction, const std::function<void(Expression&)>& use) {
   std::visit(Writer{use}, instruction.value);
 }

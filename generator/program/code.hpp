@@ -333,6 +333,9 @@ concept InstructionOfRun = std::is_same_v<Node, Use> || std::is_same_v<Node, Dec
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
 [[nodiscard]] std::vector<Body*> inner_bodies(Instruction& instruction);
+// The first text that `look` finds in an instruction or, behind it, in the bodies inside it.
+[[nodiscard]] std::string find_in(const Body& body,
+                                  const std::function<std::string(const Instruction&)>& look);
 // Every value of the instruction itself, not of the bodies inside it.
 void for_values(Instruction& instruction, const std::function<void(Expression&)>& use);
 // The names of what is called.

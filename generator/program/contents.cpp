@@ -41,7 +41,7 @@ class ContentsBuilder {
     if (program_.matrix) add(*program_.matrix);
     add_record("Coefficients");
     add_with_callees("prepare");
-    add_record("Start");
+    add_start();
     add_with_callees("solve");
     add_steps();
     add_with_callees("events");
@@ -54,6 +54,16 @@ class ContentsBuilder {
   void add(Piece piece) { pieces_->push_back(std::move(piece)); }
   void add_record(const char* name) {
     if (const Record* record = program_.record(name)) add(*record);
+  }
+  void add_start() {
+    const Record* record = program_.record("Start");
+    if (record == nullptr) return;
+    Record start = *record;
+    // Flags that differ from lane to lane.
+    for (Field& field : start.fields) {
+      if (wishes_.lanes > 0 && program_.unknowns > 0 && field.type == "bool") field.type = "Mask";
+    }
+    add(std::move(start));
   }
   // The routine of this name, if there is one, behind those that it calls; each once.
   void add_with_callees(const char* name) {

@@ -45,10 +45,8 @@ struct Program {
   bool retries = false;    // is a step that failed tried again without what start remembers?
   std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
   std::vector<Place> changed;              // fields of State that a step may change
-  std::vector<std::string>
-      parameters;                      // in the order of their record; E0 last, if the step uses it
-  std::vector<EventName> events = {};  // in the order of the values of the routine "events"
-  Environment environment = {};        // where parameters and state stand
+  std::vector<EventName> events = {};      // in the order of the values of the routine "events"
+  Environment environment = {};            // where parameters and state stand
   StepFacts facts = {};
 
   // Does solve leave what is small of an increment in `rest`?

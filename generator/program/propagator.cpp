@@ -13,6 +13,7 @@ class PropagatorBuilder : public PropagatorParts {
     result.remark = {remark_of_many()};
     if (composed_) result.routines.push_back(substep());
     result.routines.push_back(composed_ ? composed_step() : step());
+    for (Routine& routine : result.routines) of_step(routine.body);
     result.routines.push_back(code_.unchecked ? unchecked_advance() : advance());
     result.routines.push_back(reset("Begins anew at z, as a new Propagator would."));
     return result;

@@ -137,6 +137,14 @@ class PropagatorParts {
     return code_.environment.state_layout.in("self.z", last);
   }
 
+  // What is done in every step.
+  static void of_step(Body& body) {
+    for (Instruction& instruction : body) {
+      instruction.origin.when = When::step;
+      for (Body* inner : inner_bodies(instruction)) of_step(*inner);
+    }
+  }
+
   // What is large has its place in the Propagator.
   [[nodiscard]] Place room(const std::string& name) const {
     return {(large_ ? "self." : "") + name};

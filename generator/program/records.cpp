@@ -23,6 +23,12 @@ Place Layout::in(const std::string& object, std::size_t component) const {
   return place;
 }
 
+std::vector<std::string> place_texts(const Layout& layout) {
+  std::vector<std::string> texts;
+  for (const Place& place : layout.places) texts.push_back(to_text(place).substr(1));
+  return texts;
+}
+
 Layout layout(const std::string& name, const std::vector<Quantity>& quantities, Defaults defaults) {
   Layout result{.record = {.name = name, .fields = {}}, .places = {}};
   std::vector<Field>& fields = result.record.fields;

@@ -17,6 +17,9 @@ struct Layout {
   [[nodiscard]] Place in(const std::string& object, std::size_t component) const;
 };
 
+// "q", "q[2]": how they stand in their record.
+[[nodiscard]] std::vector<std::string> place_texts(const Layout& layout);
+
 // Whether the values of the quantities are what the fields begin with.
 enum class Defaults { none, values };
 [[nodiscard]] Layout layout(const std::string& name, const std::vector<Quantity>& quantities,

@@ -39,7 +39,7 @@ Pattern watch_pattern(const Watch& watch, const Environment& environment) {
     rising.push_back(each.rising);
     falling.push_back(each.falling);
   }
-  const std::vector<std::string> state = place_texts(environment.state_layout.places);
+  const std::vector<std::string> state = place_texts(environment.state_layout);
   return {
       fmt::format(
           "enum class Event {{{}}};"

@@ -15,8 +15,8 @@ class InterfaceText {
       : facts_(facts),
         program_(facts.program),
         arrays_(program_.environment.arrays),
-        parameters_(place_texts(program_.environment.parameter_layout.places)),
-        state_(place_texts(program_.environment.state_layout.places)),
+        parameters_(place_texts(program_.environment.parameter_layout)),
+        state_(place_texts(program_.environment.state_layout)),
         size_(2 * program_.environment.degrees_of_freedom),
         modified_(static_cast<int>(program_.facts.modified_powers.size())),
         invariants_(static_cast<int>(program_.facts.invariants.size()) - modified_) {}

@@ -63,12 +63,6 @@ std::string order_body(const ArrayMatrix& matrix) {
 
 }  // namespace
 
-std::vector<std::string> place_texts(const std::vector<Place>& places) {
-  std::vector<std::string> texts;
-  for (const Place& place : places) texts.push_back(to_text(place).substr(1));
-  return texts;
-}
-
 Pattern record_pattern(const Record& record, const std::string& system) {
   const std::string base = record.extends ? fmt::format(" : ::{}::{}", system, record.name) : "";
   Pattern pattern{fmt::format("struct {}{} {{", record.name, base)};

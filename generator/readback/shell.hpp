@@ -3,16 +3,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "generator/program/contents.hpp"
 #include "generator/readback/pattern.hpp"
 #include "generator/readback/run_words.hpp"
 
 namespace hamgen {
-
-// "q", "q[2]": places in a record.
-[[nodiscard]] std::vector<std::string> place_texts(const std::vector<Place>& places);
 
 // `system`: the namespace of the system, whose record this one may extend.
 [[nodiscard]] Pattern record_pattern(const Record& record, const std::string& system);

@@ -33,7 +33,7 @@ Start start_of(const Model& model, const Scene& scene, const Program& code) {
   for (const Rational& value : values.q) start.state.push_back(to_double(value));
   for (const Rational& value : values.p) start.state.push_back(to_double(value));
   const std::vector<std::string> names = element_names(model.parameters);
-  for (const std::string& name : code.parameters) {
+  for (const auto& [name, unit, comment, value] : code.environment.parameters) {
     const auto it = std::ranges::find(names, name);
     if (it == names.end()) throw std::runtime_error("no value for " + name);
     start.parameters.push_back(

@@ -28,7 +28,7 @@ Run run_of(const Model& model, const Program& code) {
     for (const Rational& value : *values) run.state.push_back(to_double(value));
   }
   const std::vector<std::string> names = element_names(model.parameters);
-  for (const std::string& name : code.parameters) {
+  for (const auto& [name, unit, comment, value] : code.environment.parameters) {
     const auto at = std::ranges::find(names, name) - names.begin();
     run.parameters.push_back(to_double(scene.parameters.at(static_cast<std::size_t>(at))));
   }

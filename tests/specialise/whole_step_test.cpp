@@ -42,7 +42,7 @@ template <class Real>
 std::vector<Real> parameters_of(const Program& code, const PluginSource& plugin,
                                 const SceneValues& scene) {
   std::vector<Real> values;
-  for (const std::string& name : code.parameters)
+  for (const auto& [name, unit, comment, value] : code.environment.parameters)
     values.push_back(static_cast<Real>(to_double(value_of(name, plugin, scene))));
   return values;
 }
