@@ -132,11 +132,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_bd7b482a::float64 {
+namespace hamgen_4448fbc1::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_STEP_REPORT
-#define HAMGEN_BD7B482A_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_4448FBC1_FLOAT64_STEP_REPORT
+#define HAMGEN_4448FBC1_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -146,15 +146,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_VOCABULARY
-#define HAMGEN_BD7B482A_FLOAT64_VOCABULARY
+#ifndef HAMGEN_4448FBC1_FLOAT64_VOCABULARY
+#define HAMGEN_4448FBC1_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_TWO_SUM
-#define HAMGEN_BD7B482A_FLOAT64_TWO_SUM
+#ifndef HAMGEN_4448FBC1_FLOAT64_TWO_SUM
+#define HAMGEN_4448FBC1_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -164,8 +164,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BD7B482A_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_4448FBC1_FLOAT64_SUM_WITH_REST
+#define HAMGEN_4448FBC1_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
@@ -176,8 +176,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_BAND_MATRIX
-#define HAMGEN_BD7B482A_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_4448FBC1_FLOAT64_BAND_MATRIX
+#define HAMGEN_4448FBC1_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -242,14 +242,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_VERDICT
-#define HAMGEN_BD7B482A_FLOAT64_VERDICT
+#ifndef HAMGEN_4448FBC1_FLOAT64_VERDICT
+#define HAMGEN_4448FBC1_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_NEWTON_RULE
-#define HAMGEN_BD7B482A_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_4448FBC1_FLOAT64_NEWTON_RULE
+#define HAMGEN_4448FBC1_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -339,8 +339,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_BD7B482A_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_4448FBC1_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_4448FBC1_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -362,8 +362,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_BD7B482A_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_4448FBC1_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_4448FBC1_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments and of what these are
 // rounded with, and whether each is close to its end.
 struct Distance {
@@ -413,8 +413,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_BD7B482A_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_4448FBC1_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_4448FBC1_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -496,8 +496,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_REFINEMENT
-#define HAMGEN_BD7B482A_FLOAT64_REFINEMENT
+#ifndef HAMGEN_4448FBC1_FLOAT64_REFINEMENT
+#define HAMGEN_4448FBC1_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -593,8 +593,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_HISTORY
-#define HAMGEN_BD7B482A_FLOAT64_HISTORY
+#ifndef HAMGEN_4448FBC1_FLOAT64_HISTORY
+#define HAMGEN_4448FBC1_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -655,8 +655,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_BD7B482A_FLOAT64_FORGET
-#define HAMGEN_BD7B482A_FLOAT64_FORGET
+#ifndef HAMGEN_4448FBC1_FLOAT64_FORGET
+#define HAMGEN_4448FBC1_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -666,14 +666,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_bd7b482a::float64
+}  // namespace hamgen_4448fbc1::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x0a59fc55
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x50879d4d
 namespace fput::implicit_midpoint {
-inline namespace emitted_0a59fc55 {
+inline namespace emitted_50879d4d {
 
-namespace numerics = ::hamgen_bd7b482a::float64;
+namespace numerics = ::hamgen_4448fbc1::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::BandMatrix,
     numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance, numerics::ContractionRule,
     numerics::Refinement, numerics::History, numerics::forget;
@@ -950,9 +950,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_0a59fc55
+}  // namespace emitted_50879d4d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x0a59fc55
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x50879d4d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

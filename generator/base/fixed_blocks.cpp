@@ -17,6 +17,7 @@ constexpr FixedBlock kCppBlocks[] = {
     {"dense_matrix", "DenseMatrix"},
     {"diagonal_matrix", "DiagonalMatrix"},
     {"band_matrix", "BandMatrix"},
+    {"element_order", "ElementOrder"},
     {"reordered_matrix", "ReorderedMatrix"},
     {"eigen_dense_matrix", "EigenDenseMatrix", true},
     {"eigen_sparse_matrix", "EigenSparseMatrix", true},

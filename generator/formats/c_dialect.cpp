@@ -21,12 +21,6 @@ std::string with_underscores(std::string text) {
   return text;
 }
 
-std::string small(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](char c) { return c == 'L' ? 'l' : c; });
-  return result;
-}
-
 }  // namespace
 
 CDialect::CDialect(const ScalarType& scalar_type, const EmittedSpaces& spaces)
@@ -36,11 +30,11 @@ CDialect::CDialect(const ScalarType& scalar_type, const EmittedSpaces& spaces)
 
 std::string CDialect::function(const std::string& name) const {
   const Function* row = find_function(name);
-  return (row != nullptr ? std::string(row->cpp) : name) + small(scalar.suffix);
+  return (row != nullptr ? std::string(row->cpp) : name) + function_suffix(scalar);
 }
 
 std::string CDialect::block(const std::string& name) const {
-  return "hamgen_" + name + small(scalar.suffix);
+  return "hamgen_" + name + function_suffix(scalar);
 }
 
 std::string CDialect::declaration(const std::string& record_name, const std::string& object) const {

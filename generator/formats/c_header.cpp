@@ -34,8 +34,7 @@ void require_c(const EmitContext& context) {
   const auto refuse = [](const std::string& what) {
     throw UsageError(fmt::format(
         "--format c-header: {}\nhelp: what is written in C are steps that are explicit, or solved "
-        "by "
-        "Newton's iteration of a size up to 3, in float, double or long double: --scheme "
+        "by Newton's iteration of a size up to 3, in float, double or long double: --scheme "
         "stormer-verlet, --format cpp-header",
         what));
   };
@@ -55,7 +54,7 @@ void require_c(const EmitContext& context) {
 }
 
 // The text of a block with our names for its own.
-std::string block_text(std::string_view name, const CDialect& dialect, int unknowns) {
+std::string block_text(std::string_view name, const CDialect& dialect, int unknowns = 0) {
   const auto renamed = [&](const std::string& word) -> std::string {
     if (word == "Real") return dialect.real();
     if (word == "Unknowns") return std::to_string(unknowns);
@@ -65,7 +64,7 @@ std::string block_text(std::string_view name, const CDialect& dialect, int unkno
   };
   std::string result;
   std::string word;
-  for (const char c : cpp_numerics(name)) {
+  for (const char c : c_numerics(name, dialect.scalar, dialect.function("fabs"))) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
       word += c;
       continue;
@@ -76,17 +75,8 @@ std::string block_text(std::string_view name, const CDialect& dialect, int unkno
   return result;
 }
 
-// A section once, and an error where another text of its name is there.
 void write_section(CodeWriter& out, const std::string& macro, const std::string& text) {
-  const std::string digest = short_digest(text);
-  out.line("#ifndef " + macro);
-  out.line(fmt::format("#define {} 0x{}", macro, digest));
-  out.lines(text);
-  out.line(fmt::format("#elif {} != 0x{}", macro, digest));
-  out.line(
-      "#error \"another text of this name is included before: generate one with --namespace\"");
-  out.line("#endif");
-  out.line();
+  write_once(out, macro, short_digest(text), "text", text);
 }
 
 void write_pi(CodeWriter& out, const CDialect& dialect) {
@@ -95,30 +85,6 @@ void write_pi(CodeWriter& out, const CDialect& dialect) {
   write_section(
       out, "HAMGEN_C_" + name,
       fmt::format("static const {} {} = {};\n", dialect.real(), name, literal(pi, dialect.scalar)));
-}
-
-std::string method_text(EmitContext& context, const CDialect& dialect) {
-  CodeWriter out;
-  if (context.program.unknowns > 0) {
-    out.lines(block_text("c/history", dialect, context.program.unknowns));
-    out.line();
-  }
-  write_pieces(out, context, dialect, context.contents.method);
-  return out.text();
-}
-
-std::string text_of(const FixedBlock& block, const CDialect& dialect) {
-  const ScalarType& scalar = dialect.scalar;
-  if (block.name == kEpsilon)
-    return fmt::format("// The distance from 1 to the next number.\nstatic const {} {} = {};\n",
-                       dialect.real(), dialect.block("epsilon"), scalar.epsilon);
-  if (block.name == kVocabulary)
-    return fmt::format(
-        "static inline {0} {1}({0} x) {{ return {2}(x); }}\n"
-        "static const {0} {3} = {4};  // what is beyond counts as infinite\n",
-        dialect.real(), dialect.block("magnitude"), dialect.function("fabs"),
-        dialect.block("largest"), scalar.largest);
-  return block_text("c/" + std::string(block.name), dialect, 0);
 }
 
 // The fixed blocks that the text uses, and those that these use.
@@ -130,7 +96,7 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, std::string text) {
       return text.find(dialect.block(name)) != std::string::npos;
     });
     if (!used) continue;
-    blocks.emplace(blocks.begin(), block.name, text_of(block, dialect));
+    blocks.emplace(blocks.begin(), block.name, block_text(block.name, dialect));
     text += blocks.front().second;
   }
   out.line("// What follows is the same in every header.");
@@ -153,7 +119,10 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   require_c(context);
   CodeWriter system;
   write_pieces(system, context, dialect, context.contents.system);
-  const std::string method = method_text(context, dialect);
+  CodeWriter method;
+  const int unknowns = program.unknowns;
+  if (unknowns > 0) method.lines(block_text("history", dialect, unknowns) + "\n");
+  write_pieces(method, context, dialect, context.contents.method);
   CodeWriter out;
   write_preamble(out, context);
   out.line("#pragma once");
@@ -164,8 +133,8 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   out.line();
   if (context.used.pi) write_pi(out, dialect);
   write_section(out, "HAMGEN_C_SYSTEM_" + dialect.system(), system.text());
-  write_blocks(out, dialect, method);
-  write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method);
+  write_blocks(out, dialect, method.text());
+  write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method.text());
   out.lines(cpp_numerics("shells/ieee_end"));
   return {{options.file_name + ".h", out.text()}};
 }

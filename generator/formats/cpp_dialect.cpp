@@ -13,9 +13,7 @@ std::string CppDialect::function(const std::string& name) const {
   if (scalar.digits == 113) return row != nullptr ? std::string(row->quad) : name + "q";
   const std::string cpp = row != nullptr ? std::string(row->cpp) : name;
   if (!builtins_) return "std::" + cpp;
-  std::string suffix(scalar.suffix);
-  std::ranges::transform(suffix, suffix.begin(), [](char c) { return c == 'L' ? 'l' : c; });
-  return "__builtin_" + cpp + suffix;
+  return "__builtin_" + cpp + function_suffix(scalar);
 }
 
 std::string CppDialect::argument(const Argument& argument, const std::string& name,

@@ -115,23 +115,18 @@ void write_section(CodeWriter& out, std::string_view kind, const std::string& na
   for (auto at = macro.find("::"); at != std::string::npos; at = macro.find("::")) {
     macro.replace(at, 2, "_");
   }
-  const std::string version = "emitted_" + digest;
-  out.line("#ifndef " + macro);
-  out.line(fmt::format("#define {} 0x{}", macro, digest));
-  out.line(fmt::format("namespace {} {{", name_space));
-  out.line(fmt::format("inline namespace {} {{", version));
-  if (in_lanes) out.line(fmt::format("inline namespace {} {{", kRegisters));
-  out.line();
-  out.lines(text);
-  if (in_lanes) out.line(fmt::format("}}  // namespace {}", kRegisters));
-  out.line(fmt::format("}}  // namespace {}", version));
-  out.line(fmt::format("}}  // namespace {}", name_space));
-  out.line(fmt::format("#elif {} != 0x{}", macro, digest));
-  out.line(fmt::format(
-      "#error \"another {} of this name is included before: generate one with --namespace\"",
-      kind));
-  out.line("#endif");
-  out.line();
+  std::vector<std::string> spaces = {"namespace " + name_space,
+                                     "inline namespace emitted_" + digest};
+  if (in_lanes) spaces.push_back(std::string("inline namespace ") + kRegisters);
+  CodeWriter section;
+  for (const std::string& space : spaces) section.line(space + " {");
+  section.line();
+  section.lines(text);
+  for (; !spaces.empty(); spaces.pop_back()) {
+    const std::string& space = spaces.back();
+    section.line("}  // namespace " + space.substr(space.rfind(' ') + 1));
+  }
+  write_once(out, macro, digest, kind, section.text());
 }
 
 std::unique_ptr<Dialect> dialect_of(const Program& program, const EmitOptions& options) {

@@ -120,4 +120,8 @@ std::string literal(const Rational& value, const ScalarType& scalar) {
   return decimal;
 }
 
+std::string function_suffix(const ScalarType& scalar) {
+  return scalar.suffix == "L" ? "l" : std::string(scalar.suffix);
+}
+
 }  // namespace hamgen

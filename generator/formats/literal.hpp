@@ -11,4 +11,7 @@ namespace hamgen {
 // OutOfRange.
 [[nodiscard]] std::string literal(const Rational& value, const ScalarType& scalar);
 
+// What the library's functions of such numbers end in, in C: "f" of sinf, "l" of sinl.
+[[nodiscard]] std::string function_suffix(const ScalarType& scalar);
+
 }  // namespace hamgen

@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-#include "generator/algebra/scalar.hpp"
 #include "generator/base/numerics_text.hpp"
+#include "generator/formats/literal.hpp"
 
 namespace hamgen {
 
@@ -31,5 +31,8 @@ namespace hamgen {
 
 // The text of generator/numerics/NAME.hpp.
 [[nodiscard]] std::string cpp_numerics(std::string_view name);
+// That of a block in C, or what is made for the scalar, with the function |x|.
+[[nodiscard]] std::string c_numerics(std::string_view name, const ScalarType& scalar,
+                                     const std::string& fabs);
 
 }  // namespace hamgen

@@ -42,6 +42,19 @@ std::set<std::string> words_of(std::string_view code) {
 
 }  // namespace
 
+void write_once(CodeWriter& out, const std::string& macro, const std::string& digest,
+                std::string_view kind, const std::string& text) {
+  out.line("#ifndef " + macro);
+  out.line(fmt::format("#define {} 0x{}", macro, digest));
+  out.lines(text);
+  out.line(fmt::format("#elif {} != 0x{}", macro, digest));
+  out.line(fmt::format(
+      "#error \"another {} of this name is included before: generate one with --namespace\"",
+      kind));
+  out.line("#endif");
+  out.line();
+}
+
 std::string capitals(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::toupper(c); });
   return text;

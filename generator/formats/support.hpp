@@ -52,6 +52,9 @@ class Support {
   std::set<std::string_view> blocks_;
 };
 
+// The text once however many headers have it, and an error where another `kind` of this name is.
+void write_once(CodeWriter& out, const std::string& macro, const std::string& digest,
+                std::string_view kind, const std::string& text);
 // For the names of guards.
 [[nodiscard]] std::string capitals(std::string text);
 

@@ -47,20 +47,6 @@ std::string member_text(const Record& record) {
   return text;
 }
 
-// Where row i of the matrix stands in the band.
-std::string order_body(const ArrayMatrix& matrix) {
-  const int length = matrix.size / matrix.arrays;
-  const std::string k = matrix.arrays == 1 ? "i" : "k";
-  const std::string folded =
-      fmt::format("2 * {0} < {1} ? 2 * {0} : 2 * ({1} - 1 - {0}) + 1", k, length);
-  if (matrix.arrays == 1) return fmt::format("return {};", matrix.folded ? folded : k);
-  const std::string element = fmt::format("const int k = i % {};", length);
-  if (!matrix.folded)
-    return element + fmt::format("return {} * k + i / {};", matrix.arrays, length);
-  return element + fmt::format("const int row = {}; return {} * row + i / {};", folded,
-                               matrix.arrays, length);
-}
-
 }  // namespace
 
 Pattern record_pattern(const Record& record, const std::string& system) {
@@ -128,10 +114,8 @@ Pattern matrix_pattern(const ArrayMatrix& matrix) {
   if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
   const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return {fmt::format("using Matrix = {};", band)};
-  return {
-      fmt::format("struct Order {{ static int row(int i) {{ {} }} }};"
-                  "using Matrix = ReorderedMatrix<{}, Order>;",
-                  order_body(matrix), band)};
+  return {fmt::format("using Matrix = ReorderedMatrix<{}, ElementOrder<{}, {}, {}>>;", band,
+                      matrix.arrays, matrix.size / matrix.arrays, matrix.folded)};
 }
 
 }  // namespace hamgen

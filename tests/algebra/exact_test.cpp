@@ -10,7 +10,7 @@
 #include <random>
 #include <regex>
 
-#include "generator/algebra/scalar.hpp"
+#include "generator/formats/literal.hpp"
 
 namespace hamgen {
 namespace {

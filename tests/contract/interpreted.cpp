@@ -99,7 +99,7 @@ Defects measure(const Case& c, const Codes& codes) {
   const StepEquations& equations = codes.equations;
   const int n = equations.mechanics.degrees_of_freedom;
   std::vector<Real> parameters;
-  for (const std::string& name : codes.measured.parameters) {
+  for (const auto& [name, unit, comment, value] : codes.measured.environment.parameters) {
     parameters.push_back(static_cast<Real>(
         std::ranges::find(start.parameters, name, &std::pair<std::string, double>::first)->second));
   }

@@ -169,15 +169,29 @@ TYPED_TEST(Matrices, ADiagonalIsDividedBy) {
   EXPECT_EQ(this->template error<4>(matrix, entry), 0);
 }
 
-// A ring of 8 folded flat has its neighbours within two places: 0, 7, 1, 6, 2, 5, 3, 4.
-struct Folded {
-  static int row(int i) { return 2 * i < 8 ? 2 * i : 2 * (7 - i) + 1; }
-};
+template <class Order>
+std::vector<int> rows_of(int count) {
+  std::vector<int> rows;
+  for (int i = 0; i < count; ++i) rows.push_back(Order::row(i));
+  return rows;
+}
 
+TYPED_TEST(Matrices, UnknownsOfSeveralArraysStandElementByElement) {
+  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 3, false>>(6)),
+            (std::vector<int>{0, 2, 4, 1, 3, 5}));
+  EXPECT_EQ((rows_of<typename TypeParam::template Order<1, 5, true>>(5)),
+            (std::vector<int>{0, 2, 4, 3, 1}));
+  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 4, true>>(8)),
+            (std::vector<int>{0, 4, 6, 2, 1, 5, 7, 3}));
+}
+
+// Folded flat it has its neighbours within two places: 0, 7, 1, 6, 2, 5, 3, 4.
 TYPED_TEST(Matrices, ARingIsABandInAnotherOrder) {
   using Real = typename TypeParam::Scalar;
   Numbers numbers;
-  typename TypeParam::template Reordered<typename TypeParam::template Band<8, 2>, Folded> ring;
+  typename TypeParam::template Reordered<typename TypeParam::template Band<8, 2>,
+                                         typename TypeParam::template Order<1, 8, true>>
+      ring;
   for (int run = 0; run < 20; ++run) {
     Real entry[8][8] = {};
     for (int i = 0; i < 8; ++i) {
