@@ -7,7 +7,7 @@
 //   magnitude  its absolute value
 //   largest    close to its largest number: what is not <= largest is infinite or not a number
 //   epsilon    the distance from 1 to the next number
-// Sizes are template parameters.
+// Sizes are template parameters.  Those in shells/ stand around a step and use more of its names.
 #pragma once
 
 #include <string>

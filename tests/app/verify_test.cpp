@@ -202,7 +202,7 @@ TEST(Verify, ReadsEveryFormatThatIsThere) {
   };
   for (const Written& written :
        {Written{"c-header", "pendulum.h", "self->z.q += dz.q", ""},
-        Written{"cpp-plugin", "pendulum.plugin.cpp", "(state[0]);", "(state[1]);"}}) {
+        Written{"cpp-plugin", "pendulum.plugin.cpp", "each(0, z.q,", "each(1, z.q,"}}) {
     const std::string made = scratch.path(written.format);
     const Result generated = hamgen({"generate", model, "--format", written.format, "--require",
                                      "emitted-code", "--plain-sums", "-o", made});
