@@ -66,7 +66,8 @@ Differences measure(const RandomCase& c, const std::string& judge) {
   const Model judging = read_request(make_source("judge.ham", judge), {});
   const DirectModel direct(judging, scene_values(judging, {}).parameters);
   std::vector<Quad> parameters;
-  for (const auto& [name, unit, comment, value] : code.environment.parameters) parameters.push_back(direct.parameter(name));
+  for (const auto& [name, unit, comment, value] : code.environment.parameters)
+    parameters.push_back(direct.parameter(name));
   const Vector z = state_of(scene);
   const Quad h = to_quad(*scene.h);
   Interpreter<Quad> run(code, parameters, h, z);
