@@ -311,6 +311,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   plugin.singular_steps = singular_steps(stages.equations.scheme);
   plugin.operations_per_step = operations_per_step(stages.program);
   plugin.has_stages = std::holds_alternative<RungeKutta>(stages.equations.scheme.method);
+  plugin.in_loops = stages.program.environment.arrays;
   plugin.needs_eigen = stages.program.facts.needs_eigen;
   plugin.needs_quadmath = request.scalar->type->digits == 113;
   plugin.model = std::move(stages.model);

@@ -105,6 +105,7 @@ struct PluginSource {
   bool needs_energy_parameter = false;  // the last parameter is E0
   std::string without_tangent;          // why --tangent was not heeded
   std::vector<double> singular_steps;   // the scheme has poles at their multiples
+  bool in_loops = false;                // over degrees of freedom
   bool needs_eigen = false;
   bool needs_quadmath = false;
   double operations_per_step = 0;  // about: additions and multiplications, others for some of these

@@ -8,6 +8,7 @@
 #include "generator/algebra/scalar.hpp"
 #include "generator/base/budget.hpp"
 #include "generator/choose_scheme.hpp"
+#include "generator/choose_sums.hpp"
 #include "generator/mechanics/curvature.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/modified_terms.hpp"
@@ -37,9 +38,9 @@ void drop_unused_parameters(StepEquations& equations) {
 
 Specialised make_system(const Model& model, const std::optional<SceneFacts>& scene,
                         const Request& request, bool keep_sums,
-                        Variables variables = Variables::changed) {
+                        Variables variables = Variables::changed, int most = kMostWrittenOut) {
   require_few_coupled(model, request);
-  Mechanics mechanics = derive(model, keep_sums);
+  Mechanics mechanics = derive(model, keep_sums, most);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);
   return specialise(model, std::move(mechanics), std::move(scheme), scene, variables);
@@ -68,6 +69,17 @@ Specialised choose_variables(const Model& model, const std::optional<SceneFacts>
                                          change.left_out.back(), after, before));
   }
   return plain;
+}
+
+// A system that may be written out stays loops where these are quicker.
+Specialised choose_sums(const Model& model, const std::optional<SceneFacts>& scene,
+                        const Request& request) {
+  Specialised system = choose_variables(model, scene, request);
+  if (system.mechanics.keeps_sums() || !may_keep_sums(request) ||
+      asks_for_expressions(request, system.scheme))
+    return system;
+  Specialised loops = make_system(model, scene, request, true, Variables::as_they_are, 0);
+  return are_loops_quicker(system.mechanics, loops.mechanics) ? loops : system;
 }
 
 bool is_polynomial(const Mechanics& mechanics) {
@@ -104,7 +116,7 @@ Stages stages_of(Model model, const Request& request) {
   require_defaults_in_range(model, *request.scalar->type);
   FoldedModel folded = fold_for_scene(model, request);
   const std::optional<SceneFacts> scene = scene_facts(model, request);
-  Specialised system = choose_variables(folded.model, scene, request);
+  Specialised system = choose_sums(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
   SolvePlan plan = plan_solve(equations, request.solver);

@@ -60,15 +60,13 @@ runtime::PluginSource to_compile(const PluginSource& plugin) {
   return source;
 }
 
-constexpr std::size_t kFewDegrees = 12;  // of freedom: steps of so many are short lines, no loops
-
 // What is written out has few equal operations side by side: long registers cost it more than they
-// give (Henon-Heiles 36 ns a step with them, 31 without).
+// give (Henon-Heiles 36 ns a step with them, 31 without).  Where it is longer g++ 12 mixes numbers
+// up that it packs into 512 bits, as in steps of chains of 16 to 24.
 runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice& choice) {
   runtime::Compiler compiler = chosen_compiler(choice);
   const bool is_ours = compiler.command.back() == "-march=native";
-  if (is_ours && element_names(plugin.model.coordinates).size() <= kFewDegrees)
-    compiler.command.emplace_back("-mprefer-vector-width=128");
+  if (is_ours && !plugin.in_loops) compiler.command.emplace_back("-mprefer-vector-width=128");
   return compiler;
 }
 

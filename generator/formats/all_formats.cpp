@@ -20,7 +20,7 @@ constexpr std::array kFormats = {
                 cpp_plugin_files},
     NamedFormat{"c-header",
                 "a header in C11, of steps that are explicit or of small Newton systems",
-                c_header_files},
+                c_header_files, false},
     NamedFormat{"cmake-package", "the header as a CMake project with an INTERFACE target",
                 cmake_package},
 };

@@ -15,6 +15,7 @@ struct NamedFormat {
   std::string_view name;         // "cpp-header", "cpp-plugin", "cmake-package"
   std::string_view description;  // one line
   OutputFiles (*files)(const Program& program, const EmitOptions& options);
+  bool takes_loops = true;  // over degrees of freedom
 };
 
 // The first is the default.

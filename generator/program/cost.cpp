@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "generator/program/arithmetic.hpp"
+#include "generator/program/build_program.hpp"
+#include "generator/program/code_cost.hpp"
 #include "generator/program/lowered_step.hpp"
 
 namespace hamgen {
@@ -63,9 +65,13 @@ Cost cost(const std::vector<Statement>& statements) {
 
 namespace {
 
-long operations_of(const std::vector<Statement>& statements) {
-  const Cost total = cost(statements);
+constexpr long kIterations = 2;
+
+long operations_of(const Cost& total) {
   return total.additions + total.multiplications + 10 * (total.divisions + total.functions);
+}
+long operations_of(const std::vector<Statement>& statements) {
+  return operations_of(cost(statements));
 }
 
 // Of a solve: what its body takes, and elimination where that is not written out.
@@ -75,13 +81,17 @@ long operations_of(const Solve& solve) {
 }
 
 long operations_of_member(const LoweredStep& lowered) {
-  constexpr long iterations = 2;
   long total = 0;
   for (const Stage& stage : lowered.stages) {
     total += operations_of(stage.before) + operations_of(stage.after);
-    if (stage.solve) total += iterations * operations_of(*stage.solve);
+    if (stage.solve) total += kIterations * operations_of(*stage.solve);
   }
   return total;
+}
+
+long operations_in_loops(const SolvePlan& plan) {
+  const StepCost cost = step_cost(build_program(plan));
+  return kIterations * operations_of(cost.iteration) + operations_of(cost.besides);
 }
 
 }  // namespace
@@ -102,6 +112,9 @@ long operations_per_step(const SolvePlan& plan) {
                      stages * 2L * lowered.plan.equations.mechanics.degrees_of_freedom);
   }
   const auto substeps = std::max<long>(1, static_cast<long>(lowered.sequence.substeps.size()));
+  if (plan.arrays)
+    return substeps *
+           (operations_in_loops(plan) + 12L * plan.equations.mechanics.degrees_of_freedom);
   return substeps * (operations_of_member(lowered) + 6 * variables);
 }
 

@@ -107,8 +107,8 @@ struct LoweredStep {
 [[nodiscard]] LoweredStep with_tangent(LoweredStep lowered);
 [[nodiscard]] Cost cost(const std::vector<Statement>& statements);
 [[nodiscard]] std::string to_text(const Cost& cost);
-// Of a step that is written out, with two iterations where there are any; a function counts as 10,
-// and so does a division.
+// With two iterations where there are any; a function counts as 10, and so does a division.  Of
+// splittings and Runge-Kutta methods those that are written out.
 [[nodiscard]] long operations_per_step(const SolvePlan& plan);
 
 }  // namespace hamgen

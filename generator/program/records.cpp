@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
+#include <string>
 
 #include "generator/program/names.hpp"
 
@@ -54,13 +56,44 @@ Layout layout(const std::string& name, const std::vector<Quantity>& quantities, 
   return result;
 }
 
-Layout array_state(int degrees_of_freedom) {
+namespace {
+
+// "x[0..5], y[0..5]": the arrays that the variables are, one after the other.
+std::string arrays_of(std::span<const Quantity> variables) {
+  std::string text;
+  std::string last;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const ElementName element = split_element(variables[i].name);
+    if (i > 0 && element.indexed && element.base == last) continue;
+    last = element.base;
+    text += (text.empty() ? "" : ", ") + variables[i].name;
+    if (!element.indexed) continue;
+    const auto end =
+        std::find_if(variables.begin() + static_cast<std::ptrdiff_t>(i), variables.end(),
+                     [&](const Quantity& other) { return split_element(other.name).base != last; });
+    const std::string& name = std::prev(end)->name;
+    text.pop_back();
+    text += ".." + name.substr(name.find('[') + 1);
+  }
+  return text;
+}
+
+}  // namespace
+
+Layout array_state(const std::vector<Quantity>& variables) {
   Layout result{.record = {.name = "State", .fields = {}}, .places = {}};
+  const std::size_t n = variables.size() / 2;
   for (const char* name : {"q", "p"}) {
-    result.record.fields.push_back({.name = name, .sizes = {degrees_of_freedom}});
-    for (int i = 0; i < degrees_of_freedom; ++i) {
-      result.places.push_back(
-          {.object = {}, .field = name, .indices = {{.constant = i, .factors = {}}}});
+    const std::span<const Quantity> own = std::span(variables).subspan(*name == 'q' ? 0 : n, n);
+    const bool says_itself =
+        split_element(own.front().name).base == name && split_element(own.back().name).base == name;
+    result.record.fields.push_back({.name = name,
+                                    .sizes = {static_cast<int>(n)},
+                                    .remark = says_itself ? "" : arrays_of(own)});
+    for (std::size_t i = 0; i < n; ++i) {
+      result.places.push_back({.object = {},
+                               .field = name,
+                               .indices = {{.constant = static_cast<long>(i), .factors = {}}}});
     }
   }
   return result;

@@ -26,6 +26,6 @@ enum class Defaults { none, values };
                             Defaults defaults);
 
 // q and p as two arrays, whatever the model calls their parts.
-[[nodiscard]] Layout array_state(int degrees_of_freedom);
+[[nodiscard]] Layout array_state(const std::vector<Quantity>& variables);
 
 }  // namespace hamgen

@@ -1,0 +1,56 @@
+#include "generator/choose_sums.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "generator/equations/step_equations.hpp"
+#include "generator/program/lowered_step.hpp"
+#include "generator/schemes/all_schemes.hpp"
+#include "generator/solvers/solve_plan.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// A matrix of this size is inverted in closed form.
+constexpr int kFewUnknowns = 3;
+
+// A row that is eliminated waits for the one before it, for the choice of a pivot and for a
+// division: so many operations twice, once an iteration.
+constexpr long kWaiting = 80;
+
+long rows_eliminated(const SolvePlan& plan) {
+  if (plan.arrays) {
+    return plan.arrays->method == ArrayMethod::newton ? plan.arrays->matrix->size : 0;
+  }
+  long rows = 0;
+  for (const Block& block : plan.blocks) {
+    if (linear_solver(block) != LinearSolver::written_out)
+      rows += static_cast<long>(block.unknowns.size());
+  }
+  return rows;
+}
+
+long work(const Mechanics& mechanics) {
+  const Scheme midpoint = for_system(*find_scheme("implicit-midpoint"), mechanics);
+  const SolvePlan plan = plan_solve(discretise(mechanics, midpoint), {});
+  return operations_per_step(plan) + kWaiting * rows_eliminated(plan);
+}
+
+}  // namespace
+
+bool asks_for_expressions(const Request& request, const Scheme& scheme) {
+  const bool of_k = scheme.has_member() && scheme.member().generating_order > 0;
+  return of_k || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
+         !request.format->format->takes_loops;
+}
+
+bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops) {
+  const bool has_loops = std::ranges::any_of(
+      in_loops.kernels, [](const Kernel& kernel) { return !kernel.ranges.empty(); });
+  const int n = written_out.degrees_of_freedom;
+  if (!has_loops || n <= kFewUnknowns || n < in_loops.degrees_of_freedom) return false;
+  return work(in_loops) < work(written_out);
+}
+
+}  // namespace hamgen

@@ -1,0 +1,18 @@
+// Whether the sums of H are written out or stay loops.
+#pragma once
+
+#include "generator/mechanics/mechanics.hpp"
+#include "generator/request.hpp"
+#include "generator/schemes/scheme.hpp"
+
+namespace hamgen {
+
+// Is there something in the request that is made of expressions?  Loops have none.
+[[nodiscard]] bool asks_for_expressions(const Request& request, const Scheme& scheme);
+
+// Of a system in both forms: does a step of the implicit midpoint rule take less time in loops? The
+// rule stands for all methods, for these share the functions of a system's header.  Of what a scene
+// does not need loops leave out whole arrays only: where more is left out it is written out.
+[[nodiscard]] bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops);
+
+}  // namespace hamgen
