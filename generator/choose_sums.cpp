@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "generator/equations/step_equations.hpp"
+#include "generator/mechanics/split_sums.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/solvers/solve_plan.hpp"
@@ -39,9 +40,15 @@ long work(const Mechanics& mechanics) {
 
 }  // namespace
 
+bool has_sums(const Model& model) {
+  const std::optional<std::vector<SumTerm>> terms = split_into_sums(model);
+  return terms && std::ranges::any_of(*terms, [](const SumTerm& t) { return !t.ranges.empty(); });
+}
+
 bool asks_for_expressions(const Request& request, const Scheme& scheme) {
   const bool of_k = scheme.has_member() && scheme.member().generating_order > 0;
-  return of_k || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
+  const bool sweeps = request.solver->kind == SolverWish::Kind::sweeps;
+  return of_k || sweeps || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
          !request.format->format->takes_loops;
 }
 

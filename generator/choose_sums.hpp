@@ -1,11 +1,15 @@
 // Whether the sums of H are written out or stay loops.
 #pragma once
 
+#include "generator/language/model.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/request.hpp"
 #include "generator/schemes/scheme.hpp"
 
 namespace hamgen {
+
+// Is a part of H a sum over an index?
+[[nodiscard]] bool has_sums(const Model& model);
 
 // Is there something in the request that is made of expressions?  Loops have none.
 [[nodiscard]] bool asks_for_expressions(const Request& request, const Scheme& scheme);

@@ -75,9 +75,9 @@ Specialised choose_variables(const Model& model, const std::optional<SceneFacts>
 Specialised choose_sums(const Model& model, const std::optional<SceneFacts>& scene,
                         const Request& request) {
   Specialised system = choose_variables(model, scene, request);
-  if (system.mechanics.keeps_sums() || !may_keep_sums(request) ||
-      asks_for_expressions(request, system.scheme))
-    return system;
+  const bool has_choice = !system.mechanics.keeps_sums() && may_keep_sums(request) &&
+                          has_sums(model) && !asks_for_expressions(request, system.scheme);
+  if (!has_choice) return system;
   Specialised loops = make_system(model, scene, request, true, Variables::as_they_are, 0);
   return are_loops_quicker(system.mechanics, loops.mechanics) ? loops : system;
 }

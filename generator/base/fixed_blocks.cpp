@@ -14,6 +14,7 @@ constexpr FixedBlock kCppBlocks[] = {
     {"sum_with_rest", "two_sum_with_rest"},
     {"collected_sum", "collect"},
     {"product_error", "product_error"},
+    {"sums", "sum_of lengths_of squares_of"},
     {"dense_matrix", "DenseMatrix"},
     {"diagonal_matrix", "DiagonalMatrix"},
     {"band_matrix", "BandMatrix"},

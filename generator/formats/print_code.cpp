@@ -268,6 +268,15 @@ void RoutinePrinter::operator()(const Return& end) {
 
 void RoutinePrinter::length_of(const Return& end) {
   std::vector<std::string> squares;
+  const bool lanes = dialect_.has_lanes();
+  for (const Place& array : lanes ? std::vector<Place>() : finite_arrays(routine_, end)) {
+    squares.push_back(fmt::format("{}({})", dialect_.block("squares_of"), text(array)));
+  }
+  if (!squares.empty()) {
+    out_.line("// False for infinities and NaN alike.");
+    return out_.line(
+        fmt::format("const {} length = {};", dialect_.real(), joined_texts(squares, " + ")));
+  }
   for (const std::string& symbol : end.finite) {
     squares.push_back(fmt::format("{0} * {0}", name(symbol)));
   }

@@ -208,9 +208,17 @@ void RoutinePrinter::contraction(const IterateArray& iterate) {
   out_.open("for (int iteration = 1;; ++iteration)");
   print(iterate.body);
   out_.line("Distance distance;");
-  for_elements(iterate, [&](const UnknownArray& u) {
-    out_.line(fmt::format("distance.add({}, {});", magnitude(name(u.increment)), length(u)));
-  });
+  if (const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
+      !arrays.empty()) {
+    for (const WholeUnknowns& u : arrays) {
+      out_.line(fmt::format("distance.add({}, {}, {}, {});", given(u.increment), given(u.value),
+                            given(u.beside), count_text(u.count)));
+    }
+  } else {
+    for_elements(iterate, [&](const UnknownArray& u) {
+      out_.line(fmt::format("distance.add({}, {});", magnitude(name(u.increment)), length(u)));
+    });
+  }
   // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
   for_elements(iterate, [&](const UnknownArray& u) {
     out_.line(fmt::format("{} += {};", name(u.value), name(u.increment)));

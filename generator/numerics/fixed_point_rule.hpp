@@ -12,6 +12,16 @@ struct Distance {
     scale += length;
     close = close && moved <= units * epsilon * length;
   }
+  // Arrays of them, rounded with what stands beside.
+  void add(const Real* moved, const Real* value, const Real* beside, int count) {
+    size += sum_of(count, [&](int j) { return magnitude(moved[j]); });
+    scale += sum_of(count, [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); });
+    const Real far = sum_of(count, [&](int j) {
+      const Real length = magnitude(value[j]) + magnitude(beside[j]);
+      return magnitude(moved[j]) <= units * epsilon * length ? Real(0) : Real(1);
+    });
+    close = close && far < 1;
+  }
 };
 // When to stop an iteration that has no other end than rounding: where all unknowns are close to
 // it, or at stagnation, when twice in a row it has not moved less than ever before.  Every Cycle-th

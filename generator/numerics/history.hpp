@@ -8,18 +8,26 @@ struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
   static constexpr int degrees = Unknowns > 32 ? 8 : 16;
   Real predicted[degrees][Unknowns] = {};
-  Real sum[Unknowns] = {};
+  // Of many unknowns so many are looked at together: what a sum has reached stays near.
+  static constexpr int block = Unknowns > 64 ? 64 : Unknowns;
+  Real sum[block] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
   void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
+    int first = 0;
+    for (; first + block < Unknowns; first += block) record_part<block>(solution, first);
+    record_part<(Unknowns - 1) % block + 1>(solution, first);
+  }
+  template <int Count>
+  void record_part(const Real (&solution)[Unknowns], int first) {
     for (Real& s : sum) s = 0;
     for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < Unknowns; ++i) {
-        const Real kept = predicted[degree][i];
-        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
+      for (int i = 0; i < Count; ++i) {
+        const Real kept = predicted[degree][first + i];
+        predicted[degree][first + i] = Real(degree + 1) * solution[first + i] - sum[i];
         sum[i] += kept;
       }
     }
@@ -47,9 +55,17 @@ struct History {
     if (known == 0) return 0;
     if (degree >= known) degree = known - 1;
     Real sum_of_errors = 0;
-    for (int i = first; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
+    int i = first;
+    if constexpr (Unknowns > 64) {
+      // In parts that do not wait for each other.
+      Real parts[8] = {};
+      for (; i + 8 <= first + count; i += 8) {
+        for (int k = 0; k < 8; ++k)
+          parts[k] += magnitude(solution[i + k] - predicted[degree][i + k]);
+      }
+      for (const Real part : parts) sum_of_errors += part;
     }
+    for (; i < first + count; ++i) sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
     return sum_of_errors;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {

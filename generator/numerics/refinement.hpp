@@ -24,23 +24,12 @@ struct Refinement {
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
 
-  // The sum of the magnitudes, in eight parts that do not wait for each other.
-  static Real length_of(const Real (&vector)[Size]) {
-    Real parts[8] = {};
-    int j = 0;
-    for (; j + 8 <= Size; j += 8) {
-      for (int k = 0; k < 8; ++k) parts[k] += magnitude(vector[j + k]);
-    }
-    for (int k = 0; j + k < Size; ++k) parts[k] += magnitude(vector[j + k]);
-    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
-           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
-  }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   template <class Rule>
   bool operator()(Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
                   const Real (&gradient)[Components]) {
-    if (rule.settled && length_of(lack) <= rule.round_off) {
+    if (rule.settled && lengths_of(lack) <= rule.round_off) {
       ++rule.unchecked;
       for (int k = 0; k < Components; ++k) {
         slope[k] = gradient[k];

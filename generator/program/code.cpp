@@ -166,6 +166,47 @@ struct Writer {
 
 }  // namespace
 
+std::optional<Place> whole_array(const Routine& routine, const std::string& symbol,
+                                 const std::vector<KernelRange>& ranges) {
+  const auto found = routine.places.find(symbol);
+  if (ranges.size() != 1 || found == routine.places.end()) return {};
+  const KernelRange& range = ranges.front();
+  Place place = found->second;
+  const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
+  if (!counts || place.indices.size() != 1) return {};
+  AffineIndex& index = place.indices.front();
+  if (index.factors != std::map<std::string, long>{{range.index, 1}}) return {};
+  index.factors.clear();
+  if (index.constant == 0) place.indices.clear();
+  return place;
+}
+
+std::vector<WholeUnknowns> whole_unknowns(const Routine& routine, const IterateArray& iterate) {
+  std::vector<WholeUnknowns> list;
+  for (const UnknownArray& u : iterate.unknowns) {
+    if (u.beside.kind() != Kind::symbol) return {};
+    const auto array = [&](const std::string& symbol) {
+      return whole_array(routine, symbol, iterate.ranges);
+    };
+    const std::optional<Place> value = array(u.value);
+    const std::optional<Place> increment = array(u.increment);
+    const std::optional<Place> beside = array(u.beside.name());
+    if (!value || !increment || !beside) return {};
+    list.push_back({*value, *increment, *beside, iterate.ranges.front().upper.constant + 1});
+  }
+  return list;
+}
+
+std::vector<Place> finite_arrays(const Routine& routine, const Return& end) {
+  std::vector<Place> list;
+  for (const std::string& symbol : end.finite) {
+    const std::optional<Place> array = whole_array(routine, symbol, end.ranges);
+    if (!array || !array->indices.empty()) return {};
+    list.push_back(*array);
+  }
+  return list;
+}
+
 std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* loop = std::get_if<For>(&instruction.value)) return {&loop->body};
   if (const auto* scope = std::get_if<Scope>(&instruction.value)) return {&scope->body};

@@ -330,6 +330,19 @@ concept InstructionOfRun = std::is_same_v<Node, Use> || std::is_same_v<Node, Dec
     std::is_same_v<Node, Forget> || std::is_same_v<Node, Repeat> || std::is_same_v<Node, Break> ||
     std::is_same_v<Node, RequireFinite>;
 
+// The array whose element of the loop's index the symbol is, from the first one that the loop meets
+// on: none if that is not 0, or not one after the other.
+[[nodiscard]] std::optional<Place> whole_array(const Routine& routine, const std::string& symbol,
+                                               const std::vector<KernelRange>& ranges);
+// The unknowns of such an iteration as whole arrays: none if one of them is not.
+struct WholeUnknowns {
+  Place value, increment, beside;
+  long count = 0;
+};
+[[nodiscard]] std::vector<WholeUnknowns> whole_unknowns(const Routine& routine,
+                                                        const IterateArray& iterate);
+// The whole arrays that should be finite: none if one of them is not.
+[[nodiscard]] std::vector<Place> finite_arrays(const Routine& routine, const Return& end);
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
 [[nodiscard]] std::vector<Body*> inner_bodies(Instruction& instruction);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "generator/program/gathered_kernel.hpp"
@@ -58,11 +60,12 @@ class KernelRoutine {
                        : part_ == Part::kinetic ? "dp[i] = dH/dp_i."
                                                 : "dq[i] = dH/dq_i, dp[i] = dH/dp_i."};
     add_state();
-    add_target("dq", part_ != Part::kinetic);
-    add_target("dp", part_ != Part::potential);
     for (const Kernel& kernel : mechanics_.kernels) {
       for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
     }
+    const std::array begins = {beginning(false), beginning(true)};
+    add_target("dq", part_ != Part::kinetic, begins[0]);
+    add_target("dp", part_ != Part::potential, begins[1]);
     add_kernels([&](const Kernel& kernel, Body& body) {
       std::vector<Expression> values;
       std::vector<const Slot*> slots;
@@ -72,11 +75,16 @@ class KernelRoutine {
         slots.push_back(&kernel.slots[i]);
       }
       const std::vector<Expression> results = load(kernel, values, body);
+      std::set<std::string> begun;
       for (std::size_t i = 0; i < results.size(); ++i) {
-        if (is_outside(kernel, *slots[i])) {
-          sum_up(slope_of(*slots[i]), results[i], body);
+        const std::string slope = slope_of(*slots[i]);
+        const std::optional<Beginning>& begin = begins.at(slots[i]->is_momentum ? 1 : 0);
+        if (begin && begin->kernel == &kernel && begun.insert(slope).second) {
+          body.push_back({Assign{slope, results[i]}});
+        } else if (is_outside(kernel, *slots[i])) {
+          sum_up(slope, results[i], body);
         } else {
-          body.push_back({Accumulate{slope_of(*slots[i]), results[i]}});
+          body.push_back({Accumulate{slope, results[i]}});
         }
       }
     });
@@ -86,7 +94,7 @@ class KernelRoutine {
   Routine masses() {
     routine_.name = "masses";
     routine_.remark = {"dp[i] = d2H/dp_i^2, which is constant."};
-    add_target("dp", true);
+    add_target("dp", true, {});
     add_kernels([&](const Kernel& kernel, Body& body) {
       std::vector<Expression> values;
       std::vector<std::string> targets;
@@ -132,6 +140,36 @@ class KernelRoutine {
   }
 
  private:
+  using Intervals = std::vector<std::pair<long, long>>;
+  // The loop that meets the elements of a gradient first, where it meets each of them once.
+  struct Beginning {
+    const Kernel* kernel = nullptr;
+    Intervals covered;  // elements, first and last, in their order
+  };
+  [[nodiscard]] std::optional<Beginning> beginning(bool momentum) const {
+    for (const Kernel& kernel : kernels_) {
+      if (!belongs(kernel) || kernel.ranges.empty()) continue;
+      std::set<long> places;
+      bool once = kernel.ranges.size() == 1;
+      for (std::size_t s = 0; s < kernel.slots.size(); ++s) {
+        const Slot& slot = kernel.slots[s];
+        if (slot.is_momentum != momentum || kernel.gradient[s].is_zero()) continue;
+        once = once && slot.position.factors ==
+                           std::map<std::string, long>{{kernel.ranges.front().index, 1}};
+        places.insert(position(slot).constant);
+      }
+      if (places.empty()) continue;
+      const KernelRange& range = kernel.ranges.front();
+      Beginning begin{&kernel, {}};
+      for (const long place : places) {
+        begin.covered.emplace_back(range.lower.constant + place, range.upper.constant + place);
+        const std::size_t count = begin.covered.size();
+        once = once && (count == 1 || begin.covered[count - 2].second < begin.covered.back().first);
+      }
+      return once ? std::optional(std::move(begin)) : std::nullopt;
+    }
+    return {};
+  }
   // The arrays of the state that the part reads.
   void add_state() {
     if (part_ != Part::kinetic) {
@@ -142,13 +180,28 @@ class KernelRoutine {
     }
   }
 
-  // An array that is summed up, zero to begin with.
-  void add_target(const std::string& name, bool wanted) {
+  // An array that is summed up, zero to begin with where no loop begins with its values.
+  void add_target(const std::string& name, bool wanted, const std::optional<Beginning>& begin) {
     if (!wanted) return;
     routine_.arguments.push_back({.name = name, .sizes = {n_}, .changes = true, .decays = true});
+    long next = 0;
+    for (const auto& [first, last] : begin ? begin->covered : Intervals()) {
+      add_zeros(name, next, first - 1);
+      next = last + 1;
+    }
+    add_zeros(name, next, n_ - 1);
+  }
+  void add_zeros(const std::string& name, long first, long last) {
+    for (long i = first; last - first < 2 && i <= last; ++i) {
+      const AffineIndex at{i, {}};
+      const std::string element =
+          bind(fmt::format("{}({})", name, i), {.object = name, .indices = {at}});
+      routine_.body.push_back({Assign{element, Expression(0)}});
+    }
+    if (last - first < 2) return;
     const std::string element = bind(name + "(i)", {.object = name, .indices = {{0, {{"i", 1}}}}});
     Body zero{{Assign{element, Expression(0)}}};
-    routine_.body.push_back({For{{"i", {0, {}}, {n_ - 1, {}}}, std::move(zero)}});
+    routine_.body.push_back({For{{"i", {first, {}}, {last, {}}}, std::move(zero)}});
   }
 
   std::string bind(const std::string& symbol, Place place) {

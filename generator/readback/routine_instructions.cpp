@@ -164,11 +164,16 @@ void RoutineReader::operator()(const Return& end) {
   MachineValue success = truth(end.success);
   if (!end.finite.empty()) {
     MachineValue sum;
-    for (std::size_t i = 0; i < end.finite.size(); ++i) {
+    const std::vector<Place> arrays = finite_arrays(routine_, end);
+    for (const Place& array : arrays) {
+      const MachineValue squares = machine_call("::squares_of", {machine_symbol(symbol_of(array))});
+      sum = &array == &arrays.front() ? squares : std::move(sum) + squares;
+    }
+    for (std::size_t i = 0; i < end.finite.size() && arrays.empty(); ++i) {
       const MachineValue x = symbol(end.finite[i]);
       sum = i == 0 ? x * x : std::move(sum) + x * x;
     }
-    if (end.ranges.empty()) {
+    if (end.ranges.empty() || !arrays.empty()) {
       local("Real", "length ", sum);
     } else {
       local("Real", "length ", integer_symbol(0));

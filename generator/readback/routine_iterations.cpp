@@ -106,6 +106,27 @@ void RoutineReader::newton(const IterateArray& iterate) {
   scope_.leave();
 }
 
+void RoutineReader::distance_of(const IterateArray& iterate) {
+  const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
+  for (const WholeUnknowns& u : arrays) {
+    const CppStatement& found = next(CppStatement::Kind::expression, "the distance of an array");
+    const CppExpression& e = *found.value;
+    const bool adds = e.kind == CppExpression::Kind::call && e.parts.size() == 5 &&
+                      e.parts[0].kind == CppExpression::Kind::member && e.parts[0].text == "add" &&
+                      is_place(e.parts[0].parts[0], {"distance "}) &&
+                      is_place(e.parts[1], u.increment) && is_place(e.parts[2], u.value) &&
+                      is_place(e.parts[3], u.beside) &&
+                      scope_.index(e.parts[4]) == AffineIndex{u.count, {}};
+    if (!adds) throw TextDifference(found.line, "not the distance of the program's unknowns");
+  }
+  if (!arrays.empty()) return;
+  for_elements(iterate.ranges, [&] {
+    for (const UnknownArray& u : iterate.unknowns) {
+      call(action({"distance "}, "add", {magnitude(symbol(u.increment)), length(u)}));
+    }
+  });
+}
+
 void RoutineReader::contraction(const IterateArray& iterate) {
   const Place rule{"start", iterate.name};
   const bool simplified = iterate.rule == Rule::simplified_newton;
@@ -116,11 +137,7 @@ void RoutineReader::contraction(const IterateArray& iterate) {
   within(endless("iteration "), [&] {
     compare(iterate.body);
     object("Distance", "distance ");
-    for_elements(iterate.ranges, [&] {
-      for (const UnknownArray& u : iterate.unknowns) {
-        call(action({"distance "}, "add", {magnitude(symbol(u.increment)), length(u)}));
-      }
-    });
+    distance_of(iterate);
     for_elements(iterate.ranges, [&] {
       for (const UnknownArray& u : iterate.unknowns)
         assignment(symbol(u.value), "+=", symbol(u.increment));

@@ -98,6 +98,7 @@ class RoutineReader {
   void fixed_point(const Iterate& iterate);
   void newton(const IterateArray& iterate);
   void contraction(const IterateArray& iterate);
+  void distance_of(const IterateArray& iterate);
   void end_newton();
   void end_contraction(const MachineValue& size);
   void for_elements(const std::vector<KernelRange>& ranges, const std::function<void()>& lines,

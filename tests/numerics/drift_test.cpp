@@ -100,7 +100,7 @@ TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {
 // Where the rounded map comes to rest is no chance.
 TEST(Drift, AFixedPointIsRefinedFromAfar) {
   expect_drift_only_with({{"moved <= units * epsilon * length", "moved <= 0 * epsilon * length"}},
-                         {.model = soft_chain(5), .request = {.solver = "fixed-point"}, .h = 0.25});
+                         {.model = soft_chain(4), .request = {.solver = "fixed-point"}, .h = 0.25});
 }
 
 TEST(Drift, NothingIsLostOfTheSumsOfKicks) {

@@ -83,12 +83,10 @@ H = (sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, q[i]^4)
 )"),
                     "potential_gradient(", "prepare("),
             R"(potential_gradient(par, q, &dq):
-iteration             |  for i = 0..39:
-iteration             |    dq(i) <- 0
 iteration             |  for i = 1..40:
 iteration H 2         |    q[i] = at q[i - 1]
 iteration H 2         |    #0 = q[i]^2
-iteration H 2         |    dq(i - 1) += 4*q[i]*#0
+iteration H 2         |    dq(i - 1) <- 4*q[i]*#0
 iteration             |  for i = 2..39:
 iteration H 3         |    q[i] = at q[i - 1]
 iteration H 3         |    q[i-1] = at q[i - 2]
@@ -109,11 +107,9 @@ iteration H 3         |    q[40] = at q[39]
 iteration H 3         |    dq(0) += q[1]
 iteration H 3         |    dq(39) += q[40]
 kinetic_gradient(par, p, &dp):
-iteration             |  for i = 0..39:
-iteration             |    dp(i) <- 0
 iteration             |  for i = 1..40:
 iteration H 1         |    p[i] = at p[i - 1]
-iteration H 1         |    dp(i - 1) += p[i]
+iteration H 1         |    dp(i - 1) <- p[i]
 )");
 }
 

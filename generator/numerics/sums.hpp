@@ -1,0 +1,20 @@
+// A sum of many terms, in eight parts that do not wait for each other.
+template <class Term>
+inline Real sum_of(int count, const Term& term) {
+  Real parts[8] = {};
+  int j = 0;
+  for (; j + 8 <= count; j += 8) {
+    for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+  }
+  for (int k = 0; j + k < count; ++k) parts[k] += term(j + k);
+  return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+         ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+}
+template <int Size>
+inline Real lengths_of(const Real (&vector)[Size]) {
+  return sum_of(Size, [&](int j) { return magnitude(vector[j]); });
+}
+template <int Size>
+inline Real squares_of(const Real (&vector)[Size]) {
+  return sum_of(Size, [&](int j) { return vector[j] * vector[j]; });
+}
