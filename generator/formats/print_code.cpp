@@ -266,31 +266,6 @@ void RoutinePrinter::operator()(const Return& end) {
   out_.line("return report;");
 }
 
-void RoutinePrinter::length_of(const Return& end) {
-  std::vector<std::string> squares;
-  const bool lanes = dialect_.has_lanes();
-  for (const Place& array : lanes ? std::vector<Place>() : finite_arrays(routine_, end)) {
-    squares.push_back(fmt::format("{}({})", dialect_.block("squares_of"), text(array)));
-  }
-  if (!squares.empty()) {
-    out_.line("// False for infinities and NaN alike.");
-    return out_.line(
-        fmt::format("const {} length = {};", dialect_.real(), joined_texts(squares, " + ")));
-  }
-  for (const std::string& symbol : end.finite) {
-    squares.push_back(fmt::format("{0} * {0}", name(symbol)));
-  }
-  const std::string sum = joined_texts(squares, " + ");
-  if (!end.ranges.empty()) {
-    out_.line(dialect_.real() + " length = 0;");
-    for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.open(head(end.ranges[i]));
-    out_.line(head(end.ranges.back()) + " length += " + sum + ";");
-    for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.close();
-  }
-  if (!dialect_.has_lanes()) out_.line("// False for infinities and NaN alike.");
-  if (end.ranges.empty()) out_.line(fmt::format("const {} length = {};", dialect_.real(), sum));
-}
-
 std::string RoutinePrinter::failure() const {
   return routine_.result.type == "StepReport" ? "return report;" : "return false;";
 }

@@ -1,4 +1,4 @@
-// Calls, and what a run does with what it keeps from step to step.
+// Calls, what a run does with what it keeps from step to step, and what should be finite.
 #include <fmt/format.h>
 
 #include "generator/formats/routine_printer.hpp"
@@ -103,6 +103,31 @@ void RoutinePrinter::operator()(const RequireFinite& finite) {
   if (finite.count > 0) out_.close();
   out_.line(finite.report + ".converged = rest == 0;");
   out_.line(finite.report + ".increment = rest;");
+}
+
+void RoutinePrinter::length_of(const Return& end) {
+  std::vector<std::string> squares;
+  const bool lanes = dialect_.has_lanes();
+  for (const Place& array : lanes ? std::vector<Place>() : finite_arrays(routine_, end)) {
+    squares.push_back(fmt::format("{}({})", dialect_.block("squares_of"), text(array)));
+  }
+  if (!squares.empty()) {
+    out_.line("// False for infinities and NaN alike.");
+    return out_.line(
+        fmt::format("const {} length = {};", dialect_.real(), joined_texts(squares, " + ")));
+  }
+  for (const std::string& symbol : end.finite) {
+    squares.push_back(fmt::format("{0} * {0}", name(symbol)));
+  }
+  const std::string sum = joined_texts(squares, " + ");
+  if (!end.ranges.empty()) {
+    out_.line(dialect_.real() + " length = 0;");
+    for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.open(head(end.ranges[i]));
+    out_.line(head(end.ranges.back()) + " length += " + sum + ";");
+    for (std::size_t i = 0; i + 1 < end.ranges.size(); ++i) out_.close();
+  }
+  if (!dialect_.has_lanes()) out_.line("// False for infinities and NaN alike.");
+  if (end.ranges.empty()) out_.line(fmt::format("const {} length = {};", dialect_.real(), sum));
 }
 
 }  // namespace hamgen

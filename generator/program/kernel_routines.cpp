@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "generator/program/first_loop.hpp"
 #include "generator/program/gathered_kernel.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
@@ -63,7 +64,7 @@ class KernelRoutine {
     for (const Kernel& kernel : mechanics_.kernels) {
       for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
     }
-    const std::array begins = {beginning(false), beginning(true)};
+    const std::array begins = {first_loop(kernels_, false, n_), first_loop(kernels_, true, n_)};
     add_target("dq", part_ != Part::kinetic, begins[0]);
     add_target("dp", part_ != Part::potential, begins[1]);
     add_kernels([&](const Kernel& kernel, Body& body) {
@@ -78,7 +79,7 @@ class KernelRoutine {
       std::set<std::string> begun;
       for (std::size_t i = 0; i < results.size(); ++i) {
         const std::string slope = slope_of(*slots[i]);
-        const std::optional<Beginning>& begin = begins.at(slots[i]->is_momentum ? 1 : 0);
+        const std::optional<FirstLoop>& begin = begins.at(slots[i]->is_momentum ? 1 : 0);
         if (begin && begin->kernel == &kernel && begun.insert(slope).second) {
           body.push_back({Assign{slope, results[i]}});
         } else if (is_outside(kernel, *slots[i])) {
@@ -140,36 +141,6 @@ class KernelRoutine {
   }
 
  private:
-  using Intervals = std::vector<std::pair<long, long>>;
-  // The loop that meets the elements of a gradient first, where it meets each of them once.
-  struct Beginning {
-    const Kernel* kernel = nullptr;
-    Intervals covered;  // elements, first and last, in their order
-  };
-  [[nodiscard]] std::optional<Beginning> beginning(bool momentum) const {
-    for (const Kernel& kernel : kernels_) {
-      if (!belongs(kernel) || kernel.ranges.empty()) continue;
-      std::set<long> places;
-      bool once = kernel.ranges.size() == 1;
-      for (std::size_t s = 0; s < kernel.slots.size(); ++s) {
-        const Slot& slot = kernel.slots[s];
-        if (slot.is_momentum != momentum || kernel.gradient[s].is_zero()) continue;
-        once = once && slot.position.factors ==
-                           std::map<std::string, long>{{kernel.ranges.front().index, 1}};
-        places.insert(position(slot).constant);
-      }
-      if (places.empty()) continue;
-      const KernelRange& range = kernel.ranges.front();
-      Beginning begin{&kernel, {}};
-      for (const long place : places) {
-        begin.covered.emplace_back(range.lower.constant + place, range.upper.constant + place);
-        const std::size_t count = begin.covered.size();
-        once = once && (count == 1 || begin.covered[count - 2].second < begin.covered.back().first);
-      }
-      return once ? std::optional(std::move(begin)) : std::nullopt;
-    }
-    return {};
-  }
   // The arrays of the state that the part reads.
   void add_state() {
     if (part_ != Part::kinetic) {
@@ -181,11 +152,11 @@ class KernelRoutine {
   }
 
   // An array that is summed up, zero to begin with where no loop begins with its values.
-  void add_target(const std::string& name, bool wanted, const std::optional<Beginning>& begin) {
+  void add_target(const std::string& name, bool wanted, const std::optional<FirstLoop>& begin) {
     if (!wanted) return;
     routine_.arguments.push_back({.name = name, .sizes = {n_}, .changes = true, .decays = true});
     long next = 0;
-    for (const auto& [first, last] : begin ? begin->covered : Intervals()) {
+    for (const auto& [first, last] : begin ? begin->covered : Elements()) {
       add_zeros(name, next, first - 1);
       next = last + 1;
     }
