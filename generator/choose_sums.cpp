@@ -47,8 +47,7 @@ bool has_sums(const Model& model) {
 
 bool asks_for_expressions(const Request& request, const Scheme& scheme) {
   const bool of_k = scheme.has_member() && scheme.member().generating_order > 0;
-  const bool sweeps = request.solver->kind == SolverWish::Kind::sweeps;
-  return of_k || sweeps || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
+  return of_k || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
          !request.format->format->takes_loops;
 }
 
