@@ -265,6 +265,7 @@ class Decider {
     for (const Claim& claim : identities_.claims) {
       const auto emitted = values.scaled(claim.emitted);
       const auto expected = values.scaled(claim.expected);
+      if (!emitted && values.has_lost_digits()) return std::nullopt;
       if (!emitted) {
         decision.verdict = Verdict::refuted;
         decision.witness = claim.what + " is not defined at a random point where it should be";

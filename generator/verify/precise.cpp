@@ -25,6 +25,11 @@ void require(bool condition) {
   if (!condition) throw std::domain_error("outside the domain");
 }
 
+// A sum of larger numbers of which no digit is left: whether it is zero is not known.
+struct LostDigits : std::domain_error {
+  LostDigits() : std::domain_error("no digits are left") {}
+};
+
 Precise square_root_of(const Precise& x) {
   require(!cln::minusp(x));
   return to_float(cln::sqrt(x));
@@ -91,6 +96,7 @@ ScaledValue multiplied(const ScaledValue& a, const ScaledValue& b) {
 // b^x for a constant x: the scale is multiplied by the derivative.
 ScaledValue power_by(const ScaledValue& base, const Rational& exponent) {
   const Integer& over = exponent.get_num();
+  if (over < 0 && cln::zerop(base.value) && !cln::zerop(base.scale)) throw LostDigits();
   Precise value;
   if (exponent.get_den() == 1 && over.fits_slong_p()) {
     value = integer_power_of(base.value, over.get_si());
@@ -197,6 +203,9 @@ PreciseValues::PreciseValues(const std::map<std::string, Precise>& free,
 std::optional<ScaledValue> PreciseValues::scaled(const Expression& e) {
   try {
     return value(e);
+  } catch (const LostDigits&) {
+    lost_digits_ = true;
+    return std::nullopt;
   } catch (const std::domain_error&) {
     return std::nullopt;
   } catch (const cln::runtime_exception&) {  // overflow

@@ -40,6 +40,8 @@ class PreciseValues {
   PreciseValues(const std::map<std::string, Precise>& free, const Substitution& definitions);
   [[nodiscard]] std::optional<Precise> operator()(const Expression& e);
   [[nodiscard]] std::optional<ScaledValue> scaled(const Expression& e);
+  // Was a value missing because its digits were not enough to tell it from a pole?
+  [[nodiscard]] bool has_lost_digits() const { return lost_digits_; }
 
  private:
   // Throws std::domain_error outside the domain.
@@ -48,6 +50,7 @@ class PreciseValues {
   [[nodiscard]] ScaledValue symbol(const std::string& name);
 
   std::map<std::string, ScaledValue> values_;
+  bool lost_digits_ = false;
   const Substitution& definitions_;
   std::map<const void*, std::pair<Expression, ScaledValue>> done_;  // by node, which is kept alive
 };

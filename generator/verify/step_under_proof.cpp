@@ -7,6 +7,7 @@ namespace hamgen {
 SymbolicMachine StepUnderProof::machine(std::set<std::string> opaque) const {
   SymbolicMachine machine(code, std::move(opaque));
   for (int i = 0; i < size(); ++i) {
+    machine.reserve(mechanics.variables[static_cast<std::size_t>(i)].name);
     machine.set(environment.place("z", i), mechanics.variable(i));
     machine.set(environment.place("carry", i), carry(i));
     machine.set(environment.place("dz", i), Expression(0));
@@ -15,6 +16,7 @@ SymbolicMachine StepUnderProof::machine(std::set<std::string> opaque) const {
   for (std::size_t i = 0; i < environment.parameters.size(); ++i) {
     const std::string& parameter = environment.parameters[i].name;
     const int rank = parameter == "E0" ? kRankOfStep : kRankOfParameter + static_cast<int>(i);
+    machine.reserve(parameter);
     machine.set(environment.parameter_layout.in("par", i), Expression::symbol(parameter, rank));
   }
   return machine;

@@ -71,6 +71,8 @@ class SymbolicMachine {
   [[nodiscard]] Expression value(const Place& place);
   // Entries of a matrix that is an argument.
   [[nodiscard]] MatrixEntries& matrix(const std::string& name) { return matrices_[name]; }
+  // A name of the model: what a routine computes gets another.
+  void reserve(const std::string& name) { ++names_[name]; }
   // Of a local of the routine that was run last, the last one of this name.
   [[nodiscard]] std::optional<Expression> local(const std::string& symbol) const;
 

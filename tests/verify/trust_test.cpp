@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/pipeline.hpp"
 #include "generator/schemes/all_schemes.hpp"
+#include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
@@ -250,6 +252,31 @@ TEST(FalseCode, IsRefutedOnTheOtherSideOfACorner) {
   const Expression size = Expression::apply("abs", {q});
   wrong.claims.push_back({"the energy", q * q * q, size * q * q});
   EXPECT_EQ(decide(wrong).verdict, Verdict::refuted);
+}
+
+// A parameter m[0] is not an element of the matrix m, and where 60 digits cancel another point
+// tells.
+TEST(Tangent, OfEveryShippedModelIsTheLinearisedStep) {
+  int found = 0;
+  for (const auto& file : std::filesystem::directory_iterator(HAMGEN_SOURCE_DIR "/hamiltonians")) {
+    if (file.path().extension() != ".ham") continue;
+    const Finding program = finding(read_source(file.path().string()), {.tangent = true}, kProgram);
+    EXPECT_TRUE(holds(program.verdict)) << file.path() << ": " << program.detail;
+    ++found;
+  }
+  EXPECT_GE(found, 20);
+}
+
+TEST(PreciseValues, TellLostDigitsFromAPole) {
+  const Expression x = Expression::symbol("x", 0);
+  const Expression y = Expression::symbol("y", 1);
+  const Substitution none;
+  PreciseValues cancelled({{"x", precise(Rational(1, 3))}, {"y", precise(Rational(1, 3))}}, none);
+  EXPECT_FALSE(cancelled(Expression(1) / (x - y)));
+  EXPECT_TRUE(cancelled.has_lost_digits());
+  PreciseValues at_pole({{"x", precise(0)}, {"y", precise(1)}}, none);
+  EXPECT_FALSE(at_pole(y / x));
+  EXPECT_FALSE(at_pole.has_lost_digits());
 }
 
 }  // namespace
