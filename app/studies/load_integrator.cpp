@@ -65,8 +65,13 @@ runtime::PluginSource to_compile(const PluginSource& plugin) {
 // up that it packs into 512 bits, as in steps of chains of 16 to 24.
 runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice& choice) {
   runtime::Compiler compiler = chosen_compiler(choice);
-  const bool is_ours = compiler.command.back() == "-march=native";
-  if (is_ours && !plugin.in_loops) compiler.command.emplace_back("-mprefer-vector-width=128");
+#if defined(__x86_64__) || defined(__i386__)
+  const bool has_width = std::ranges::any_of(compiler.command, [](const std::string& word) {
+    return word.starts_with("-mprefer-vector-width=");
+  });
+  if (names_processor(compiler) && !plugin.in_loops && !has_width)
+    compiler.command.emplace_back("-mprefer-vector-width=128");
+#endif
   return compiler;
 }
 
