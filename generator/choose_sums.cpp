@@ -21,8 +21,13 @@ constexpr int kFewUnknowns = 3;
 constexpr long kWaiting = 80;
 
 // What loops take besides, for their unknowns and solutions of earlier steps lie in memory: a step
-// of a chain of 5 takes 197 ns in loops and 133 ns written out, of 8 216 and 281 ns.
-constexpr long kBesides = 600;
+// of a chain of 5 takes 197 ns in loops and 133 ns written out, of 8 216 and 281 ns.  Less where
+// they run over pairs, several of which are done at once: of three bodies it takes 98 and 174 ns.
+long besides(const Mechanics& in_loops) {
+  const bool has_pairs = std::ranges::any_of(
+      in_loops.kernels, [](const Kernel& kernel) { return kernel.ranges.size() > 1; });
+  return has_pairs ? 200 : 800;
+}
 
 long rows_eliminated(const SolvePlan& plan) {
   if (plan.arrays) {
@@ -60,7 +65,7 @@ bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops) 
       in_loops.kernels, [](const Kernel& kernel) { return !kernel.ranges.empty(); });
   const int n = written_out.degrees_of_freedom;
   if (!has_loops || n <= kFewUnknowns || n < in_loops.degrees_of_freedom) return false;
-  return work(in_loops) + kBesides < work(written_out);
+  return work(in_loops) + besides(in_loops) < work(written_out);
 }
 
 }  // namespace hamgen
