@@ -106,9 +106,14 @@ def compare(hamgen, name, time):
                       key=lambda r: r["s_per_time"])
         for best in fast[:5]:
             ours, theirs = side_by_side(hamgen, model, time, error, row, best)
-            if theirs is not None:
+            if ours is None or theirs is not None:
                 break
         else:
+            print(f"{name:<16} {error:>6}  nothing of the scan is stable", flush=True)
+            continue
+        if ours is None:
+            print(f"{name:<16} {error:>6}  what is advised is unstable: {row['scheme']}", flush=True)
+            ratios.append(float("inf"))
             continue
         ratio = ours / theirs
         ratios.append(ratio)
@@ -127,6 +132,8 @@ def main():
     for name in sys.argv[2:] or MODELS:
         ratios += compare(hamgen, name, MODELS.get(name, 20))
     within = sum(ratio <= 1.05 for ratio in ratios)
+    if not ratios:
+        raise SystemExit("nothing was compared")
     print(f"{within} of {len(ratios)} within 5 per cent, the worst {max(ratios):.2f}")
 
 
