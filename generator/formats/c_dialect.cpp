@@ -71,15 +71,14 @@ std::string CDialect::head(const Routine& routine,
 
 std::string CDialect::call(const std::string& type, const std::string& object,
                            const std::string& action, const std::string& arguments) const {
-  // The type of a History is the method's, and so is what it does.
-  if (type == "History")
-    return fmt::format("{}(&{}, {})", named("History_" + action), object, arguments);
   if (action == "watch") {
     const std::size_t comma = arguments.find(',');
     return fmt::format("{}(&{}, &{}{})", named("History_watch"), arguments.substr(0, comma), object,
                        arguments.substr(comma));
   }
-  return fmt::format("{}(&{}{}{})", block(type + "_" + (action.empty() ? "check" : action)), object,
+  // The type of a History is the method's, and so is what it does.
+  const std::string name = type + "_" + (action.empty() ? "check" : action);
+  return fmt::format("{}(&{}{}{})", type == "History" ? named(name) : block(name), object,
                      arguments.empty() ? "" : ", ", arguments);
 }
 
@@ -87,11 +86,6 @@ std::string CDialect::call_of_run(const std::string& routine_name,
                                   const std::string& arguments) const {
   return fmt::format("{}_{}(self{}{})", named("Propagator"), routine_name,
                      arguments.empty() ? "" : ", ", arguments);
-}
-
-std::pair<std::string, std::string> CDialect::for_each(const std::string& name, const std::string&,
-                                                       int count) const {
-  return {fmt::format("for (int j = 0; j < {}; ++j)", count), kept(name) + "[j]"};
 }
 
 std::string CDialect::verdict(const std::string& name) const { return block(name); }

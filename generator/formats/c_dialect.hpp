@@ -44,12 +44,6 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string unused(const std::string& value) const override {
     return "(void)" + value;
   }
-  [[nodiscard]] std::pair<std::string, std::string> for_each(const std::string& name,
-                                                             const std::string& type,
-                                                             int count) const override;
-  [[nodiscard]] std::string forget(const std::string& history) const override {
-    return named("History_forget") + "(&" + history + ")";
-  }
   [[nodiscard]] std::string verdict(const std::string& name) const override;
 
   // Of the system where all methods have it, else of the method.

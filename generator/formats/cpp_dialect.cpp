@@ -47,10 +47,4 @@ std::string CppDialect::kept(const std::string& name) const {
   return name.substr(0, bracket) + "_" + name.substr(bracket);
 }
 
-std::pair<std::string, std::string> CppDialect::for_each(const std::string& name,
-                                                         const std::string& type, int) const {
-  return {fmt::format("for ({}& {} : {})", type == "History" ? "auto" : "Start", name, kept(name)),
-          name};
-}
-
 }  // namespace hamgen

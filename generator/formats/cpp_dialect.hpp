@@ -45,12 +45,6 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string unused(const std::string& value) const override {
     return "static_cast<void>(" + value + ")";
   }
-  [[nodiscard]] std::pair<std::string, std::string> for_each(const std::string& name,
-                                                             const std::string& type,
-                                                             int count) const override;
-  [[nodiscard]] std::string forget(const std::string& history) const override {
-    return "forget(" + history + ")";
-  }
   [[nodiscard]] std::string verdict(const std::string& name) const override {
     return "Verdict::" + name;
   }

@@ -5,7 +5,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "generator/formats/literal.hpp"
@@ -66,11 +65,6 @@ class Dialect {
   [[nodiscard]] virtual std::string call_of_run(const std::string& routine_name,
                                                 const std::string& arguments) const = 0;
   [[nodiscard]] virtual std::string unused(const std::string& value) const = 0;
-  // A loop over `count` of what is kept, and what it calls the one that it is at.
-  [[nodiscard]] virtual std::pair<std::string, std::string> for_each(const std::string& name,
-                                                                     const std::string& type,
-                                                                     int count) const = 0;
-  [[nodiscard]] virtual std::string forget(const std::string& history) const = 0;
   // "Verdict::done"
   [[nodiscard]] virtual std::string verdict(const std::string& name) const = 0;
 };

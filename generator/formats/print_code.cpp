@@ -8,15 +8,6 @@
 
 namespace hamgen {
 
-namespace {
-
-bool returns_report(const Instruction& instruction) {
-  const auto* end = std::get_if<Return>(&instruction.value);
-  return end != nullptr && !end->report.empty();
-}
-
-}  // namespace
-
 std::string joined_texts(const std::vector<std::string>& items, const char* separator) {
   std::string text;
   for (const std::string& item : items) text += (text.empty() ? "" : separator) + item;
@@ -38,7 +29,6 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
   }
   for (const std::string& taken : dialect.taken_names()) names_.reserve(taken);
   name_objects();
-  reserve_arrays(routine.body);
 }
 
 // An argument makes way for a quantity of that name: the user's z stays z.
@@ -61,224 +51,119 @@ void RoutinePrinter::name_objects() {
   }
 }
 
-bool RoutinePrinter::is_address(const std::string& object) const {
-  return !dialect_.has_references() &&
-         std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
-           return argument.name == object && !argument.record.empty();
-         });
-}
-
-std::string RoutinePrinter::of(const std::string& object_name) const {
-  return object(object_name) + (is_address(object_name) ? "->" : ".");
-}
-
-std::string RoutinePrinter::value_of(const std::string& object_name) const {
-  return (is_address(object_name) ? "*" : "") + object(object_name);
-}
-
-std::string RoutinePrinter::object(const std::string& name) const {
-  if (name.starts_with("self.")) return dialect_.kept(name.substr(5));
-  if (name.starts_with("new ")) return dialect_.empty_record(name.substr(4));
-  const auto other = objects_.find(name);
-  return other == objects_.end() ? name : other->second;
+void RoutinePrinter::reserve(const written::Body& body) {
+  for (const written::Statement& statement : body) {
+    if (const auto* declare = std::get_if<Declare>(&statement.value)) {
+      for (const std::string& object : declare->objects) names_.reserve(object);
+      records_.insert(declare->objects.begin(), declare->objects.end());
+    }
+    if (const auto* define = std::get_if<written::Define>(&statement.value)) {
+      const bool record = define->type != "Real" && define->type != "StepReport";
+      if (record) records_.insert(define->name);
+      if (record || !define->sizes.empty()) names_.reserve(written::name_in_text(define->name));
+    }
+    if (const auto* loop = std::get_if<written::For>(&statement.value))
+      names_.reserve(loop->range.index);
+    if (const written::Body* inner = written::inner_body(statement)) reserve(*inner);
+  }
 }
 
 void RoutinePrinter::print() {
+  const written::Body body =
+      written::body_of(routine_, {.references = dialect_.has_references(),
+                                  .lanes = dialect_.has_lanes(),
+                                  // Eigen knows neither quad numbers nor packs.
+                                  .eigen = dialect_.scalar.digits != 113 && !dialect_.has_lanes()});
+  reserve(body);
   for (const std::string& line : routine_.remark) out_.remark("// ", line);
-  out_.open(signature());
+  std::vector<std::string> arguments;
+  for (const Argument& argument : routine_.arguments) arguments.push_back(declaration(argument));
+  out_.open(dialect_.head(routine_, arguments));
   for (const Argument& argument : routine_.arguments) {
     const bool used = !argument.count.empty() || uses_object(routine_, argument.name);
-    if (!dialect_.has_references() && !used) {
-      out_.line("(void)" + object(argument.name) + ";");
-    }
+    if (!dialect_.has_references() && !used) out_.line("(void)" + object(argument.name) + ";");
   }
-  if (!routine_.result.object.empty()) {
-    out_.line(dialect_.declaration(routine_.result.type, routine_.result.object));
-  }
-  print(routine_.body);
-  const bool filled = !routine_.result.object.empty() && routine_.result.type != "StepReport";
-  if (filled) out_.line("return " + routine_.result.object + ";");
+  print(body);
   out_.close();
   out_.line();
   used_.functions.insert(cpp_.functions().begin(), cpp_.functions().end());
 }
 
-void RoutinePrinter::print(const Body& body) {
-  for (const Instruction& node : body) {
-    // What an iteration declares stands above its comment.
-    const auto* iterate = std::get_if<Iterate>(&node.value);
-    if (iterate == nullptr) {
-      for (const std::string& line : node.remark) out_.remark("// ", line);
-    } else {
-      remark_ = &node.remark;
+void RoutinePrinter::print(const written::Body& body) {
+  for (const written::Statement& statement : body) {
+    for (const std::string& line : statement.remark) out_.remark("// ", line);
+    if (const std::optional<std::string> text = line(statement)) {
+      out_.line(*text);
+      continue;
     }
-    const auto* let = std::get_if<Let>(&node.value);
-    if (let != nullptr && kept_.contains(let->symbol)) {
-      (*this)(Assign{let->symbol, let->value});
-    } else {
-      std::visit(*this, node.value);
-    }
+    std::visit(
+        [this](const auto& node) {
+          if constexpr (requires { node.shape; }) {
+            print_inside(head(node), node.body, node.shape);
+          } else if constexpr (requires { node.body; }) {
+            print_inside(head(node), node.body, written::Shape::braces);
+          }
+        },
+        statement.value);
   }
 }
 
-void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
-  const bool simple =
-      body.size() == 1 && body[0].remark.empty() &&
-      (std::holds_alternative<Assign>(body[0].value) ||
-       std::holds_alternative<Accumulate>(body[0].value) ||
-       std::holds_alternative<Put>(body[0].value) || std::holds_alternative<Call>(body[0].value) ||
-       std::holds_alternative<Use>(body[0].value) || std::holds_alternative<Break>(body[0].value) ||
-       returns_report(body[0]) || std::holds_alternative<Factorise>(body[0].value));
-  if (simple) {
-    CodeWriter line;
-    std::swap(line, out_);
-    print(body);
-    std::swap(line, out_);
-    const std::string& text = line.text();
-    if (std::ranges::count(text, '\n') == 1 && out_.fits(head + " " + text)) {
-      return out_.lines(head + " " + text);
-    }
+void RoutinePrinter::print_inside(const std::string& head, const written::Body& body,
+                                  written::Shape shape) {
+  const bool simple = body.size() == 1 && body[0].remark.empty() && body[0].is_short;
+  if (shape == written::Shape::fitting && simple) {
+    const std::optional<std::string> text = line(body[0]);
+    if (text && out_.fits(head + " " + *text + "\n")) return out_.lines(head + " " + *text);
   }
   out_.open(head);
   print(body);
   out_.close();
 }
 
-void RoutinePrinter::operator()(const Let& let) {
-  const std::string value = cpp_(let.value);
-  out_.line(fmt::format("{}{} {} = {};", let.varies || kept_.contains(let.symbol) ? "" : "const ",
-                        dialect_.real(), names_.local(let.symbol), value));
-}
-void RoutinePrinter::operator()(const Array& array) {
-  std::string sizes;
-  for (const int size : array.sizes) sizes += "[" + count_text(size) + "]";
-  std::vector<std::string> values;
-  for (const Expression& e : array.values) values.push_back(cpp_(e));
-  const std::string text =
-      values.empty() ? dialect_.empty_array() : "{" + joined_texts(values, ", ") + "}";
-  out_.line(fmt::format("{} {}{} = {};", dialect_.real(), array.name, sizes, text));
-}
-void RoutinePrinter::operator()(const Matrix& matrix) {
-  if (matrix.patterned) return out_.line("Matrix " + matrix.name + ";");
-  // Eigen knows neither quad numbers nor packs.
-  const bool eigen = matrix.large && dialect_.scalar.digits != 113 && !dialect_.has_lanes();
-  out_.line(fmt::format("{}<{}> {};", eigen ? "EigenDenseMatrix" : "DenseMatrix", matrix.size,
-                        matrix.name));
-}
-void RoutinePrinter::operator()(const Copy& copy) {
-  const std::string from =
-      copy.from.empty() ? dialect_.empty_record(copy.record) : value_of(copy.from);
-  const std::string to =
-      copy.declares ? dialect_.record(copy.record) + " " + copy.to : value_of(copy.to);
-  out_.line(to + " = " + from + ";");
-}
-void RoutinePrinter::operator()(const Assign& assign) {
-  const std::string value = cpp_(assign.value);
-  out_.line(fmt::format("{} = {};", name(assign.symbol), value));
-}
-void RoutinePrinter::operator()(const Collect& sum) {
-  const std::string value = cpp_(sum.value);
-  const char* by = dialect_.has_references() ? "" : "&";
-  out_.line(fmt::format("{0}({1}{2}, {1}{3}, {4});", dialect_.block("collect"), by,
-                        name(sum.symbol), name(sum.lost), value));
-}
-// target += value, or target -= what follows a minus, if that is one product.
-void RoutinePrinter::operator()(const Accumulate& sum) {
-  const std::string value = cpp_(sum.value);
-  const bool negative =
-      value.starts_with('-') && value.find_first_of("+-(", 1) == std::string::npos;
-  out_.line(fmt::format("{} {}= {};", name(sum.symbol), negative ? '-' : '+',
-                        value.substr(negative ? 1 : 0)));
-}
-void RoutinePrinter::operator()(const Clear& clear) { out_.line(text(clear.matrix) + ".clear();"); }
-void RoutinePrinter::operator()(const Put& put) {
-  const std::string value = cpp_(put.value);
-  out_.line(
-      fmt::format("{}.put({}, {}, {});", text(put.matrix), text(put.row), text(put.column), value));
-}
-void RoutinePrinter::operator()(const SetFlag& set) {
-  out_.line(fmt::format("{} = {};", text(set.flag), set.value));
-}
-void RoutinePrinter::operator()(const For& loop) { print_inside(head(loop.range), loop.body); }
-void RoutinePrinter::operator()(const Scope& scope) {
-  out_.open("");
-  print(scope.body);
-  out_.close();
-}
-void RoutinePrinter::operator()(const If& branch) {
-  const std::string flag = branch.any ? "any(" + text(branch.flag) + ")" : text(branch.flag);
-  print_inside(fmt::format("if ({}{}{})", branch.set ? "" : "!", flag,
-                           branch.also ? " && " + text(*branch.also) : ""),
-               branch.then);
-}
-void RoutinePrinter::operator()(const Alternate& alternate) {
-  const std::string patience = text(alternate.patience);
-  out_.open(fmt::format("if ({} == 0 && !{})", patience, call_text(alternate.first)));
-  print(alternate.between);
-  out_.line(fmt::format("{} = {};", patience, alternate.steps));
-  out_.close();
-  out_.open(fmt::format("if ({} > 0)", patience));
-  out_.line("--" + patience + ";");
-  out_.line(fmt::format("if (!{}) {}", call_text(alternate.second), failure()));
-  out_.close();
-}
-void RoutinePrinter::operator()(const Factorise& factorise) {
-  if (dialect_.has_lanes()) return factorise_lanes(factorise);
-  const std::string condition = fmt::format("if (!{}.factorise())", text(factorise.matrix));
-  if (!iterates_) return out_.line(condition + " " + failure());
-  out_.open(condition);
-  out_.line("report.iterations += iteration;");
-  out_.line(failure());
-  out_.close();
-}
-void RoutinePrinter::factorise_lanes(const Factorise& factorise) {
-  const std::string regular = text(factorise.matrix) + ".factorise()";
-  out_.line(iterates_ ? fmt::format("{}.require({});", rule_, regular)
-                      : fmt::format("report.converged = report.converged & {};", regular));
-}
-void RoutinePrinter::operator()(const SolveFactorised& solve) {
-  out_.line(fmt::format("{}.solve({});", text(solve.matrix), text(solve.vector)));
-}
-void RoutinePrinter::operator()(const Invert& invert) {
-  out_.line(fmt::format("{0} = invert({1}, {2}) && {0};", text(invert.regular), invert.matrix,
-                        text(invert.inverse)));
-}
-void RoutinePrinter::operator()(const Return& end) {
-  if (end.value) return out_.line("return " + cpp_(*end.value) + ";");
-  if (!end.report.empty()) return out_.line("return " + end.report + ";");
-  if (!end.finite.empty()) length_of(end);
-  const std::string success = end.finite.empty()
-                                  ? fmt::format("{}", end.success)
-                                  : fmt::format("length <= {}", dialect_.scalar.largest);
-  if (routine_.result.type != "StepReport") return out_.line("return " + success + ";");
-  if (end.success) {
-    const bool lanes = dialect_.has_lanes();
-    if (lanes && !end.finite.empty()) {
-      out_.line("require_finite(report, length);");
-    } else if (!lanes) {
-      out_.line("report.converged = " + success + ";");
-      if (!end.finite.empty()) out_.line("if (!report.converged) report.increment = length;");
-    }
-    // Of a lane that has failed nothing is asked any more.
-    const char* known = lanes ? " = any(report.converged);" : " = report.converged;";
-    if (end.flag) out_.line(text(*end.flag) + known);
-  }
-  out_.line("return report;");
+std::optional<std::string> RoutinePrinter::line(const written::Statement& statement) {
+  return std::visit(
+      [this](const auto& node) -> std::optional<std::string> {
+        if constexpr (requires { node.shape; }) {
+          if (node.shape != written::Shape::line) return {};
+          const std::string begin = head(node);
+          return begin + " " + line(node.body[0]).value();
+        } else if constexpr (requires { node.body; }) {
+          return {};
+        } else {
+          return line(node);
+        }
+      },
+      statement.value);
 }
 
-std::string RoutinePrinter::failure() const {
-  return routine_.result.type == "StepReport" ? "return report;" : "return false;";
+std::string RoutinePrinter::line(const Declare& declare) {
+  std::vector<std::string> names;
+  for (const std::string& name : declare.objects) names.push_back(written::name_in_text(name));
+  return dialect_.declaration(declare.record, joined_texts(names, ", "));
 }
 
-std::string RoutinePrinter::count_text(long count) const {
-  if (dialect_.n == 0 || count % dialect_.n != 0 || count > 2L * dialect_.n) {
-    return std::to_string(count);
-  }
-  return count == dialect_.n ? "n" : count == 0 ? "0" : "2 * n";
+std::string RoutinePrinter::line(const written::Define& define) {
+  const std::string text = value(define.value);
+  const bool number = define.type == "Real" && define.sizes.empty();
+  const std::string name = number && !written::is_of_text(define.name)
+                               ? names_.local(define.name)
+                               : written::name_in_text(define.name);
+  return fmt::format("{}{} {}{} = {};", define.varies ? "" : "const ", type(define.type), name,
+                     sizes(define.sizes), text);
 }
 
-std::string RoutinePrinter::head(const KernelRange& range) const {
-  // From 0 on as C++ has it.
+// x += value, or x -= what follows a minus, if that is one product.
+std::string RoutinePrinter::line(const written::Set& set) {
+  std::string text = value(set.value);
+  const std::string to = value(set.to);
+  const bool negative = set.sign == "+=" && text.starts_with('-') &&
+                        text.find_first_of("+-(", 1) == std::string::npos;
+  return fmt::format("{} {} {};", to, negative ? "-=" : set.sign, text.substr(negative ? 1 : 0));
+}
+
+// From 0 on as C++ has it.
+std::string RoutinePrinter::head(const written::For& loop) {
+  const KernelRange& range = loop.range;
   const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
   if (counts) {
     return fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
@@ -287,89 +172,23 @@ std::string RoutinePrinter::head(const KernelRange& range) const {
   return fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index, text(range.lower),
                      text(range.upper));
 }
-
-std::string RoutinePrinter::name(const std::string& symbol) {
-  if (symbol == "pi") {
-    used_.pi = true;
-    return dialect_.constant("pi");
-  }
-  const auto place = routine_.places.find(symbol);
-  if (place != routine_.places.end()) return text(place->second);
-  const bool number = std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
-    return argument.name == symbol && argument.record.empty() && argument.sizes.empty();
-  });
-  return number ? symbol : names_.local(symbol);
+std::string RoutinePrinter::head(const written::Loop& loop) {
+  const std::string index = written::name_in_text(loop.index);
+  const std::string until = loop.limit.empty() ? "" : fmt::format(" {} < {}", index, loop.limit);
+  return fmt::format("for ({0} {1} = {2};{3}; ++{1})", loop.type, index, loop.first, until);
 }
-
-std::string RoutinePrinter::text(const AffineIndex& a) const {
-  std::string text;
-  for (const auto& [index, factor] : a.factors) {
-    text += text.empty() ? "" : " + ";
-    text += factor == 1 ? index : fmt::format("{} * {}", factor, index);
-  }
-  if (text.empty()) return std::to_string(a.constant);
-  if (dialect_.n > 0 && a.constant == dialect_.n) return "n + " + text;
-  if (a.constant > 0) text += fmt::format(" + {}", a.constant);
-  if (a.constant < 0) text += fmt::format(" - {}", -a.constant);
-  return text;
+std::string RoutinePrinter::head(const written::While& /*loop*/) {
+  return "for (bool more = true; more;)";
 }
-
-std::string RoutinePrinter::text(const Place& place) const {
-  if (place.object.empty()) return dialect_.number(text(place.indices.front()));
-  if (place.object == "self") return dialect_.kept(place.field);
-  std::string result = place.field.empty() ? object(place.object) : of(place.object) + place.field;
-  for (const AffineIndex& index : place.indices) result += "[" + text(index) + "]";
-  return result;
-}
-
-std::string RoutinePrinter::given(const Place& place) const {
-  const bool ours = records_.contains(place.object) || place.object.starts_with("self.") ||
-                    place.object.starts_with("new ");
-  const bool record = place.field.empty() && ours;
-  if (record && !dialect_.has_references()) return "&" + object(place.object);
-  if (place.indices.empty()) return text(place);
-  const AffineIndex& index = place.indices.front();
-  const std::string offset = index.factors.empty() ? count_text(index.constant) : text(index);
-  return text(Place{place.object, place.field}) + " + " + offset;
+std::string RoutinePrinter::head(const written::Each& loop) {
+  return fmt::format("for ({}& {} : {})", loop.type, loop.name, dialect_.kept(loop.name));
 }
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {
   // C wants a name for every argument.
   const bool named =
       !dialect_.has_references() || !argument.count.empty() || uses_object(routine_, argument.name);
-  const std::string name = named ? object(argument.name) : "";
-  std::string sizes;
-  for (const int size : argument.sizes) sizes += "[" + count_text(size) + "]";
-  return dialect_.argument(argument, name, sizes);
-}
-
-std::string RoutinePrinter::signature() const {
-  std::vector<std::string> list;
-  for (const Argument& argument : routine_.arguments) list.push_back(declaration(argument));
-  return dialect_.head(routine_, list);
-}
-
-void RoutinePrinter::reserve_arrays(const Body& body) {
-  for (const Instruction& node : body) {
-    if (const auto* array = std::get_if<Array>(&node.value)) names_.reserve(array->name);
-    if (const auto* matrix = std::get_if<Matrix>(&node.value)) names_.reserve(matrix->name);
-    if (const auto* copy = std::get_if<Copy>(&node.value)) {
-      names_.reserve(copy->to);
-      if (copy->declares) records_.insert(copy->to);
-    }
-    if (const auto* declare = std::get_if<Declare>(&node.value))
-      records_.insert(declare->objects.begin(), declare->objects.end());
-    if (const auto* call = std::get_if<Call>(&node.value)) {
-      if (!call->object.empty() && call->record != "StepReport") records_.insert(call->object);
-    }
-    if (const auto* call = std::get_if<Call>(&node.value)) names_.reserve(call->object);
-    if (const auto* loop = std::get_if<For>(&node.value)) names_.reserve(loop->range.index);
-    if (const auto* refine = std::get_if<Refine>(&node.value)) {
-      names_.reserve(refine->name);
-      names_.reserve(kept_name(*refine));
-    }
-    for (const Body* inner : inner_bodies(node)) reserve_arrays(*inner);
-  }
+  return dialect_.argument(argument, named ? object(argument.name) : "", sizes(argument.sizes));
 }
 
 void print(CodeWriter& out, const Routine& routine, const Dialect& dialect, Used& used) {

@@ -175,6 +175,10 @@ void Names::set(const std::string& symbol, const std::string& text) { names_[sym
 
 const std::string& Names::local(const std::string& symbol) {
   if (const auto it = names_.find(symbol); it != names_.end()) return it->second;
+  if (symbol.ends_with(kNext)) {
+    const std::string before = local(symbol.substr(0, symbol.size() - std::string(kNext).size()));
+    return names_.emplace(symbol, unique(before + "_next")).first->second;
+  }
   std::string text;
   if (symbol.starts_with('#')) {
     text = fmt::format("t{}", ++temporaries_);

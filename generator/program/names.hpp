@@ -28,6 +28,9 @@ struct ElementName {
 };
 [[nodiscard]] ElementName split_element(const std::string& name);
 
+// What a sweep makes of the symbol before it: "bar(q) next" is q_bar_next.
+inline constexpr const char* kNext = " next";
+
 // Gives out names for one scope.
 class Names {
  public:

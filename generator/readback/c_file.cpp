@@ -155,23 +155,26 @@ class CFileReader {
     if (record.name == "Start") expect(c_start_pattern(record), "start");
   }
   void read(const Propagator& propagator) {
-    for (const Pattern& pattern : c_propagator_patterns(propagator)) expect(pattern, "Propagator");
+    for (const ShellPart& part : c_propagator_parts(propagator)) {
+      if (const auto* pattern = std::get_if<Pattern>(&part)) expect(*pattern, "Propagator");
+      if (const auto* routine = std::get_if<Routine>(&part)) read(*routine, &propagator);
+    }
   }
   void read(const StepOfPropagator&) { expect(c_step_pattern(), "step"); }
   void read(const ArrayMatrix&) { throw TextDifference(cursor_.line(), "C has no matrices"); }
   void read(const Watch&) { throw TextDifference(cursor_.line(), "C has no events"); }
-  void read(const Routine& routine) {
-    if (routine.name == "step") return expect({words_of(routine, {.c = true})}, "step");
+  // `run`: what a run is, of a routine that is given it.
+  void read(const Routine& routine, const Propagator* run = nullptr) {
     const int line = cursor_.line();
     if (!cursor_.peek().is("static") || !cursor_.peek(1).is("inline"))
       throw TextDifference(line, routine.name + " is not static and inline");
-    const CppFunction function = without_addresses(take_function(), code_);
+    const CppFunction function = without_addresses(take_function(), code_, run);
     if (function.name != routine.name)
       throw TextDifference(line, fmt::format("'{}' where {} belongs", function.name, routine.name));
-    RoutineReader reader(function, routine, precision_, 0);
-    reader.compare();
+    const Record* kept = run == nullptr ? nullptr : &run->record;
+    RoutineReader(function, routine, {.precision = precision_, .c = true, .run = kept}).compare();
     ++found_.routines;
-    found_.instructions += reader.instructions();
+    found_.instructions += instructions_of(routine.body);
   }
 
   [[nodiscard]] bool ends(std::size_t ahead) const {

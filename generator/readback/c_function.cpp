@@ -13,6 +13,8 @@ namespace {
 
 using NodeKind = CppExpression::Kind;
 
+constexpr std::string_view kOfRun = "Propagator_";
+
 // "solve" of "@solve"; empty for any other name.
 std::string of_header(const std::string& name) {
   return name.starts_with(kOfHeader) ? name.substr(1) : std::string();
@@ -30,8 +32,8 @@ bool begins_with_zeros(const Record& record) {
 
 class AddressReader {
  public:
-  AddressReader(const CppFunction& written, const Program& code)
-      : function_(written), code_(code) {}
+  AddressReader(const CppFunction& written, const Program& code, const Propagator* run)
+      : function_(written), code_(code), run_(run) {}
 
   CppFunction run() {
     function_.name = of_header(function_.name);
@@ -39,6 +41,7 @@ class AddressReader {
     function_.type = type(function_.type, function_.line);
     for (CppArgument& argument : function_.arguments) read(argument);
     read(function_.body);
+    if (run_ != nullptr) leave_out_run();
     return std::move(function_);
   }
 
@@ -49,6 +52,17 @@ class AddressReader {
     if (name != "void" && name != "int" && name != "bool" && name != "long long")
       differ(line, fmt::format("'{}' is no type of this header", name));
     return name;
+  }
+
+  // Propagator_step(Propagator* self, ...)
+  void leave_out_run() {
+    std::vector<CppArgument>& arguments = function_.arguments;
+    const bool given = function_.name.starts_with(kOfRun) && !arguments.empty() &&
+                       arguments[0].type == "Propagator" && arguments[0].name == "self" &&
+                       arguments[0].pass == CppArgument::Pass::reference && !arguments[0].constant;
+    if (!given) differ(function_.line, function_.name + " is not given the run");
+    function_.name = function_.name.substr(kOfRun.size());
+    arguments.erase(arguments.begin());
   }
 
   void read(CppArgument& argument) {
@@ -94,14 +108,22 @@ class AddressReader {
     const CppExpression& given = *found.value;
     const bool zeros = given.kind == NodeKind::list && given.parts.size() == 1 &&
                        given.parts[0].kind == NodeKind::number && given.parts[0].text == "0";
+    const bool start = found.type == "Start" && is_start(given);
     if (zeros && found.type == "Real") {
       found.value->parts.clear();
+    } else if (start) {
+      found.value.reset();
     } else if (zeros) {
       require_zeros(found.type, found.line);
       found.value.reset();
     } else {
       found.value = value(given);
     }
+  }
+
+  // What C++ calls Start().
+  [[nodiscard]] static bool is_start(const CppExpression& e) {
+    return e.kind == NodeKind::call && e.parts.size() == 1 && of_header(e.parts[0].text) == "start";
   }
 
   // T x = {0} and (T){0} are T x and T() for records that begin with zeros.
@@ -182,6 +204,7 @@ class AddressReader {
     const bool right = e.kind == NodeKind::prefix && e.text == "&";
     if (!right) differ(e.line, "a value where an address belongs");
     const CppExpression& of = e.parts[0];
+    if (of.kind == NodeKind::call && of.parts.size() == 1) return call(of);  // (T){0}
     if (of.kind == NodeKind::name && (records_.contains(of.text) || arrays_.contains(of.text)))
       differ(e.line, fmt::format("the address of an address, &{}", of.text));
     return object(of);
@@ -210,44 +233,63 @@ class AddressReader {
     }
     if (ours == "Real" || ours == "magnitude" || ours == "product_error")
       return with_values(e, ours);
-    if (ours == "collect") return collect(e);
-    if (ours == "NewtonRule_begin" || ours == "NewtonRule_check") return of_rule(e, ours);
+    if (ours == "collect" || ours == "two_sum" || ours == "two_sum_with_rest") return sum(e, ours);
+    for (const std::string type : {"NewtonRule_", "History_"}) {
+      if (ours.starts_with(type)) return of_object(e, ours.substr(type.size()));
+    }
+    if (is_start(e)) return with_values(e, "Start");
     if (const Routine* routine = code_.routine(ours)) return of_routine(e, *routine);
+    if (ours.starts_with(kOfRun)) return of_run(e, ours.substr(kOfRun.size()));
     if (e.parts.size() > 1) differ(e.line, fmt::format("{} is no routine", ours));
     require_zeros(ours, e.line);
     return with_values(e, ours);
   }
 
-  CppExpression with_values(const CppExpression& e, const std::string& name) {
+  static CppExpression with_name(const CppExpression& e, const std::string& name) {
     CppExpression result = e;
     result.parts[0].text = name;
+    return result;
+  }
+  CppExpression with_values(const CppExpression& e, const std::string& name) {
+    CppExpression result = with_name(e, name);
     for (std::size_t i = 1; i < e.parts.size(); ++i) result.parts[i] = value(e.parts[i]);
     return result;
   }
 
   // collect(&dz->q, &rest->q, x)
-  CppExpression collect(const CppExpression& e) {
-    if (e.parts.size() != 4) differ(e.line, "not a collected sum");
-    CppExpression result = e;
-    result.parts[0].text = "collect";
-    result.parts[1] = address(e.parts[1]);
-    result.parts[2] = address(e.parts[2]);
-    result.parts[3] = value(e.parts[3]);
+  CppExpression sum(const CppExpression& e, const std::string& name) {
+    if (e.parts.size() < 4) differ(e.line, "not a collected sum");
+    CppExpression result = with_name(e, name);
+    for (std::size_t i = 1; i < e.parts.size(); ++i)
+      result.parts[i] = i < 3 ? address(e.parts[i]) : value(e.parts[i]);
     return result;
   }
 
-  // NewtonRule_begin(&start->rule_0, known) is start.rule_0.begin(known).
-  CppExpression of_rule(const CppExpression& e, const std::string& name) {
-    if (e.parts.size() < 2) differ(e.line, name + " of nothing");
-    CppExpression rule = address(e.parts[1]);
+  // NewtonRule_begin(&start->rule_0, known) is start.rule_0.begin(known), NewtonRule_check the rule
+  // itself, and History_watch(&history, &rule, ...) rule.watch(history, ...).
+  CppExpression of_object(const CppExpression& e, const std::string& action) {
+    const std::size_t addresses = action == "watch" ? 2 : 1;
+    if (e.parts.size() <= addresses) differ(e.line, action + " of nothing");
+    CppExpression object = address(e.parts[addresses]);
     CppExpression result{NodeKind::call, "", {}, e.line};
-    if (name == "NewtonRule_begin") {
-      result.parts.push_back({NodeKind::member, "begin", {std::move(rule)}, e.line});
-    } else {
-      result.parts.push_back(std::move(rule));
-    }
-    for (std::size_t i = 2; i < e.parts.size(); ++i) result.parts.push_back(value(e.parts[i]));
+    if (action != "check") object = {NodeKind::member, action, {std::move(object)}, e.line};
+    result.parts.push_back(std::move(object));
+    if (addresses == 2) result.parts.push_back(address(e.parts[1]));
+    for (std::size_t i = addresses + 1; i < e.parts.size(); ++i)
+      result.parts.push_back(value(e.parts[i]));
     return result;
+  }
+
+  CppExpression of_run(const CppExpression& e, const std::string& name) {
+    const bool given = run_ != nullptr && e.parts.size() > 1 && e.parts[1].is_name("self");
+    if (!given) differ(e.line, name + " is not given the run");
+    for (const Routine& routine : run_->routines) {
+      if (routine.name != name) continue;
+      CppExpression call = e;
+      call.parts.erase(call.parts.begin() + 1);
+      return of_routine(call, routine);
+    }
+    differ(e.line, name + " is no routine of the run");
   }
 
   CppExpression of_routine(const CppExpression& e, const Routine& routine) {
@@ -268,13 +310,15 @@ class AddressReader {
 
   CppFunction function_;
   const Program& code_;
+  const Propagator* run_;
   std::set<std::string> records_, arrays_;  // arguments that are addresses
 };
 
 }  // namespace
 
-CppFunction without_addresses(const CppFunction& written, const Program& code) {
-  return AddressReader(written, code).run();
+CppFunction without_addresses(const CppFunction& written, const Program& code,
+                              const Propagator* run) {
+  return AddressReader(written, code, run).run();
 }
 
 }  // namespace hamgen

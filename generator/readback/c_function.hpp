@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "generator/program/program.hpp"
+#include "generator/program/propagator.hpp"
 #include "generator/readback/syntax.hpp"
 
 namespace hamgen {
@@ -12,6 +12,8 @@ namespace hamgen {
 // `written` has the names of `cpp_words`.  Records, which C gives by their addresses, become
 // references, and what the fixed blocks do members of the objects that they do it to.  Where an
 // address stands for a value, or a value for an address, this throws TextDifference.
-[[nodiscard]] CppFunction without_addresses(const CppFunction& written, const Program& code);
+// `run`: what a run is, if the function is given one; the address of it is left out.
+[[nodiscard]] CppFunction without_addresses(const CppFunction& written, const Program& code,
+                                            const Propagator* run = nullptr);
 
 }  // namespace hamgen

@@ -101,15 +101,14 @@ Pattern c_step_pattern() {
       "if (report.converged) *z = self.z; return report; }"};
 }
 
-std::vector<Pattern> c_propagator_patterns(const Propagator& propagator) {
-  std::vector<Pattern> patterns = {c_record_pattern(propagator.record)};
-  for (const Routine& routine : propagator.routines)
-    patterns.push_back({words_of(routine, {.c = true})});
-  patterns.push_back(make_pattern(propagator));
+std::vector<ShellPart> c_propagator_parts(const Propagator& propagator) {
+  std::vector<ShellPart> parts = {c_record_pattern(propagator.record)};
+  parts.insert(parts.end(), propagator.routines.begin(), propagator.routines.end());
+  parts.emplace_back(make_pattern(propagator));
   for (const Accessor& accessor : propagator.accessors) {
-    if (accessor.name == "time") patterns.push_back(time_pattern(accessor.place));
+    if (accessor.name == "time") parts.emplace_back(time_pattern(accessor.place));
   }
-  return patterns;
+  return parts;
 }
 
 }  // namespace hamgen

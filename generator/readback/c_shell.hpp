@@ -13,7 +13,7 @@ namespace hamgen {
 [[nodiscard]] Pattern c_defaults_pattern(const Record& parameters);
 [[nodiscard]] Pattern c_start_pattern(const Record& start);
 // The record of the Propagator and its functions, and the function step.
-[[nodiscard]] std::vector<Pattern> c_propagator_patterns(const Propagator& propagator);
+[[nodiscard]] std::vector<ShellPart> c_propagator_parts(const Propagator& propagator);
 [[nodiscard]] Pattern c_step_pattern();
 
 }  // namespace hamgen

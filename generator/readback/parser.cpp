@@ -22,7 +22,7 @@ class CppReader {
  public:
   explicit CppReader(TokenCursor& cursor) : cursor_(cursor) {}
 
-  CppFunction function() {
+  CppFunction function(bool of_class) {
     while (cursor_.accept("[")) {
       cursor_.expect("[");
       cursor_.expect("nodiscard");
@@ -30,7 +30,7 @@ class CppReader {
       cursor_.expect("]");
     }
     cursor_.accept("static");
-    cursor_.expect("inline");
+    if (!of_class) cursor_.expect("inline");
     CppFunction result;
     result.line = cursor_.line();
     result.type = type();
@@ -121,7 +121,7 @@ class CppReader {
     cursor_.expect("{");
     while (!cursor_.accept("}")) {
       if (cursor_.at_end()) throw TextNotUnderstood(cursor_.line(), "a block without an end");
-      result.push_back(statement());
+      statement(result);
     }
     return result;
   }
@@ -129,17 +129,18 @@ class CppReader {
   std::vector<CppStatement> body() {
     if (cursor_.peek().is("{")) return block();
     std::vector<CppStatement> result;
-    result.push_back(statement());
+    statement(result);
     return result;
   }
 
-  CppStatement statement() {
+  // One, or those that declare the names of a list.
+  void statement(std::vector<CppStatement>& to) {
     const Deeper deeper(*this);
     const int line = cursor_.line();
     if (cursor_.peek().is("{"))
-      return {.kind = CppStatement::Kind::block, .line = line, .body = block()};
-    if (cursor_.accept("if")) return branch(line);
-    if (cursor_.accept("for")) return loop(line);
+      return to.push_back({.kind = CppStatement::Kind::block, .line = line, .body = block()});
+    if (cursor_.accept("if")) return to.push_back(branch(line));
+    if (cursor_.accept("for")) return to.push_back(loop(line));
     CppStatement result{.line = line};
     if (cursor_.accept("return")) {
       result.kind = CppStatement::Kind::result;
@@ -150,11 +151,15 @@ class CppReader {
       result.kind = CppStatement::Kind::next;
     } else if (declares()) {
       result = declaration();
+      while (cursor_.accept(",")) {
+        to.push_back(result);
+        result.name = cursor_.word();
+      }
     } else {
       result.value = expression();
     }
     cursor_.expect(";");
-    return result;
+    to.push_back(std::move(result));
   }
 
   CppStatement branch(int line) {
@@ -170,6 +175,13 @@ class CppReader {
     CppStatement result{.kind = CppStatement::Kind::loop, .line = line};
     cursor_.expect("(");
     result.first.push_back(declaration());
+    if (cursor_.accept(":")) {
+      result.kind = CppStatement::Kind::each;
+      result.value = expression();
+      cursor_.expect(")");
+      result.body = body();
+      return result;
+    }
     cursor_.expect(";");
     if (!cursor_.peek().is(";")) result.value = expression();
     cursor_.expect(";");
@@ -197,6 +209,7 @@ class CppReader {
     CppStatement result{.kind = CppStatement::Kind::declaration, .line = cursor_.line()};
     cursor_.accept("const");
     result.type = type();
+    if (cursor_.accept("&")) result.type += "&";
     result.name = cursor_.word();
     result.sizes = sizes();
     if (cursor_.accept("=")) result.value = expression();
@@ -256,6 +269,7 @@ class CppReader {
   CppExpression primary() {
     const CppToken& token = cursor_.peek();
     const int line = token.line;
+    if (token.is("static_cast") || (token.is("(") && cursor_.peek(1).is("void"))) return unused();
     if (cursor_.accept("(")) {
       CppExpression inner = expression();
       cursor_.expect(")");
@@ -269,6 +283,17 @@ class CppReader {
     std::string name = cursor_.word();
     while (cursor_.accept("::")) name += "::" + cursor_.word();
     return {ParsedKind::name, std::move(name), {}, line};
+  }
+
+  // static_cast<void>(x), (void)x
+  CppExpression unused() {
+    const int line = cursor_.line();
+    if (cursor_.accept("static_cast")) {
+      for (const char* sign : {"<", "void", ">"}) cursor_.expect(sign);
+      return {ParsedKind::prefix, kUnused, {primary()}, line};
+    }
+    for (const char* sign : {"(", "void", ")"}) cursor_.expect(sign);
+    return {ParsedKind::prefix, kUnused, {unary()}, line};
   }
 
   CppExpression list() {
@@ -315,7 +340,9 @@ class CppReader {
 
 }  // namespace
 
-CppFunction read_function(TokenCursor& cursor) { return CppReader(cursor).function(); }
+CppFunction read_function(TokenCursor& cursor, bool of_class) {
+  return CppReader(cursor).function(of_class);
+}
 CppExpression read_cpp_expression(TokenCursor& cursor) { return CppReader(cursor).expression(); }
 
 }  // namespace hamgen

@@ -24,20 +24,10 @@ void expect_constant(TokenCursor& cursor, const Rational& exact, const Precision
 void expect_pattern(TokenCursor& cursor, const Pattern& pattern, const Precision& precision,
                     const std::string& what) {
   std::size_t next_constant = 0;
-  std::vector<bool> braces;  // that are open
   for (const CppToken& token : tokens_of(pattern.text)) {
     if (token.kind == CppToken::Kind::end) return;
     if (token.is(kConstant)) {
       expect_constant(cursor, pattern.constants.at(next_constant++), precision, what);
-      continue;
-    }
-    if (token.is(kOpen)) {
-      braces.push_back(cursor.accept("{"));
-      continue;
-    }
-    if (token.is(kClose)) {
-      if (braces.back()) cursor.expect("}");
-      braces.pop_back();
       continue;
     }
     const CppToken& found = cursor.peek();

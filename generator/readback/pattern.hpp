@@ -8,11 +8,8 @@
 
 namespace hamgen {
 
-// C++ in which the word kConstant stands for the next of `constants`, and what is between kOpen and
-// kClose may stand in braces.
+// C++ in which the word kConstant stands for the next of `constants`.
 inline constexpr const char* kConstant = "CONSTANT_";
-inline constexpr const char* kOpen = "OPEN_";
-inline constexpr const char* kClose = "CLOSE_";
 struct Pattern {
   std::string text;
   std::vector<Rational> constants = {};

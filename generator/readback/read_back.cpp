@@ -187,23 +187,24 @@ class FileReader {
   void read(const Record& record) { expect(record_pattern(record, system_), record.name); }
   void read(const ArrayMatrix& matrix) { expect(matrix_pattern(matrix), "Matrix"); }
   void read(const Propagator& propagator) {
-    expect(propagator_pattern(propagator, {.n = n_}), "Propagator");
+    for (const ShellPart& part : propagator_parts(propagator)) {
+      if (const auto* pattern = std::get_if<Pattern>(&part)) expect(*pattern, "Propagator");
+      if (const auto* routine = std::get_if<Routine>(&part)) read(*routine, &propagator.record);
+    }
   }
   void read(const StepOfPropagator&) { expect(step_pattern(), "step"); }
   void read(const Watch& watch) {
     expect(watch_pattern(watch, program_.environment), "WatchedPropagator");
   }
-  void read(const Routine& routine) {
-    // It keeps what a run does.
-    if (routine.name == "step") return expect({words_of(routine, {.n = n_})}, "step");
+  // `run`: what a run keeps, of a routine that is given it.
+  void read(const Routine& routine, const Record* run = nullptr) {
     const int line = cursor_.line();
-    const CppFunction function = read_function(cursor_);
+    const CppFunction function = read_function(cursor_, run != nullptr);
     if (function.name != routine.name)
       throw TextDifference(line, fmt::format("'{}' where {} belongs", function.name, routine.name));
-    RoutineReader reader(function, routine, precision_, n_);
-    reader.compare();
+    RoutineReader(function, routine, {.precision = precision_, .n = n_, .run = run}).compare();
     ++found_.routines;
-    found_.instructions += reader.instructions();
+    found_.instructions += instructions_of(routine.body);
   }
 
   void expect(const Pattern& pattern, const std::string& what) {

@@ -17,32 +17,33 @@ std::string shortened(std::string text) {
   return text;
 }
 
+bool is_number(const std::string& type) {
+  return type == "Real" || type == "bool" || type == "int" || type == "long long" ||
+         type == "Verdict";
+}
+
 }  // namespace
 
 RoutineReader::RoutineReader(const CppFunction& function, const Routine& routine,
-                             const Precision& precision, int n)
+                             const TextOf& text)
     : function_(function),
       routine_(routine),
-      scope_(precision, n),
+      c_(text.c),
+      scope_(text.precision, text.n),
       statements_(function.body),
-      end_line_(function.line) {}
+      end_line_(function.line) {
+  if (text.run == nullptr) return;
+  if (c_) scope_.declare("self", {Meaning::Kind::object, "self"}, function.line);
+  for (const Field& field : text.run->fields) {
+    if (!c_)
+      scope_.declare(field.name + "_", {Meaning::Kind::object, "self." + field.name},
+                     function.line);
+  }
+}
 
 void RoutineReader::compare() {
   compare_signature();
-  const Result& result = routine_.result;
-  if (!result.object.empty()) {
-    const CppStatement& first = declaration(result.type, "what the routine returns");
-    if (first.value || !first.sizes.empty())
-      throw TextDifference(first.line, fmt::format("{} begins with a value", first.name));
-    scope_.declare(first.name, {Meaning::Kind::object, result.object}, first.line);
-  }
-  compare(routine_.body);
-  const bool filled = !result.object.empty() && result.type != "StepReport";
-  if (filled) {
-    const CppStatement& last = next(CppStatement::Kind::result, "the routine's end");
-    if (!last.value || !is_place(*last.value, {result.object}))
-      throw TextDifference(last.line, "returns something else than " + result.object);
-  }
+  compare(written::body_of(routine_, {.references = !c_, .eigen = !scope_.precision().is_quad()}));
   if (const CppStatement* more = peek())
     throw TextDifference(more->line, fmt::format("a statement that {} has not", routine_.name));
 }
@@ -63,7 +64,8 @@ void RoutineReader::compare_signature() {
 void RoutineReader::compare_argument(const CppArgument& written, const Argument& argument) {
   using Pass = CppArgument::Pass;
   const bool number = argument.record.empty() && argument.sizes.empty();
-  const std::string type = argument.record.empty() ? "Real" : argument.record;
+  std::string type = argument.record.empty() ? "Real" : argument.record;
+  if (!argument.count.empty()) type = argument.count;
   Pass pass = argument.sizes.empty() ? Pass::reference : Pass::array;
   if (argument.decays) pass = Pass::pointer;
   if (number && !argument.decays) pass = Pass::value;
@@ -80,39 +82,28 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
     throw TextDifference(function_.line, fmt::format("argument {} of {} is not the program's",
                                                      argument.name, routine_.name));
   if (written.name.empty()) return;
-  scope_.declare(
-      written.name,
-      {pass == Pass::value ? Meaning::Kind::number : Meaning::Kind::object, argument.name},
-      function_.line);
+  const Meaning::Kind kind = !argument.count.empty() ? Meaning::Kind::index
+                             : pass == Pass::value   ? Meaning::Kind::number
+                                                     : Meaning::Kind::object;
+  scope_.declare(written.name, {kind, argument.name}, function_.line);
 }
 
-void RoutineReader::compare(const Body& body) {
-  for (const Instruction& instruction : body) {
-    const auto* let = std::get_if<Let>(&instruction.value);
-    if (let != nullptr && kept_.contains(let->symbol)) {
-      (*this)(Assign{let->symbol, let->value});
-    } else {
-      std::visit(*this, instruction.value);
-    }
-    ++instructions_;
-  }
+void RoutineReader::compare(const written::Body& body) {
+  for (const written::Statement& statement : body)
+    std::visit([this](const auto& node) { read(node); }, statement.value);
 }
 
-void RoutineReader::within(const CppStatement& statement, const std::function<void()>& inside) {
+// The body in these statements, all of them.  The caller enters a frame.
+void RoutineReader::compare_inside(const CppStatement& statement, const written::Body& body) {
   const Statements outer = statements_;
   const std::size_t at = at_;
   statements_ = statement.body;
   at_ = 0;
-  inside();
+  compare(body);
   if (const CppStatement* more = peek())
     throw TextDifference(more->line, fmt::format("a statement that {} has not", routine_.name));
   statements_ = outer;
   at_ = at;
-}
-
-void RoutineReader::compare_inside(const CppStatement& statement, const Body& body) {
-  scope_.enter();
-  within(statement, [&] { compare(body); });
   scope_.leave();
 }
 
@@ -131,85 +122,153 @@ const CppStatement& RoutineReader::next(CppStatement::Kind kind, const std::stri
   return *statement;
 }
 
-const CppStatement& RoutineReader::declaration(const std::string& type, const std::string& what) {
+const CppStatement& RoutineReader::declaration(std::string type, const std::string& what) {
   const CppStatement& found = next(CppStatement::Kind::declaration, what);
-  if (found.type != type)
+  std::erase(type, ' ');
+  std::string written = found.type;
+  std::erase(written, ' ');
+  if (written != type)
     throw TextDifference(found.line,
                          fmt::format("{} is a {}, not a {}", found.name, found.type, type));
   return found;
 }
 
-void RoutineReader::same(const MachineValue& written, const MachineValue& exact, int line,
-                         const std::string& what) {
-  if (!is_same(written, exact, scope_.precision()))
-    throw TextDifference(line, "not " + shortened(what));
+void RoutineReader::require_same(const CppExpression& e, const written::Value& value, int line,
+                                 const std::string& what) {
+  if (!same(e, value)) throw TextDifference(line, "not " + what);
 }
 
-void RoutineReader::local(const std::string& type, const std::string& symbol_name,
-                          const MachineValue& value) {
-  const CppStatement& found = declaration(type, symbol_name);
-  if (!found.value || !found.sizes.empty())
-    throw TextDifference(found.line, fmt::format("{} without its value", found.name));
-  same(scope_.value(*found.value), value, found.line, symbol_name + " of the program");
-  scope_.declare(found.name, {Meaning::Kind::number, symbol_name}, found.line);
-}
-
-void RoutineReader::object(const std::string& type, const std::string& name) {
-  const CppStatement& found = declaration(type, name);
-  if (found.value || !found.sizes.empty())
-    throw TextDifference(found.line, fmt::format("{} with a value", found.name));
-  scope_.declare(found.name, {Meaning::Kind::object, name}, found.line);
-}
-
-void RoutineReader::array(const std::string& name, const std::vector<int>& sizes,
-                          const Values& values) {
-  const CppStatement& found = declaration("Real", name);
-  bool right = found.value && found.sizes.size() == sizes.size();
-  for (std::size_t i = 0; right && i < sizes.size(); ++i) {
-    right = scope_.index(found.sizes[i]) == AffineIndex{.constant = sizes[i], .factors = {}};
+void RoutineReader::read(const Declare& declare) {
+  for (const std::string& name : declare.objects) {
+    const CppStatement& found = declaration(declare.record, name);
+    if (found.value || !found.sizes.empty())
+      throw TextDifference(found.line, fmt::format("{} with a value", found.name));
+    scope_.declare(found.name, {Meaning::Kind::object, name}, found.line);
   }
-  if (!right) throw TextDifference(found.line, fmt::format("not the array {}", name));
-  same(scope_.value(*found.value), machine_call("{}", values), found.line,
-       "the values of the array " + name);
-  scope_.declare(found.name, {Meaning::Kind::object, name}, found.line);
 }
 
-void RoutineReader::assignment(const MachineValue& to, const std::string& sign,
-                               const MachineValue& value) {
-  const std::string what = to.name.substr(to.name.starts_with('@') ? 1 : 0);
-  const CppStatement& found = next(CppStatement::Kind::expression, what + " " + sign + " ...");
+void RoutineReader::read(const written::Define& define) {
+  const CppStatement& found = declaration(define.type, define.name);
+  bool right = found.value && found.sizes.size() == define.sizes.size();
+  for (std::size_t i = 0; right && i < define.sizes.size(); ++i) {
+    right = scope_.index(found.sizes[i]) == AffineIndex{.constant = define.sizes[i], .factors = {}};
+  }
+  if (!right) throw TextDifference(found.line, fmt::format("not {} with its value", define.name));
+  require_same(*found.value, define.value, found.line, define.name + " of the program");
+  const bool number = define.sizes.empty() && is_number(define.type);
+  scope_.declare(found.name, {number ? Meaning::Kind::number : Meaning::Kind::object, define.name},
+                 found.line);
+}
+
+// a = b, a += b and the like.
+void RoutineReader::read(const written::Set& set) {
+  const CppStatement& found = next(CppStatement::Kind::expression, "an assignment");
   const CppExpression& e = *found.value;
-  if (e.kind != CppExpression::Kind::binary || e.text.back() != '=' || e.text == "==" ||
-      e.text == "<=" || e.text == ">=")
-    throw TextDifference(found.line, fmt::format("not {} {} ...", what, sign));
-  same(scope_.value(e.parts[0]), to, found.line, "the assignment to " + what);
-  MachineValue right = scope_.value(e.parts[1]);
   // x -= a is x += -a.
-  const bool subtracted = e.text == "-=" && sign == "+=";
-  if (!subtracted && e.text != sign)
-    throw TextDifference(found.line, fmt::format("{} {} ..., not {}", what, e.text, sign));
-  same(subtracted ? -std::move(right) : right, value, found.line, what + " of the program");
+  const bool subtracted =
+      e.is_binary("-=") && set.sign == "+=" && set.value.kind == written::Value::Kind::formula;
+  if (!subtracted && !e.is_binary(set.sign))
+    throw TextDifference(found.line, "not an assignment by " + set.sign);
+  require_same(e.parts[0], set.to, found.line, "the assignment of the program");
+  if (!subtracted)
+    return require_same(e.parts[1], set.value, found.line, "the value of the program");
+  if (!is_same(-scope_.value(e.parts[1]), meant(set.value.formula), scope_.precision()))
+    throw TextDifference(found.line, "not the value of the program");
 }
 
-void RoutineReader::call(const MachineValue& value) {
-  const CppStatement& found = next(CppStatement::Kind::expression, "a call of " + value.name);
-  same(scope_.value(*found.value), value, found.line, "the call of " + value.name);
+void RoutineReader::read(const written::Do& action) {
+  const std::string what = "the program's call of " + action.value.text;
+  const CppStatement& found = next(CppStatement::Kind::expression, what);
+  require_same(*found.value, action.value, found.line, what);
 }
 
-const CppStatement& RoutineReader::branch(const MachineValue& condition) {
+void RoutineReader::read(const written::For& node) {
+  const CppStatement& found = loop(node.range);
+  compare_inside(found, node.body);
+}
+
+void RoutineReader::read(const written::Loop& node) {
+  const CppStatement& found = counter(node.type, "an iteration");
+  const CppStatement& begin = found.first.front();
+  bool limited = !found.value;
+  if (!node.limit.empty()) {
+    limited = found.value && found.value->is_binary("<") &&
+              found.value->parts[0].is_name(begin.name) && found.value->parts[1].text == node.limit;
+  }
+  const bool first = begin.value->kind == CppExpression::Kind::number &&
+                     begin.value->text == std::to_string(node.first);
+  if (!first || !limited) throw TextDifference(found.line, "not an iteration");
+  scope_.enter();
+  const bool counts = node.limit.empty();
+  scope_.declare(begin.name, {counts ? Meaning::Kind::number : Meaning::Kind::index, node.index},
+                 begin.line);
+  compare_inside(found, node.body);
+}
+
+void RoutineReader::read(const written::Each& node) {
+  const CppStatement& found = next(CppStatement::Kind::each, "a loop over " + node.name);
+  const CppStatement& one = found.first.front();
+  const bool right = one.type == node.type + "&" && !one.value && one.sizes.empty() &&
+                     scope_.is_place(*found.value, {"self." + node.name});
+  if (!right) throw TextDifference(found.line, "not a loop over " + node.name);
+  scope_.enter();
+  scope_.declare(one.name, {Meaning::Kind::object, node.name}, one.line);
+  compare_inside(found, node.body);
+}
+
+void RoutineReader::read(const written::While& node) {
+  const CppStatement& found = next(CppStatement::Kind::loop, "a refinement");
+  const CppStatement& begin = found.first.front();
+  const bool plain = begin.type == "bool" && begin.value && begin.value->is_name("true") &&
+                     found.value && found.value->is_name(begin.name) && !found.advance;
+  if (!plain) throw TextDifference(found.line, "not a refinement");
+  scope_.enter();
+  scope_.declare(begin.name, {Meaning::Kind::number, "more "}, begin.line);
+  compare_inside(found, node.body);
+}
+
+void RoutineReader::read(const written::If& branch) {
   const CppStatement& found = next(CppStatement::Kind::branch, "a condition");
-  same(scope_.value(*found.value), condition, found.line, "the condition of the program");
+  require_same(*found.value, branch.condition, found.line, "the condition of the program");
+  scope_.enter();
+  compare_inside(found, branch.body);
+}
+
+void RoutineReader::read(const written::Block& block) {
+  const CppStatement& found = next(CppStatement::Kind::block, "a block");
+  scope_.enter();
+  compare_inside(found, block.body);
+}
+
+void RoutineReader::read(const Break& /*leave*/) {
+  next(CppStatement::Kind::leave, "the end of the iteration");
+}
+void RoutineReader::read(const written::Continue& /*next*/) {
+  next(CppStatement::Kind::next, "the next iteration");
+}
+
+void RoutineReader::read(const written::Return& end) {
+  const CppStatement& found = next(CppStatement::Kind::result, "the result");
+  if (!found.value) throw TextDifference(found.line, "returns nothing");
+  require_same(*found.value, end.value, found.line, "the result of the program");
+}
+
+// for (type name = ...; ...; ++name)
+const CppStatement& RoutineReader::counter(const std::string& type, const std::string& what) {
+  const CppStatement& found = next(CppStatement::Kind::loop, what);
+  const CppStatement& begin = found.first.front();
+  const bool counts = begin.type == type && begin.value && begin.sizes.empty() && found.advance &&
+                      found.advance->kind == CppExpression::Kind::prefix &&
+                      found.advance->text == "++" && found.advance->parts[0].is_name(begin.name);
+  if (!counts) throw TextDifference(found.line, "not " + what);
   return found;
 }
 
-// The caller enters a frame and leaves it.
+// The caller leaves the frame.
 const CppStatement& RoutineReader::loop(const KernelRange& range) {
-  const CppStatement& found = next(CppStatement::Kind::loop, "a loop over " + range.index);
+  const CppStatement& found = counter("int", "a loop over " + range.index);
   const CppStatement& begin = found.first.front();
-  const bool plain = begin.type == "int" && begin.value && begin.sizes.empty() && found.value &&
-                     found.advance && found.advance->kind == CppExpression::Kind::prefix &&
-                     found.advance->text == "++" && found.advance->parts[0].is_name(begin.name);
-  if (!plain) throw TextDifference(found.line, "not a loop over " + range.index);
+  if (!found.value) throw TextDifference(found.line, "not a loop over " + range.index);
   const AffineIndex lower = scope_.index(*begin.value);
   const CppExpression& condition = *found.value;
   const bool strict = condition.is_binary("<");
@@ -225,61 +284,10 @@ const CppStatement& RoutineReader::loop(const KernelRange& range) {
   return found;
 }
 
-const CppStatement& RoutineReader::endless(const std::string& symbol_name) {
-  const CppStatement& found = next(CppStatement::Kind::loop, "an iteration");
-  const CppStatement& begin = found.first.front();
-  const bool counts = begin.type == "int" && begin.value && begin.sizes.empty() && !found.value &&
-                      found.advance && found.advance->kind == CppExpression::Kind::prefix &&
-                      found.advance->text == "++" && found.advance->parts[0].is_name(begin.name);
-  if (!counts) throw TextDifference(found.line, "not an iteration");
-  same(scope_.value(*begin.value), machine_symbol("#1"), begin.line, "counted from 1");
-  scope_.enter();
-  scope_.declare(begin.name, {Meaning::Kind::number, symbol_name}, begin.line);
-  return found;
-}
-
-bool RoutineReader::is_place(const CppExpression& written, const Place& place) const {
-  if (place.indices.empty()) {
-    const std::optional<Place> found = scope_.place(written);
-    return found && *found == place;
-  }
-  // An array from an element on: array + n + 2 * i.
-  if (!written.is_binary("+") || place.indices.size() != 1) return false;
-  AffineIndex offset;
-  const CppExpression* array = &written;
-  for (; array->is_binary("+"); array = &array->parts[0])
-    offset = plus(offset, scope_.index(array->parts[1]), 1);
-  const std::optional<Place> found = scope_.place(*array);
-  return found && *found == Place{place.object, place.field} && offset == place.indices.front();
-}
-
-bool RoutineReader::is_called(const CppExpression& written, const Call& call) const {
-  if (written.kind != CppExpression::Kind::call || !written.parts[0].is_name(call.routine))
-    return false;
-  if (scope_.place(written.parts[0])) return false;  // a local of that name
-  if (written.parts.size() != call.arguments.size() + 1) return false;
-  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
-    if (!is_place(written.parts[i + 1], call.arguments[i])) return false;
-  }
-  return true;
-}
-
-void RoutineReader::failure() {
-  const CppStatement& found = next(CppStatement::Kind::result, "the end without success");
-  const bool report = routine_.result.type == "StepReport";
-  const bool right = found.value && (report ? is_place(*found.value, {routine_.result.object})
-                                            : found.value->is_name("false"));
-  if (!right) throw TextDifference(found.line, "not the end without success");
-}
-
 std::string RoutineReader::meaning_of(const std::string& name) const {
   const auto place = routine_.places.find(name);
   if (place != routine_.places.end()) return symbol_of(place->second);
   return name == "pi" ? "::pi" : name;
-}
-
-MachineValue RoutineReader::symbol(const std::string& name) const {
-  return machine_symbol(meaning_of(name));
 }
 
 MachineValue RoutineReader::meant(const Expression& e) {
@@ -287,6 +295,15 @@ MachineValue RoutineReader::meant(const Expression& e) {
     throw TextDifference(end_line_,
                          "the operations of the program do not compute " + shortened(to_text(e)));
   return machine_value(e, [this](const std::string& name) { return meaning_of(name); });
+}
+
+int instructions_of(const Body& body) {
+  int count = 0;
+  for (const Instruction& instruction : body) {
+    ++count;
+    for (const Body* inner : inner_bodies(instruction)) count += instructions_of(*inner);
+  }
+  return count;
 }
 
 }  // namespace hamgen

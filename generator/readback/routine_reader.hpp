@@ -1,119 +1,89 @@
-// One function of the text against one routine of the program.
+// One function of the text against one routine of the program: its statements in
+// routine_reader.cpp, the values in them in routine_values.cpp.
 #pragma once
 
-#include <functional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/program.hpp"
+#include "generator/program/written_code.hpp"
 #include "generator/readback/text_scope.hpp"
 
 namespace hamgen {
 
+// What a routine stands in.
+struct TextOf {
+  const Precision& precision;
+  int n = 0;                    // what it calls n, else 0
+  bool c = false;               // C, as `without_addresses` leaves it
+  const Record* run = nullptr;  // what a run keeps
+};
+
 // Throws TextDifference at the first statement that is not the routine's, TextNotUnderstood where
-// the text cannot be read.  n: what the text calls n, else 0.
+// the text cannot be read.
 class RoutineReader {
  public:
-  RoutineReader(const CppFunction& function, const Routine& routine, const Precision& precision,
-                int n);
+  RoutineReader(const CppFunction& function, const Routine& routine, const TextOf& text);
 
   void compare();
-  // How many instructions of the routine were found in the text.
-  [[nodiscard]] int instructions() const { return instructions_; }
-
-  void operator()(const Let& let);
-  void operator()(const Array& array);
-  void operator()(const Matrix& matrix);
-  void operator()(const Copy& copy);
-  void operator()(const Assign& assign);
-  void operator()(const Collect& sum);
-  void operator()(const Accumulate& sum);
-  void operator()(const Clear& clear);
-  void operator()(const Put& put);
-  void operator()(const SetFlag& set);
-  void operator()(const For& loop);
-  void operator()(const Scope& scope);
-  void operator()(const If& branch);
-  void operator()(const Call& call);
-  void operator()(const Alternate& alternate);
-  void operator()(const Factorise& factorise);
-  void operator()(const SolveFactorised& solve);
-  void operator()(const Invert& invert);
-  void operator()(const Iterate& iterate);
-  void operator()(const IterateArray& iterate);
-  void operator()(const Refine& refine);
-  void operator()(const RefineArray& refine);
-  void operator()(const Sweep& sweep);
-  // Read word by word: see run_words.hpp.
-  void operator()(const InstructionOfRun auto&) { internal_error("a step that keeps a history"); }
-  void operator()(const Return& end);
 
  private:
   using Statements = std::span<const CppStatement>;
-  using Values = std::vector<MachineValue>;
 
   void compare_signature();
   void compare_argument(const CppArgument& written, const Argument& argument);
-  void compare(const Body& body);
-  // The body in these statements, all of them, with names of its own.
-  void within(const CppStatement& statement, const std::function<void()>& inside);
-  void compare_inside(const CppStatement& statement, const Body& body);
+  void compare(const written::Body& body);
+  void compare_inside(const CppStatement& statement, const written::Body& body);
+
+  void read(const Declare& declare);
+  void read(const written::Define& define);
+  void read(const written::Set& set);
+  void read(const written::Do& action);
+  void read(const written::For& node);
+  void read(const written::Loop& node);
+  void read(const written::While& node);
+  void read(const written::If& branch);
+  void read(const written::Block& block);
+  void read(const Break& leave);
+  void read(const written::Continue& next);
+  void read(const written::Return& end);
+  void read(const written::Each& node);
 
   // The next statement, which `what` is expected of.
   const CppStatement& next(CppStatement::Kind kind, const std::string& what);
   [[nodiscard]] const CppStatement* peek() const;
   // A declaration, of which nothing is read but that it has this type.
-  const CppStatement& declaration(const std::string& type, const std::string& what);
-  // TYPE name = value; the name means `symbol`.
-  void local(const std::string& type, const std::string& symbol, const MachineValue& value);
-  void object(const std::string& type, const std::string& name);
-  void array(const std::string& name, const std::vector<int>& sizes, const Values& values);
-  // a = b, a += b and the like.
-  void assignment(const MachineValue& to, const std::string& sign, const MachineValue& value);
-  // A statement that is this call.
-  void call(const MachineValue& value);
-  const CppStatement& branch(const MachineValue& condition);
+  const CppStatement& declaration(std::string type, const std::string& what);
+  const CppStatement& counter(const std::string& type, const std::string& what);
   const CppStatement& loop(const KernelRange& range);
-  // for (int name = 1;; ++name), which `symbol` is what it counts in.
-  const CppStatement& endless(const std::string& symbol);
-  void same(const MachineValue& written, const MachineValue& exact, int line,
-            const std::string& what);
-  [[nodiscard]] bool is_place(const CppExpression& written, const Place& place) const;
-  [[nodiscard]] bool is_called(const CppExpression& written, const Call& call) const;
-  // return false; or return report;
-  void failure();
-  void leave_with(const std::string& jump);
+  void require_same(const CppExpression& e, const written::Value& value, int line,
+                    const std::string& what);
+
+  [[nodiscard]] bool same(const CppExpression& e, const written::Value& v);
+  // The parts of the expression from `first` on.
+  [[nodiscard]] bool same_parts(const CppExpression& e, std::size_t first, const written::Value& v,
+                                std::size_t first_of_value);
+  [[nodiscard]] bool is_free_name(const CppExpression& e, const std::string& name) const;
+  [[nodiscard]] bool is_largest(const CppExpression& e) const;
+  [[nodiscard]] bool is_action(const CppExpression& e, const written::Value& v);
+  [[nodiscard]] bool is_joined(const CppExpression& e, const written::Value& v);
+  [[nodiscard]] bool is_given(const CppExpression& e, const Place& place) const;
 
   [[nodiscard]] MachineValue meant(const Expression& e);
   [[nodiscard]] std::string meaning_of(const std::string& symbol) const;
-  [[nodiscard]] MachineValue symbol(const std::string& name) const;
-  [[nodiscard]] MachineValue magnitude(const MachineValue& value) const;
-  [[nodiscard]] MachineValue length(const Unknown& u);
-  [[nodiscard]] MachineValue length(const UnknownArray& u);
-
-  void newton(const Iterate& iterate);
-  void fixed_point(const Iterate& iterate);
-  void newton(const IterateArray& iterate);
-  void contraction(const IterateArray& iterate);
-  void distance_of(const IterateArray& iterate);
-  void end_newton();
-  void end_contraction(const MachineValue& size);
-  void for_elements(const std::vector<KernelRange>& ranges, const std::function<void()>& lines,
-                    std::size_t depth = 0);
-  void refine_body(const Refine& refine, const std::string& kept);
 
   const CppFunction& function_;
   const Routine& routine_;
+  bool c_;
   TextScope scope_;
   Statements statements_;
   std::size_t at_ = 0;
   int end_line_ = 0;  // of the function, as far as it is known
-  std::set<std::string> kept_;
-  bool iterates_ = false;
-  int instructions_ = 0;
 };
+
+// How many there are, with those inside them.
+[[nodiscard]] int instructions_of(const Body& body);
 
 }  // namespace hamgen

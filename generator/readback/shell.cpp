@@ -77,24 +77,28 @@ Pattern record_pattern(const Record& record, const std::string& system) {
   return pattern;
 }
 
-Pattern propagator_pattern(const Propagator& propagator, const RunLanguage& language) {
+std::vector<ShellPart> propagator_parts(const Propagator& propagator) {
   const bool composed = !propagator.fractions.empty();
-  std::string text = "class Propagator { public: ";
+  std::string begin = "class Propagator { public: ";
   for (const auto& [name, value] : propagator.constants)
-    text += fmt::format("static constexpr int {} = {};", name, value);
-  text += constructor_text(propagator);
+    begin += fmt::format("static constexpr int {} = {};", name, value);
+  std::vector<ShellPart> parts = {
+      Pattern{begin + constructor_text(propagator), propagator.fractions}};
   for (const Routine& routine : propagator.routines) {
-    if (routine.name != "substep") text += words_of(routine, language);
+    if (routine.name != "substep") parts.emplace_back(routine);
   }
+  std::string accessors;
   for (const Accessor& accessor : propagator.accessors) {
     const std::string value =
         accessor.place ? kept_text(*accessor.place) : "static_cast<Real>(steps_) * h_";
     const std::string type = accessor.type == "Real" ? "Real" : "const " + accessor.type + "&";
-    text += fmt::format("[[nodiscard]] {} {}() const {{ return {}; }}", type, accessor.name, value);
+    accessors +=
+        fmt::format("[[nodiscard]] {} {}() const {{ return {}; }}", type, accessor.name, value);
   }
-  text += "private: ";
-  if (composed) text += words_of(propagator.routines.front(), language);
-  return {text + member_text(propagator.record) + "};", propagator.fractions};
+  parts.emplace_back(Pattern{accessors + "private: "});
+  if (composed) parts.emplace_back(propagator.routines.front());
+  parts.emplace_back(Pattern{member_text(propagator.record) + "};"});
+  return parts;
 }
 
 Pattern step_pattern() {

@@ -3,16 +3,19 @@
 #pragma once
 
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "generator/program/contents.hpp"
 #include "generator/readback/pattern.hpp"
-#include "generator/readback/run_words.hpp"
 
 namespace hamgen {
 
 // `system`: the namespace of the system, whose record this one may extend.
 [[nodiscard]] Pattern record_pattern(const Record& record, const std::string& system);
-[[nodiscard]] Pattern propagator_pattern(const Propagator& propagator, const RunLanguage& language);
+// The class: its routines, which are read one by one, and what stands between them.
+using ShellPart = std::variant<Pattern, Routine>;
+[[nodiscard]] std::vector<ShellPart> propagator_parts(const Propagator& propagator);
 // step, by a Propagator.
 [[nodiscard]] Pattern step_pattern();
 // "using Matrix = BandMatrix<8, 1>;" with what it needs.

@@ -14,7 +14,7 @@ struct CppExpression {
     name,    // "std::sin"
     number,  // as it is written
     quoted,
-    prefix,   // text: - ! ++ -- & *
+    prefix,   // text: - ! ++ -- & *, or kUnused
     postfix,  // text: ++ --
     binary,   // text: the operator; of assignments too
     choice,   // a ? b : c
@@ -37,14 +37,17 @@ struct CppExpression {
   }
 };
 
+// What stands before a value that nothing is wanted of.
+inline constexpr const char* kUnused = "(void)";
+
 struct CppStatement {
-  enum class Kind { declaration, expression, block, branch, loop, result, leave, next };
+  enum class Kind { declaration, expression, block, branch, loop, each, result, leave, next };
   Kind kind = Kind::expression;
   int line = 0;
   std::string type = {};  // of a declaration, without const: "DenseMatrix<4>"
   std::string name = {};
   std::vector<CppExpression> sizes = {};
-  // The value that is declared or returned, the expression, or the condition.
+  // The value that is declared or returned, the expression, the condition, or what a loop is over.
   std::optional<CppExpression> value = {};
   std::vector<CppStatement> first = {};       // of a loop: one declaration
   std::optional<CppExpression> advance = {};  // of a loop
@@ -69,7 +72,7 @@ struct CppFunction {
 };
 
 // Throws TextNotUnderstood.
-[[nodiscard]] CppFunction read_function(TokenCursor& cursor);
+[[nodiscard]] CppFunction read_function(TokenCursor& cursor, bool of_class = false);
 [[nodiscard]] CppExpression read_cpp_expression(TokenCursor& cursor);
 
 }  // namespace hamgen

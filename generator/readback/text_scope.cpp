@@ -84,11 +84,22 @@ std::optional<Place> TextScope::place(const CppExpression& e) const {
   std::string field;
   for (; base->kind == TermKind::member; base = &base->parts[0])
     field = base->text + (field.empty() ? "" : ".") + field;
+  if (base->kind == TermKind::index) {
+    // An element of a list of records: start_[i].known
+    const std::optional<Place> record = place(*base);
+    if (!record) return {};
+    return Place{to_text(*record), field, std::move(indices)};
+  }
   if (base->kind != TermKind::name) return {};
   const Meaning* meaning = find(base->text);
-  if (meaning == nullptr || meaning->kind == Meaning::Kind::index) return {};
-  if (meaning->kind == Meaning::Kind::number && (!field.empty() || !indices.empty())) return {};
+  if (meaning == nullptr) return {};
+  if (meaning->kind != Meaning::Kind::object && (!field.empty() || !indices.empty())) return {};
   return Place{meaning->name, field, std::move(indices)};
+}
+
+bool TextScope::is_place(const CppExpression& e, const Place& exact) const {
+  const std::optional<Place> found = place(e);
+  return found && to_text(*found) == to_text(exact);
 }
 
 MachineValue TextScope::value(const CppExpression& e) const {

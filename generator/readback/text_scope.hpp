@@ -39,6 +39,7 @@ class TextScope {
   [[nodiscard]] AffineIndex index(const CppExpression& e) const;
   // An object, a field or an element; none for anything else.
   [[nodiscard]] std::optional<Place> place(const CppExpression& e) const;
+  [[nodiscard]] bool is_place(const CppExpression& e, const Place& exact) const;
   [[nodiscard]] const Precision& precision() const { return precision_; }
 
  private:
