@@ -37,12 +37,6 @@ std::string CDialect::block(const std::string& name) const {
   return "hamgen_" + name + function_suffix(scalar);
 }
 
-std::string CDialect::declaration(const std::string& record_name, const std::string& object) const {
-  // The rules of a start do not begin with zeros.
-  const std::string value = record_name == "Start" ? named("start") + "()" : "{0}";
-  return fmt::format("{} {} = {};", record(record_name), object, value);
-}
-
 std::string CDialect::argument(const Argument& argument, const std::string& name,
                                const std::string& sizes) const {
   const std::string constant = argument.changes ? "" : "const ";

@@ -27,9 +27,10 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name == "Start" ? named("start") + "()" : "(" + record(name) + "){0}";
   }
-  [[nodiscard]] std::string empty_array() const override { return "{0}"; }
   [[nodiscard]] std::string declaration(const std::string& record_name,
-                                        const std::string& object) const override;
+                                        const std::string& object) const override {
+    return record(record_name) + " " + object + " = {0};";
+  }
   [[nodiscard]] bool has_references() const override { return false; }
   [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
                                      const std::string& sizes) const override;
@@ -41,9 +42,6 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string kept(const std::string& name) const override { return "self->" + name; }
   [[nodiscard]] std::string call_of_run(const std::string& routine_name,
                                         const std::string& arguments) const override;
-  [[nodiscard]] std::string unused(const std::string& value) const override {
-    return "(void)" + value;
-  }
   [[nodiscard]] std::string verdict(const std::string& name) const override;
 
   // Of the system where all methods have it, else of the method.

@@ -17,14 +17,9 @@ class CppDialect : public Dialect {
     return "Real(" + integer + ")";
   }
   [[nodiscard]] std::string function(const std::string& name) const override;
-  [[nodiscard]] std::string record(const std::string& name) const override { return name; }
-  [[nodiscard]] std::string routine(const std::string& name) const override { return name; }
-  [[nodiscard]] std::string block(const std::string& name) const override { return name; }
-  [[nodiscard]] std::string constant(const std::string& name) const override { return name; }
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }
-  [[nodiscard]] std::string empty_array() const override { return "{}"; }
   [[nodiscard]] std::string declaration(const std::string& record_name,
                                         const std::string& object) const override {
     return record_name + " " + object + ";";
@@ -41,9 +36,6 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string call_of_run(const std::string& routine_name,
                                         const std::string& arguments) const override {
     return routine_name + "(" + arguments + ")";
-  }
-  [[nodiscard]] std::string unused(const std::string& value) const override {
-    return "static_cast<void>(" + value + ")";
   }
   [[nodiscard]] std::string verdict(const std::string& name) const override {
     return "Verdict::" + name;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/written_code.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -44,7 +46,10 @@ class PieceWriter {
     out_.line();
   }
   void operator()(const Routine& routine) { print(out_, routine, context_.dialect, context_.used); }
-  void operator()(const ArrayMatrix& matrix) { write_matrix(out_, matrix); }
+  void operator()(const ArrayMatrix& matrix) {
+    out_.line(fmt::format("using Matrix = {};", written::type_of(matrix)));
+    out_.line();
+  }
   void operator()(const Propagator& propagator) { write_propagator(out_, context_, propagator); }
   void operator()(const Watch& watch) { write_watch(out_, context_, watch); }
   void operator()(const StepOfPropagator&) {

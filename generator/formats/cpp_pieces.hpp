@@ -8,7 +8,6 @@ namespace hamgen {
 void write_pieces(CodeWriter& out, EmitContext& context, const std::vector<Piece>& pieces);
 
 // Each in a file of its own.
-void write_matrix(CodeWriter& out, const ArrayMatrix& matrix);
 void write_propagator(CodeWriter& out, EmitContext& context, const Propagator& propagator);
 void write_watch(CodeWriter& out, const EmitContext& context, const Watch& watch);
 

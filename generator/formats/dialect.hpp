@@ -33,15 +33,14 @@ class Dialect {
   [[nodiscard]] virtual bool has_lanes() const { return false; }
   // Names that its routines use besides and a local must not have.
   [[nodiscard]] virtual std::vector<std::string> taken_names() const { return {}; }
-  // What the program calls a record or a routine, and what a block calls a function.
-  [[nodiscard]] virtual std::string record(const std::string& name) const = 0;
-  [[nodiscard]] virtual std::string routine(const std::string& name) const = 0;
-  [[nodiscard]] virtual std::string block(const std::string& name) const = 0;
-  // A number that the text defines: pi.
-  [[nodiscard]] virtual std::string constant(const std::string& name) const = 0;
-  // A record of zeros, and those of an array.
+  // What the program calls a record or a routine, what a block calls a function, and a number that
+  // the text defines: pi.
+  [[nodiscard]] virtual std::string record(const std::string& name) const { return name; }
+  [[nodiscard]] virtual std::string routine(const std::string& name) const { return name; }
+  [[nodiscard]] virtual std::string block(const std::string& name) const { return name; }
+  [[nodiscard]] virtual std::string constant(const std::string& name) const { return name; }
+  // A record of zeros.
   [[nodiscard]] virtual std::string empty_record(const std::string& name) const = 0;
-  [[nodiscard]] virtual std::string empty_array() const = 0;
   // "StepReport report;", with what its fields begin with.
   [[nodiscard]] virtual std::string declaration(const std::string& record_name,
                                                 const std::string& object) const = 0;
@@ -61,10 +60,9 @@ class Dialect {
   [[nodiscard]] virtual std::string kept(const std::string& name) const = 0;
   // A number of a record that is kept, or what is kept itself.
   [[nodiscard]] std::string kept_place(const Place& place) const;
-  // A call of a routine that is given that, and one of which nothing is wanted.
+  // A call of a routine that is given that.
   [[nodiscard]] virtual std::string call_of_run(const std::string& routine_name,
                                                 const std::string& arguments) const = 0;
-  [[nodiscard]] virtual std::string unused(const std::string& value) const = 0;
   // "Verdict::done"
   [[nodiscard]] virtual std::string verdict(const std::string& name) const = 0;
 };

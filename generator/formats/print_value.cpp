@@ -63,9 +63,7 @@ std::string RoutinePrinter::value(const written::Value& v) {
       return fmt::format("{} ? {} : {}", parts[0], parts[1], parts[2]);
     }
     case list:
-      return v.parts.empty() ? dialect_.empty_array() : "{" + arguments(v) + "}";
-    case unused:
-      return dialect_.unused(arguments(v));
+      return "{" + arguments(v) + "}";
   }
   return {};
 }

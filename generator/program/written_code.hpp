@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "generator/program/code.hpp"
+#include "generator/solvers/matrix_storage.hpp"
 
 namespace hamgen::written {
 
@@ -41,7 +42,6 @@ struct Value {
     joined,   // by the operator `text`
     choice,   // parts[0] ? parts[1] : parts[2]
     list,
-    unused,  // nothing is wanted of parts[0]
   };
   Kind kind = Kind::formula;
   std::string text = {};
@@ -125,7 +125,9 @@ struct Statement {
 
 // From what it returns, as that begins, to its end.
 [[nodiscard]] Body body_of(const Routine& routine, const Form& form);
-// The bodies inside a statement.
+// "BandMatrix<8, 1>"
+[[nodiscard]] std::string type_of(const ArrayMatrix& matrix);
+// The body inside a statement, if there is one.
 [[nodiscard]] const Body* inner_body(const Statement& statement);
 
 }  // namespace hamgen::written

@@ -108,12 +108,7 @@ class AddressReader {
     const CppExpression& given = *found.value;
     const bool zeros = given.kind == NodeKind::list && given.parts.size() == 1 &&
                        given.parts[0].kind == NodeKind::number && given.parts[0].text == "0";
-    const bool start = found.type == "Start" && is_start(given);
-    if (zeros && found.type == "Real") {
-      found.value->parts.clear();
-    } else if (start) {
-      found.value.reset();
-    } else if (zeros) {
+    if (zeros && found.type != "Real") {
       require_zeros(found.type, found.line);
       found.value.reset();
     } else {

@@ -256,6 +256,12 @@ class CppReader {
   }
 
   CppExpression unary() {
+    if (cursor_.peek().is("(") && cursor_.peek(1).is("void")) {
+      const Deeper deeper(*this);
+      const int line = cursor_.line();
+      for (const char* sign : {"(", "void", ")"}) cursor_.expect(sign);
+      return {ParsedKind::prefix, "(void)", {unary()}, line};
+    }
     for (const std::string_view sign : {"-", "!", "++", "--", "&", "*"}) {
       if (!cursor_.peek().is(sign)) continue;
       const Deeper deeper(*this);
@@ -269,7 +275,6 @@ class CppReader {
   CppExpression primary() {
     const CppToken& token = cursor_.peek();
     const int line = token.line;
-    if (token.is("static_cast") || (token.is("(") && cursor_.peek(1).is("void"))) return unused();
     if (cursor_.accept("(")) {
       CppExpression inner = expression();
       cursor_.expect(")");
@@ -282,18 +287,11 @@ class CppReader {
       return {ParsedKind::quoted, cursor_.take().text, {}, line};
     std::string name = cursor_.word();
     while (cursor_.accept("::")) name += "::" + cursor_.word();
-    return {ParsedKind::name, std::move(name), {}, line};
-  }
-
-  // static_cast<void>(x), (void)x
-  CppExpression unused() {
-    const int line = cursor_.line();
-    if (cursor_.accept("static_cast")) {
+    if (name == "static_cast") {
       for (const char* sign : {"<", "void", ">"}) cursor_.expect(sign);
-      return {ParsedKind::prefix, kUnused, {primary()}, line};
+      name += "<void>";
     }
-    for (const char* sign : {"(", "void", ")"}) cursor_.expect(sign);
-    return {ParsedKind::prefix, kUnused, {unary()}, line};
+    return {ParsedKind::name, std::move(name), {}, line};
   }
 
   CppExpression list() {

@@ -42,8 +42,6 @@ bool RoutineReader::same(const CppExpression& e, const written::Value& v) {
       return e.kind == CppExpression::Kind::choice && same_parts(e, 0, v, 0);
     case list:
       return e.kind == CppExpression::Kind::list && same_parts(e, 0, v, 0);
-    case unused:
-      return e.kind == CppExpression::Kind::prefix && e.text == kUnused && same_parts(e, 0, v, 0);
   }
   internal_error("unknown kind of a value");
 }

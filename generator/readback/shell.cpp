@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/written_code.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -109,17 +111,7 @@ Pattern step_pattern() {
 }
 
 Pattern matrix_pattern(const ArrayMatrix& matrix) {
-  const auto plain = [&](const char* name) {
-    return Pattern{fmt::format("using Matrix = {}<{}>;", name, matrix.size)};
-  };
-  if (matrix.kind == MatrixKind::dense) return plain("DenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_dense) return plain("EigenDenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_sparse) return plain("EigenSparseMatrix");
-  if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
-  const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
-  if (matrix.in_natural_order()) return {fmt::format("using Matrix = {};", band)};
-  return {fmt::format("using Matrix = ReorderedMatrix<{}, ElementOrder<{}, {}, {}>>;", band,
-                      matrix.arrays, matrix.size / matrix.arrays, matrix.folded)};
+  return {fmt::format("using Matrix = {};", written::type_of(matrix))};
 }
 
 }  // namespace hamgen

@@ -14,7 +14,7 @@ struct CppExpression {
     name,    // "std::sin"
     number,  // as it is written
     quoted,
-    prefix,   // text: - ! ++ -- & *, or kUnused
+    prefix,   // text: - ! ++ -- & * (void)
     postfix,  // text: ++ --
     binary,   // text: the operator; of assignments too
     choice,   // a ? b : c
@@ -36,9 +36,6 @@ struct CppExpression {
     return kind == Kind::binary && text == sign;
   }
 };
-
-// What stands before a value that nothing is wanted of.
-inline constexpr const char* kUnused = "(void)";
 
 struct CppStatement {
   enum class Kind { declaration, expression, block, branch, loop, each, result, leave, next };

@@ -1,9 +1,7 @@
-// Writes one routine as statements: instructions in written_code.cpp, those of a run in
-// written_run.cpp, iterations in written_iterations.cpp.
+// What writes a routine as statements is made of: values, and a body that grows.
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <set>
 #include <string>
 #include <utility>
@@ -40,6 +38,12 @@ namespace hamgen::written {
 [[nodiscard]] inline Value call(const std::string& block, std::vector<Value> arguments) {
   return with_parts(Value::Kind::call, block, std::move(arguments));
 }
+[[nodiscard]] inline Value list(std::vector<Value> parts) {
+  return with_parts(Value::Kind::list, "", std::move(parts));
+}
+[[nodiscard]] inline Value zeros(const std::string& record) {
+  return with_parts(Value::Kind::zeros, record, {});
+}
 [[nodiscard]] inline Value joined(const std::string& sign, std::vector<Value> parts) {
   if (parts.size() == 1) return std::move(parts.front());
   return with_parts(Value::Kind::joined, sign, std::move(parts));
@@ -55,56 +59,30 @@ namespace hamgen::written {
   return result;
 }
 
-class RoutineWriter {
+class StatementWriter {
  public:
-  RoutineWriter(const Routine& routine, const Form& form) : routine_(routine), form_(form) {}
+  StatementWriter(const Routine& routine, const Form& form) : routine_(routine), form_(form) {}
+  StatementWriter(const StatementWriter&) = delete;
+  StatementWriter& operator=(const StatementWriter&) = delete;
+  virtual ~StatementWriter() = default;
 
-  Body run();
-
-  void operator()(const Let& let);
-  void operator()(const Array& array);
-  void operator()(const Matrix& matrix);
-  void operator()(const Copy& copy);
-  void operator()(const Assign& assign);
-  void operator()(const Collect& sum);
-  void operator()(const Accumulate& sum);
-  void operator()(const Clear& clear);
-  void operator()(const Put& put);
-  void operator()(const SetFlag& set);
-  void operator()(const hamgen::For& loop);
-  void operator()(const Scope& scope);
-  void operator()(const hamgen::If& branch);
-  void operator()(const Call& call);
-  void operator()(const Alternate& alternate);
-  void operator()(const Factorise& factorise);
-  void operator()(const SolveFactorised& solve);
-  void operator()(const Invert& invert);
-  void operator()(const Iterate& iterate);
-  void operator()(const IterateArray& iterate);
-  void operator()(const Refine& refine);
-  void operator()(const RefineArray& refine);
-  void operator()(const Sweep& sweep);
-  void operator()(const Use& use);
-  void operator()(const Declare& declare);
-  void operator()(const Note& note);
-  void operator()(const Count& count);
-  void operator()(const Ask& ask);
-  void operator()(const Forget& forget);
-  void operator()(const Repeat& repeat);
-  void operator()(const Break& leave);
-  void operator()(const RequireFinite& finite);
-  void operator()(const hamgen::Return& end);
-
- private:
+ protected:
   using Lines = std::function<void()>;
+
+  virtual void write(const hamgen::Body& body) = 0;
 
   template <class Node>
   Statement& add(Node node) {
     return body_.emplace_back(Statement{std::move(node)});
   }
-  void write(const hamgen::Body& body);
   // What the lines add, as a body of its own.
-  [[nodiscard]] Body inside(const Lines& lines);
+  [[nodiscard]] Body inside(const Lines& lines) {
+    Body outer;
+    std::swap(outer, body_);
+    lines();
+    std::swap(outer, body_);
+    return outer;
+  }
   [[nodiscard]] Body inside(const hamgen::Body& body) {
     return inside([&] { write(body); });
   }
@@ -117,35 +95,21 @@ class RoutineWriter {
   }
   // Over all elements.
   void over(const std::vector<KernelRange>& ranges, const Lines& lines, Shape innermost,
-            std::size_t depth = 0);
-  // The routine ends without success.
-  void fail();
-  // All numbers that should be finite, squared and added.
-  void length_of(const hamgen::Return& end);
-  void report_success(const hamgen::Return& end, const Value& success);
-  [[nodiscard]] static Value called(const Call& call);
-  // A place becomes what it begins with.
-  void begin(const Place& place, const std::string& type);
+            std::size_t depth = 0) {
+    if (depth == ranges.size()) return lines();
+    Body body = inside([&] { over(ranges, lines, innermost, depth + 1); });
+    const bool last = depth + 1 == ranges.size();
+    add(For{ranges[depth], std::move(body), last ? innermost : Shape::braces});
+  }
 
-  void newton(const Iterate& iterate);
-  void correct_lanes(const Iterate& iterate, const Place& rule);
-  void fixed_point(const Iterate& iterate);
-  void newton(const IterateArray& iterate);
-  void contraction(const IterateArray& iterate);
-  void distance_of(const IterateArray& iterate);
-  void move(const IterateArray& iterate);
-  void end_newton();
-  void end_contraction(const Place& size);
-  void count_iterations();
-  void iterate_with(const Lines& lines);
-  void refine_once(const Refine& refine, const std::string& kept);
+  // The routine ends without success.
+  void fail() {
+    add(Return{routine_.result.type == "StepReport" ? object({"report"}) : word("false")});
+  }
 
   const Routine& routine_;
   const Form& form_;
   Body body_;
-  std::set<std::string> kept_;  // locals that an iteration changes
-  bool iterates_ = false;
-  Place rule_;                                        // that it iterates by
   const std::vector<std::string>* remark_ = nullptr;  // of the instruction
 };
 

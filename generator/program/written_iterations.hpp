@@ -1,0 +1,298 @@
+// What iterations look like: what they declare, their loop, and how it ends.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "generator/program/names.hpp"
+#include "generator/program/written_statements.hpp"
+
+namespace hamgen::written {
+
+class IterationWriter : public StatementWriter {
+ public:
+  using StatementWriter::StatementWriter;
+
+  void operator()(const Iterate& iterate) {
+    for (const std::string& symbol : iterate.kept) add(Define{"Real", symbol, formula(0), true});
+    for (const Unknown& u : iterate.unknowns) {
+      std::vector<Value> parts = {at({"start", "known"}), memory_of(u), formula(u.start)};
+      Value begin = form_.lanes ? call("select", std::move(parts))
+                                : with_parts(Value::Kind::choice, "", std::move(parts));
+      add(Define{"Real", u.symbol, std::move(begin), true});
+    }
+    kept_.insert(iterate.kept.begin(), iterate.kept.end());
+    iterates_ = true;
+    iterate.rule == Rule::newton ? newton(iterate) : fixed_point(iterate);
+    iterates_ = false;
+    for (const Unknown& u : iterate.unknowns) {
+      Value value = symbol(u.symbol);
+      if (iterate.rule == Rule::newton)
+        value = joined("+", {std::move(value), formula(u.correction)});
+      set(memory_of(u), std::move(value));
+    }
+  }
+
+  void operator()(const IterateArray& iterate) {
+    iterates_ = true;
+    iterate.rule == Rule::newton ? newton(iterate) : contraction(iterate);
+    iterates_ = false;
+  }
+
+  void operator()(const Refine& refine) {
+    const std::string kept = kept_name(refine);
+    add(Declare{fmt::format("Refinement<{}, {}>", refine.unknowns.size(), refine.gradient.size()),
+                {refine.name}});
+    if (!refine.kept.empty()) {
+      add(Define{"Real", kept, list({}), true, {static_cast<int>(refine.kept.size())}});
+    }
+    add(While{inside([&] { refine_once(refine, kept); })});
+    for (std::size_t j = 0; j < refine.kept.size(); ++j)
+      set(symbol(refine.kept[j]), element(kept, j));
+  }
+
+  void operator()(const RefineArray& refine) {
+    std::vector<Value> given;
+    if (!refine.rule.empty()) given.push_back(object({"start", refine.rule}));
+    for (const Place& place : {refine.point, refine.lack, refine.gradient})
+      given.push_back(object(place));
+    add(While{inside([&] {
+      write(refine.body);
+      set(at({"more "}), action("Refinement", refine.refinement, "", std::move(given)));
+    })});
+  }
+
+  void operator()(const Sweep& sweep) {
+    for (const Unknown& u : sweep.unknowns) add(Define{"Real", u.symbol, formula(u.start), true});
+    const KernelRange range{.index = "sweep", .lower = {}, .upper = {sweep.count - 1, {}}};
+    const auto lines = [&] {
+      write(sweep.body);
+      for (const Unknown& u : sweep.unknowns)
+        add(Define{"Real", u.symbol + kNext, formula(u.correction)});
+      for (const Unknown& u : sweep.unknowns) set(symbol(u.symbol), symbol(u.symbol + kNext));
+    };
+    over({range}, lines, Shape::braces);
+    for (std::size_t j = 0; j < sweep.results.size(); ++j)
+      add(Define{"Real", sweep.results[j], symbol(sweep.unknowns[j].symbol)});
+    set(at({"report", "iterations"}), integer(sweep.count));
+  }
+
+ protected:
+  void count_iterations() { set(at({"report", "iterations"}), at({"iteration "}), "+="); }
+
+  std::set<std::string> kept_;  // locals that an iteration changes
+  bool iterates_ = false;
+  Place rule_;  // that it iterates by
+
+ private:
+  // |-x| = |x|
+  static Value magnitude(const Expression& e) {
+    return call("magnitude", {formula(e.split_coefficient().first < 0 ? -e : e)});
+  }
+
+  // The parts of what an unknown is rounded with.
+  static std::vector<Value> rounded_with(const std::string& value, const Expression& beside) {
+    return {magnitude(Expression::symbol(value)), magnitude(beside)};
+  }
+  static Value length(const std::string& value, const Expression& beside) {
+    return joined("+", rounded_with(value, beside));
+  }
+
+  static Value is_verdict(const std::string& name) {
+    return joined("==", {at({"verdict "}), {.kind = Value::Kind::verdict, .text = name}});
+  }
+
+  static Value memory_of(const Unknown& u) {
+    return at({"start", "value", {{.constant = u.memory, .factors = {}}}});
+  }
+
+  static Define numbers(const std::string& name, std::vector<Value> values, bool varies = false) {
+    const auto count = static_cast<int>(values.size());
+    return {"Real", name, list(std::move(values)), varies, {count}};
+  }
+
+  static std::vector<Value> lacks_of(const std::vector<Unknown>& unknowns) {
+    std::vector<Value> list;
+    for (const Unknown& u : unknowns)
+      list.push_back(formula(u.correction - Expression::symbol(u.symbol)));
+    return list;
+  }
+
+  // Where the values of the body at the rounded unknowns wait: kept_0 beside refinement_0.
+  static std::string kept_name(const Refine& refine) {
+    return "kept" + refine.name.substr(refine.name.rfind('_')) + " ";
+  }
+
+  static std::vector<Value> judged_by_size() {
+    return {at({"size "}), at({"scale "}), at({"iteration "})};
+  }
+
+  void iterate_with(const Lines& lines) { add(Loop{"int", "iteration ", 1, "", inside(lines)}); }
+
+  void newton(const Iterate& iterate) {
+    const Place rule{"start", iterate.name};
+    add(Do{action("NewtonRule", rule, "begin", {at({"start", "known"})})}).remark = *remark_;
+    rule_ = rule;
+    iterate_with([&] {
+      write(iterate.body);
+      std::vector<Value> sizes;
+      std::vector<Value> lengths;
+      for (const Unknown& u : iterate.unknowns) {
+        sizes.push_back(magnitude(u.correction));
+        for (Value& part : rounded_with(u.symbol, u.start)) lengths.push_back(std::move(part));
+      }
+      add(Define{"Real", "size ", joined("+", std::move(sizes))});
+      add(Define{"Real", "scale ", joined("+", std::move(lengths))});
+      if (form_.lanes) return correct_lanes(iterate, rule);
+      add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
+      end_newton();
+      for (const Unknown& u : iterate.unknowns) set(symbol(u.symbol), formula(u.correction), "+=");
+    });
+    if (form_.lanes) add(Do{call("end_iteration", {object({"report"}), object(rule)})});
+  }
+
+  // Lanes that are done stand still until all are.
+  void correct_lanes(const Iterate& iterate, const Place& rule) {
+    const Value moving = at({"moving "});
+    add(Define{"Mask", "moving ", action("NewtonRule", rule, "", judged_by_size())});
+    branch(prefix("!", call("any", {moving})), Shape::line, [this] { add(Break{}); });
+    for (const Unknown& u : iterate.unknowns) {
+      const Value x = symbol(u.symbol);
+      set(x, call("select", {moving, joined("+", {x, formula(u.correction)}), x}));
+    }
+  }
+
+  void newton(const IterateArray& iterate) {
+    const Place rule{"start", iterate.name};
+    add(Do{action("NewtonRule", rule, "begin", {at({"start", "known"})})});
+    iterate_with([&] {
+      write(iterate.body);
+      add(Define{"Real", "size ", integer(0), true});
+      add(Define{"Real", "scale ", integer(0), true});
+      const auto measure = [&] {
+        for (const UnknownArray& u : iterate.unknowns) {
+          set(at({"size "}), magnitude(Expression::symbol(u.increment)), "+=");
+          set(at({"scale "}), length(u.value, u.beside), "+=");
+        }
+      };
+      over(iterate.ranges, measure, Shape::braces);
+      add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
+      end_newton();
+      move(iterate);
+    });
+  }
+
+  void move(const IterateArray& iterate) {
+    const auto lines = [&] {
+      for (const UnknownArray& u : iterate.unknowns)
+        set(symbol(u.value), symbol(u.increment), "+=");
+    };
+    over(iterate.ranges, lines, Shape::braces);
+  }
+
+  void end_newton() {
+    branch(is_verdict("failed"), Shape::braces, [this] {
+      count_iterations();
+      set(at({"report", "increment"}), at({"size "}));
+      fail();
+    });
+    branch(is_verdict("done"), Shape::braces, [this] {
+      count_iterations();
+      add(Break{});
+    });
+  }
+
+  void fixed_point(const Iterate& iterate) {
+    add(Declare{"FixedPointRule<2>", {iterate.name}});
+    iterate_with([&] {
+      write(iterate.body);
+      add(numbers("increment ", lacks_of(iterate.unknowns)));
+      add(Declare{"Distance", {"distance "}});
+      for (std::size_t j = 0; j < iterate.unknowns.size(); ++j) {
+        const Unknown& u = iterate.unknowns[j];
+        const Value increment = element("increment ", j);
+        add(Do{action("Distance", {"distance "}, "add",
+                      {call("magnitude", {increment}), length(u.symbol, u.start)})});
+        set(symbol(u.symbol), increment, "+=");
+      }
+      add(Define{"Verdict", "verdict ",
+                 action("FixedPointRule", {iterate.name}, "",
+                        {object({"distance "}), at({"iteration "})})});
+      end_contraction({iterate.name, "size"});
+    });
+  }
+
+  // The fixed point, and Newton with a matrix that serves for many steps.
+  void contraction(const IterateArray& iterate) {
+    const Place rule{"start", iterate.name};
+    const bool newton = iterate.rule == Rule::simplified_newton;
+    std::vector<Value> served;
+    if (newton) served.push_back(object(*iterate.factorised));
+    if (iterate.work) served.push_back(integer(*iterate.work));
+    add(Do{action("ContractionRule", rule, "begin", served)});
+    iterate_with([&] {
+      write(iterate.body);
+      add(Declare{"Distance", {"distance "}});
+      distance_of(iterate);
+      // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
+      move(iterate);
+      std::vector<Value> judged = {object({"distance "})};
+      if (newton) judged.push_back(symbol(iterate.residual));
+      if (newton) judged.push_back(object(*iterate.factorised));
+      judged.push_back(at({"iteration "}));
+      add(Define{"Verdict", "verdict ", action("ContractionRule", rule, "", std::move(judged))});
+      end_contraction({"start", iterate.name + ".size"});
+    });
+  }
+
+  void distance_of(const IterateArray& iterate) {
+    const auto add_to_distance = [this](std::vector<Value> values) {
+      add(Do{action("Distance", {"distance "}, "add", std::move(values))});
+    };
+    const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
+    for (const WholeUnknowns& u : arrays) {
+      const AffineIndex count{.constant = u.count, .factors = {}};
+      add_to_distance({at(u.increment, Value::Kind::given), at(u.value, Value::Kind::given),
+                       at(u.beside, Value::Kind::given), index(count, Value::Kind::count)});
+    }
+    if (!arrays.empty()) return;
+    const auto lines = [&] {
+      for (const UnknownArray& u : iterate.unknowns) {
+        add_to_distance({magnitude(Expression::symbol(u.increment)), length(u.value, u.beside)});
+      }
+    };
+    over(iterate.ranges, lines, Shape::braces);
+  }
+
+  void end_contraction(const Place& size) {
+    branch(is_verdict("go_on"), Shape::line, [this] { add(Continue{}); });
+    count_iterations();
+    branch(is_verdict("done"), Shape::line, [this] { add(Break{}); });
+    set(at({"report", "increment"}), at(size));
+    fail();
+  }
+
+  void refine_once(const Refine& refine, const std::string& kept) {
+    write(refine.body);
+    std::vector<Value> slopes;
+    for (const Expression& e : refine.gradient) slopes.push_back(formula(e));
+    add(numbers("lack ", lacks_of(refine.unknowns)));
+    add(numbers("slope ", std::move(slopes)));
+    if (!refine.kept.empty()) {
+      branch(joined("==", {at({refine.name, "rounds"}), integer(0)}), Shape::braces, [&] {
+        for (std::size_t j = 0; j < refine.kept.size(); ++j)
+          set(element(kept, j), symbol(refine.kept[j]));
+      });
+    }
+    std::vector<Value> points;
+    for (const Unknown& u : refine.unknowns) points.push_back(symbol(u.symbol));
+    add(numbers("point ", std::move(points), true));
+    set(at({"more "}), action("Refinement", {refine.name}, "",
+                              {object({"point "}), object({"lack "}), object({"slope "})}));
+    for (std::size_t j = 0; j < refine.unknowns.size(); ++j)
+      set(symbol(refine.unknowns[j].symbol), element("point ", j));
+  }
+};
+
+}  // namespace hamgen::written
