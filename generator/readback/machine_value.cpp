@@ -120,7 +120,6 @@ MachineValue machine_symbol(std::string name) {
 }
 
 MachineValue machine_call(std::string name, std::vector<MachineValue> arguments) {
-  if (name == "magnitude" && arguments.size() == 1) arguments[0].negative = false;
   return {.kind = MachineKind::call, .name = std::move(name), .parts = std::move(arguments)};
 }
 

@@ -3,7 +3,7 @@
 //
 // Equal means equal to the last bit, whatever the operands: the order of operations is kept, and
 // only these are taken for one,
-//   a b = b a,  a + b = b + a,  a - b = a + (-b),  (-a) b = -(a b),  (-a)/b = -(a/b),  |-a| = |a|,
+//   a b = b a,  a + b = b + a,  a - b = a + (-b),  (-a) b = -(a b),  (-a)/b = -(a/b),
 // which IEEE 754 rounds alike.  -(a + b) and (-a) + (-b) differ in the sign of a zero.
 #pragma once
 

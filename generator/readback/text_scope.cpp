@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/program/arithmetic.hpp"
 #include "generator/readback/findings.hpp"
 
 namespace hamgen {
@@ -209,7 +210,7 @@ MachineValue TextScope::converted(const CppExpression& argument) const {
 // A function of the mathematical library for this scalar, by its name without all that; any other
 // with "::" before it, but for what the fixed blocks are called in the routines.
 std::string TextScope::function(const std::string& name, int line) const {
-  if (name == "magnitude" || name == "product_error") return name;
+  if (name == kProductError) return name;
   if (name.starts_with("std::") && !precision_.is_quad()) return name.substr(5);
   constexpr std::string_view kBuiltin = "__builtin_";
   if (name.starts_with(kBuiltin) && !precision_.is_quad()) {
