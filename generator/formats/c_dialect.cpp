@@ -37,6 +37,15 @@ std::string CDialect::block(const std::string& name) const {
   return "hamgen_" + name + function_suffix(scalar);
 }
 
+std::string CDialect::type(const std::string& name) const {
+  if (name == "Real") return real();
+  if (name.starts_with("NewtonRule")) return block("NewtonRule");
+  if (name.starts_with("History")) return named("History");
+  if (name == "StepReport" || name == "Verdict") return block(name);
+  const bool own = name == "bool" || name == "int" || name == "long long" || name == "void";
+  return own ? name : named(name);
+}
+
 std::string CDialect::argument(const Argument& argument, const std::string& name,
                                const std::string& sizes) const {
   const std::string constant = argument.changes ? "" : "const ";
@@ -44,22 +53,18 @@ std::string CDialect::argument(const Argument& argument, const std::string& name
   if (argument.sizes.empty() && argument.record.empty()) return real() + " " + name;
   if (argument.decays) return fmt::format("{}{}* {}", constant, real(), name);
   if (argument.sizes.empty()) {
-    return fmt::format("{}{}* {}", constant, record(argument.record), name);
+    return fmt::format("{}{}* {}", constant, type(argument.record), name);
   }
   return fmt::format("{}{} {}{}", constant, real(), name, sizes);
 }
 
 std::string CDialect::head(const Routine& routine,
                            const std::vector<std::string>& arguments) const {
-  const std::string& result = routine.result.type;
-  const std::string type = result.empty()     ? "void"
-                           : result == "Real" ? real()
-                           : result == "bool" ? result
-                                              : record(result);
+  const std::string result = type(routine.result.type.empty() ? "void" : routine.result.type);
   const std::string list = joined_texts(arguments, ", ");
   if (!routine.of_run)
-    return fmt::format("static inline {} {}({})", type, named(routine.name), list);
-  return fmt::format("static inline {0} {1}_{2}({1}* self{3}{4})", type, named("Propagator"),
+    return fmt::format("static inline {} {}({})", result, named(routine.name), list);
+  return fmt::format("static inline {0} {1}_{2}({1}* self{3}{4})", result, named("Propagator"),
                      routine.name, list.empty() ? "" : ", ", list);
 }
 
@@ -81,8 +86,6 @@ std::string CDialect::call_of_run(const std::string& routine_name,
   return fmt::format("{}_{}(self{}{})", named("Propagator"), routine_name,
                      arguments.empty() ? "" : ", ", arguments);
 }
-
-std::string CDialect::verdict(const std::string& name) const { return block(name); }
 
 std::string CDialect::named(const std::string& name) const {
   const bool of_system = std::ranges::find(kOfSystem, name) != std::end(kOfSystem);

@@ -18,18 +18,12 @@ class CDialect : public Dialect {
     return "(" + real() + ")(" + integer + ")";
   }
   [[nodiscard]] std::string function(const std::string& name) const override;
-  [[nodiscard]] std::string record(const std::string& name) const override {
-    return name == "StepReport" ? block(name) : named(name);
-  }
+  [[nodiscard]] std::string type(const std::string& name) const override;
   [[nodiscard]] std::string routine(const std::string& name) const override { return named(name); }
   [[nodiscard]] std::string block(const std::string& name) const override;
   [[nodiscard]] std::string constant(const std::string& name) const override { return block(name); }
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
-    return name == "Start" ? named("start") + "()" : "(" + record(name) + "){0}";
-  }
-  [[nodiscard]] std::string declaration(const std::string& record_name,
-                                        const std::string& object) const override {
-    return record(record_name) + " " + object + " = {0};";
+    return name == "Start" ? named("start") + "()" : "(" + type(name) + "){0}";
   }
   [[nodiscard]] bool has_references() const override { return false; }
   [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
@@ -42,7 +36,6 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string kept(const std::string& name) const override { return "self->" + name; }
   [[nodiscard]] std::string call_of_run(const std::string& routine_name,
                                         const std::string& arguments) const override;
-  [[nodiscard]] std::string verdict(const std::string& name) const override;
 
   // Of the system where all methods have it, else of the method.
   [[nodiscard]] std::string named(const std::string& name) const;

@@ -30,8 +30,7 @@ class CPieceWriter {
   void operator()(const StepOfPropagator&) {
     out_.line("// Advances *z by one step of size h.  On failure it is left unchanged.");
     out_.open(fmt::format("static inline {} {}(const {}* par, {} h, {}* z)", c_.block("StepReport"),
-                          c_.named("step"), c_.record("Parameters"), c_.real(),
-                          c_.record("State")));
+                          c_.named("step"), c_.type("Parameters"), c_.real(), c_.type("State")));
     out_.line(fmt::format("{0} self = {0}_make(par, h, z);", self_));
     out_.line(fmt::format("const {} report = {}_step(&self);", c_.block("StepReport"), self_));
     out_.line("if (report.converged) *z = self.z;");
@@ -48,29 +47,22 @@ class CPieceWriter {
     out_.line();
   }
 
-  [[nodiscard]] std::string type_of(const Field& field) const {
-    if (field.type == "Real") return c_.real();
-    if (field.type.starts_with("NewtonRule")) return c_.block("NewtonRule");
-    if (field.type.starts_with("History")) return c_.named("History");
-    const bool own = field.type == "bool" || field.type == "int" || field.type == "long long";
-    return own ? field.type : c_.record(field.type);
-  }
-
   void write_record(const Record& record) {
     out_.open("typedef struct");
     std::vector<std::pair<std::string, std::string>> members;
     for (const Field& field : record.fields) {
-      members.emplace_back(fmt::format("{} {}{};", type_of(field), field.name, sizes_text(field)),
-                           field.remark);
+      members.emplace_back(
+          fmt::format("{} {}{};", c_.type(field.type), field.name, sizes_text(field)),
+          field.remark);
     }
     if (members.empty()) members.emplace_back("char none;", "C has no empty records");
     out_.aligned(members);
-    out_.close(" " + c_.record(record.name) + ";");
+    out_.close(" " + c_.type(record.name) + ";");
     out_.line();
   }
 
   void write_defaults(const Record& parameters) {
-    const std::string type = c_.record(parameters.name);
+    const std::string type = c_.type(parameters.name);
     out_.open(fmt::format("static inline {} {}(void)", type, c_.named("default_parameters")));
     std::vector<std::string> values;
     for (const Field& field : parameters.fields) {
@@ -86,7 +78,7 @@ class CPieceWriter {
   }
 
   void write_start(const Record& record) {
-    const std::string type = c_.record(record.name);
+    const std::string type = c_.type(record.name);
     out_.open(fmt::format("static inline {} {}(void)", type, c_.named("start")));
     out_.line(type + " start = {0};");
     for (const Field& field : record.fields) {
@@ -100,7 +92,7 @@ class CPieceWriter {
 
   void write_make(const Propagator& propagator) {
     out_.open(fmt::format("static inline {0} {0}_make(const {1}* par, {2} h, const {3}* z)", self_,
-                          c_.record("Parameters"), c_.real(), c_.record("State")));
+                          c_.type("Parameters"), c_.real(), c_.type("State")));
     const std::size_t substeps = propagator.fractions.size();
     std::vector<std::string> fractions;
     for (const Rational& each : propagator.fractions)

@@ -20,10 +20,6 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }
-  [[nodiscard]] std::string declaration(const std::string& record_name,
-                                        const std::string& object) const override {
-    return record_name + " " + object + ";";
-  }
   [[nodiscard]] bool has_references() const override { return true; }
   [[nodiscard]] std::string argument(const Argument& argument, const std::string& name,
                                      const std::string& sizes) const override;
@@ -36,9 +32,6 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string call_of_run(const std::string& routine_name,
                                         const std::string& arguments) const override {
     return routine_name + "(" + arguments + ")";
-  }
-  [[nodiscard]] std::string verdict(const std::string& name) const override {
-    return "Verdict::" + name;
   }
 
  private:

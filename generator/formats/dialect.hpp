@@ -33,17 +33,14 @@ class Dialect {
   [[nodiscard]] virtual bool has_lanes() const { return false; }
   // Names that its routines use besides and a local must not have.
   [[nodiscard]] virtual std::vector<std::string> taken_names() const { return {}; }
-  // What the program calls a record or a routine, what a block calls a function, and a number that
-  // the text defines: pi.
-  [[nodiscard]] virtual std::string record(const std::string& name) const { return name; }
+  // What the program calls a type or a routine, what a block calls a function, and what the text
+  // defines: pi, Verdict::done.
+  [[nodiscard]] virtual std::string type(const std::string& name) const { return name; }
   [[nodiscard]] virtual std::string routine(const std::string& name) const { return name; }
   [[nodiscard]] virtual std::string block(const std::string& name) const { return name; }
   [[nodiscard]] virtual std::string constant(const std::string& name) const { return name; }
   // A record of zeros.
   [[nodiscard]] virtual std::string empty_record(const std::string& name) const = 0;
-  // "StepReport report;", with what its fields begin with.
-  [[nodiscard]] virtual std::string declaration(const std::string& record_name,
-                                                const std::string& object) const = 0;
   // Are records given by reference?  Else by their address.
   [[nodiscard]] virtual bool has_references() const = 0;
   // An argument; `name` is empty if nothing reads it.
@@ -63,8 +60,6 @@ class Dialect {
   // A call of a routine that is given that.
   [[nodiscard]] virtual std::string call_of_run(const std::string& routine_name,
                                                 const std::string& arguments) const = 0;
-  // "Verdict::done"
-  [[nodiscard]] virtual std::string verdict(const std::string& name) const = 0;
 };
 
 [[nodiscard]] std::string joined_texts(const std::vector<std::string>& items,

@@ -139,7 +139,8 @@ std::optional<std::string> RoutinePrinter::line(const written::Statement& statem
 std::string RoutinePrinter::line(const Declare& declare) {
   std::vector<std::string> names;
   for (const std::string& name : declare.objects) names.push_back(written::name_in_text(name));
-  return dialect_.declaration(declare.record, joined_texts(names, ", "));
+  return fmt::format("{} {}{};", dialect_.type(declare.record), joined_texts(names, ", "),
+                     dialect_.has_references() ? "" : " = {0}");
 }
 
 std::string RoutinePrinter::line(const written::Define& define) {
@@ -148,8 +149,8 @@ std::string RoutinePrinter::line(const written::Define& define) {
   const std::string name = number && !written::is_of_text(define.name)
                                ? names_.local(define.name)
                                : written::name_in_text(define.name);
-  return fmt::format("{}{} {}{} = {};", define.varies ? "" : "const ", type(define.type), name,
-                     sizes(define.sizes), text);
+  return fmt::format("{}{} {}{} = {};", define.varies ? "" : "const ", dialect_.type(define.type),
+                     name, sizes(define.sizes), text);
 }
 
 // x += value, or x -= what follows a minus, if that is one product.

@@ -32,8 +32,8 @@ std::string RoutinePrinter::value(const written::Value& v) {
       return count_text(v.place.indices.front().constant);
     case word:
       return v.text == "largest" ? std::string(dialect_.scalar.largest) : v.text;
-    case verdict:
-      return dialect_.verdict(v.text);
+    case constant:
+      return dialect_.constant(v.text);
     case zeros:
       return dialect_.empty_record(v.text);
     case call: {
@@ -72,12 +72,6 @@ std::vector<std::string> RoutinePrinter::values(const written::Value& of) {
   std::vector<std::string> texts;
   for (const written::Value& part : of.parts) texts.push_back(value(part));
   return texts;
-}
-
-std::string RoutinePrinter::type(const std::string& name) const {
-  if (name == "Real") return dialect_.real();
-  if (name == "bool" || name == "int" || name == "long long") return name;
-  return name == "Verdict" ? dialect_.block(name) : dialect_.record(name);
 }
 
 std::string RoutinePrinter::name(const std::string& symbol) {

@@ -43,7 +43,6 @@ class RoutinePrinter {
   std::string value(const written::Value& value);
   std::vector<std::string> values(const written::Value& of);
   std::string arguments(const written::Value& of) { return joined_texts(values(of), ", "); }
-  [[nodiscard]] std::string type(const std::string& name) const;
   // What a symbol of the program is called.
   std::string name(const std::string& symbol);
   [[nodiscard]] std::string sizes(const std::vector<int>& sizes) const;

@@ -25,22 +25,22 @@ struct Form {
 struct Value {
   enum class Kind {
     formula,
-    place,    // the number, flag or record there
-    object,   // what an action is done to
-    given,    // as it is handed on to a routine; an element: the array from there on
-    index,    // an integer
-    count,    // an integer that counts elements
-    word,     // "true", "false", or "largest", the largest number
-    verdict,  // "done"
-    zeros,    // the record `text` as it begins
-    call,     // of a fixed block; the first `changed` arguments are changed
-    routine,  // of a routine of the program
-    of_run,   // of one that is given what a run keeps
-    action,   // what the object parts[0], of the type `type`, does; without `text` what it is for
-    member,   // parts[0].text
-    prefix,   // "!", "--"
-    joined,   // by the operator `text`
-    choice,   // parts[0] ? parts[1] : parts[2]
+    place,     // the number, flag or record there
+    object,    // what an action is done to
+    given,     // as it is handed on to a routine; an element: the array from there on
+    index,     // an integer
+    count,     // an integer that counts elements
+    word,      // "true", "false", or "largest", the largest number
+    constant,  // that the text defines: "Verdict::done"
+    zeros,     // the record `text` as it begins
+    call,      // of a fixed block; the first `changed` arguments are changed
+    routine,   // of a routine of the program
+    of_run,    // of one that is given what a run keeps
+    action,    // what the object parts[0], of the type `type`, does; without `text` what it is for
+    member,    // parts[0].text
+    prefix,    // "!", "--"
+    joined,    // by the operator `text`
+    choice,    // parts[0] ? parts[1] : parts[2]
     list,
   };
   Kind kind = Kind::formula;

@@ -99,8 +99,9 @@ class IterationWriter : public StatementWriter {
     return joined("+", rounded_with(value, beside));
   }
 
-  static Value is_verdict(const std::string& name) {
-    return joined("==", {at({"verdict "}), {.kind = Value::Kind::verdict, .text = name}});
+  Value is_verdict(const std::string& name) const {
+    const std::string verdict = (form_.references ? "Verdict::" : "") + name;
+    return joined("==", {at({"verdict "}), with_parts(Value::Kind::constant, verdict, {})});
   }
 
   static Value memory_of(const Unknown& u) {

@@ -155,14 +155,11 @@ class AddressReader {
       differ(e.line, fmt::format("the address of {} where a value belongs", e.text));
     const std::string ours = of_header(e.text);
     if (ours.empty()) return e;
-    CppExpression result = e;
-    if (ours == "go_on" || ours == "done" || ours == "failed") {
-      result.text = "Verdict::" + ours;
-    } else if (ours == "pi" || ours == "largest" || ours == "epsilon") {
-      result.text = ours;
-    } else {
+    constexpr std::string_view kValues[] = {"pi", "largest", "epsilon", "go_on", "done", "failed"};
+    if (std::ranges::find(kValues, ours) == std::end(kValues))
       differ(e.line, fmt::format("{} is no value", ours));
-    }
+    CppExpression result = e;
+    result.text = ours;
     return result;
   }
 

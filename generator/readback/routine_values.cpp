@@ -20,10 +20,9 @@ bool RoutineReader::same(const CppExpression& e, const written::Value& v) {
     case index:
     case count:
       return scope_.index(e) == v.place.indices.front();
+    case constant:
     case word:
       return v.text == "largest" ? is_largest(e) : is_free_name(e, v.text);
-    case verdict:
-      return is_free_name(e, "Verdict::" + v.text);
     case zeros:
     case call:
     case routine:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "generator/interpreter/interpreter.hpp"
@@ -51,17 +52,29 @@ struct Unit {
   std::vector<std::string> expected;  // a line a model
 };
 
-// What a model's header and the interpreter are to agree on: the state after some steps.
-void add(Unit& unit, int seed) {
+// What a model's header and the interpreter are to agree on: the state after some steps, how often
+// was iterated, and both again from the first state on.
+void add(Unit& unit, int seed, const std::optional<Request>& request) {
   RandomCase c = random_case(static_cast<std::uint64_t>(seed));
+  if (request) c.request = *request;
   c.request.name_space = fmt::format("chance_{}", seed);
   const SourceText source = make_source("chance.ham", c.text);
   const Program code = make_program(source, c.request);
   const Run run = run_of(read_request(source, c.request), code);
   Interpreter<double> interpreted(code, run.parameters, run.h, run.state);
-  bool converged = true;
-  for (int i = 0; i < kSteps; ++i) converged = converged && interpreted.step().converged;
-  unit.expected.push_back(fmt::format("{} {} {}", seed, converged, numbers(interpreted.state())));
+  std::string expected = std::to_string(seed);
+  for (int part = 0; part < 2; ++part) {
+    bool converged = true;
+    long long iterations = 0;
+    for (int i = 0; i < kSteps && converged; ++i) {
+      const auto report = interpreted.step();
+      converged = report.converged;
+      iterations += report.iterations;
+    }
+    expected += fmt::format(" {} {} {}", converged, iterations, numbers(interpreted.state()));
+    interpreted.reset(run.state, std::vector<double>(run.state.size()));
+  }
+  unit.expected.push_back(expected);
   unit.headers += emitted_test::without_pragma(generate_plugin(source, c.request).header.text);
   unit.calls += fmt::format(
       "  run<{0}::Propagator, {0}::Parameters, {0}::State>({1}, {2:a}, {{{3}}}, {{{4}}});\n",
@@ -76,23 +89,28 @@ const std::string kRun = R"(
 template <class Propagator, class Parameters, class State>
 void run(int seed, double h, std::vector<double> parameters, std::vector<double> state) {
   Parameters par;
-  State z;
+  State z, first;
   static_assert(std::is_trivially_copyable_v<State>);
   if (!parameters.empty()) std::memcpy(&par, parameters.data(), parameters.size() * sizeof(double));
-  std::memcpy(&z, state.data(), sizeof z);
-  Propagator propagator(par, h, z);
-  const bool converged = propagator.advance(20).converged;
-  z = propagator.state();
-  std::memcpy(state.data(), &z, sizeof z);
-  std::printf("%d %s ", seed, converged ? "true" : "false");
-  for (const double value : state) std::printf("%a ", value);
+  std::memcpy(&first, state.data(), sizeof z);
+  Propagator propagator(par, h, first);
+  std::printf("%d ", seed);
+  for (int part = 0; part < 2; ++part) {
+    const auto report = propagator.advance(20);
+    z = propagator.state();
+    std::memcpy(state.data(), &z, sizeof z);
+    std::printf("%s %d ", report.converged ? "true" : "false", report.iterations);
+    for (const double value : state) std::printf("%a ", value);
+    propagator.reset(first);
+  }
   std::printf("\n");
 }
 )";
 
-void expect_same_bits(int first, int count) {
+// By the methods that the models are given, or by this one.
+void expect_same_bits(int first, int count, const std::optional<Request>& request = {}) {
   Unit unit;
-  for (int seed = first; seed < first + count; ++seed) add(unit, seed);
+  for (int seed = first; seed < first + count; ++seed) add(unit, seed, request);
   std::istringstream output(
       emitted_test::run_program(unit.headers + kRun + "int main() {\n" + unit.calls + "}\n"));
   for (const std::string& expected : unit.expected) {
@@ -116,6 +134,10 @@ class RandomUnits : public testing::TestWithParam<int> {};
 TEST_P(RandomUnits, AreCompiledToWhatIsInterpreted) { expect_same_bits(25 * GetParam(), 25); }
 
 INSTANTIATE_TEST_SUITE_P(Of, RandomUnits, testing::Range(0, 4));
+
+TEST(RandomSweeps, AreCompiledToWhatIsInterpreted) {
+  expect_same_bits(100, 10, Request{.solver = "sweeps:3"});
+}
 
 }  // namespace
 }  // namespace hamgen::random
