@@ -1,7 +1,7 @@
-// The step as a value: routines made of a dozen kinds of instructions.  Formats print them, the
-// interpreter runs them.  Whatever has an algorithm in it is no instruction but a block of
-// numerics/ that one of them calls.  Routines of a run, those of a Propagator, are made of the same
-// and of some kinds that only they have.
+// The step as a value: routines made of a dozen kinds of instructions.  The interpreter runs them;
+// what they are as statements, which formats print, is in written_code.hpp.  Whatever has an
+// algorithm in it is no instruction but a block of numerics/ that one of them calls.  Routines of a
+// run, those of a Propagator, are made of the same and of some kinds that only they have.
 //
 // Values are expressions in symbols.  A symbol is a local of the routine, unless the routine says
 // at which place it stands: "z.q" in the field q of the argument z.

@@ -1,7 +1,8 @@
 // The emitted file read back: a header in C++ or C, or a plugin, is turned into functions again,
 // and these are compared with the routines of the program, operation by operation.
 //
-// Independent of what writes it: formats/ has no part in it.  Comments, the width of lines, the
+// Independent of what prints it: formats/ has no part in it, and only what an instruction is as
+// statements, program/written_code.hpp, is shared with it.  Comments, the width of lines, the
 // names of locals, brackets and digits of numbers are free, nothing else is: what is not the
 // program's is a difference, and what cannot be read leaves the question open.
 #pragma once
