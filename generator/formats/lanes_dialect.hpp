@@ -16,7 +16,7 @@ class LanesDialect : public CppDialect {
   [[nodiscard]] std::string function(const std::string& name) const override {
     // Those of both are exactly rounded.
     const bool same = name == "sqrt" || name == "abs";
-    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : lane_function(name);
   }
   [[nodiscard]] std::vector<std::string> taken_names() const override {
     std::vector<std::string> names = {"Mask",    "any",           "select",         "moving",

@@ -147,7 +147,8 @@ void RoutinePrinter::print_inside(const std::string& head, const Body& body) {
 void RoutinePrinter::operator()(const Let& let) {
   const std::string value = cpp_(let.value);
   out_.line(fmt::format("{}{} {} = {};", let.varies || kept_.contains(let.symbol) ? "" : "const ",
-                        dialect_.real(), names_.local(let.symbol), value));
+                        lane_index_.empty() ? dialect_.real() : "Lanes", names_.local(let.symbol),
+                        value));
 }
 void RoutinePrinter::operator()(const Array& array) {
   std::string sizes;
@@ -174,6 +175,9 @@ void RoutinePrinter::operator()(const Copy& copy) {
 }
 void RoutinePrinter::operator()(const Assign& assign) {
   const std::string value = cpp_(assign.value);
+  const auto place = routine_.places.find(assign.symbol);
+  if (place != routine_.places.end() && is_pack(place->second))
+    return out_.line(fmt::format("Lanes::put({}, {});", given(place->second), value));
   out_.line(fmt::format("{} = {};", name(assign.symbol), value));
 }
 void RoutinePrinter::operator()(const Collect& sum) {
@@ -199,7 +203,14 @@ void RoutinePrinter::operator()(const Put& put) {
 void RoutinePrinter::operator()(const SetFlag& set) {
   out_.line(fmt::format("{} = {};", text(set.flag), set.value));
 }
-void RoutinePrinter::operator()(const For& loop) { print_inside(head(loop.range), loop.body); }
+void RoutinePrinter::operator()(const For& loop) {
+  if (loop.lanes == 0) return print_inside(head(loop.range), loop.body);
+  lane_index_ = loop.range.index;
+  cpp_.set_lanes(true);
+  print_inside(head(loop.range, loop.lanes), loop.body);
+  cpp_.set_lanes(false);
+  lane_index_.clear();
+}
 void RoutinePrinter::operator()(const Scope& scope) {
   out_.open("");
   print(scope.body);
@@ -277,12 +288,19 @@ std::string RoutinePrinter::count_text(long count) const {
   return count == dialect_.n ? "n" : count == 0 ? "0" : "2 * n";
 }
 
-std::string RoutinePrinter::head(const KernelRange& range) const {
+bool RoutinePrinter::is_pack(const Place& place) const {
+  return !lane_index_.empty() && !place.indices.empty() &&
+         place.indices.back().factors.contains(lane_index_);
+}
+
+std::string RoutinePrinter::head(const KernelRange& range, int step) const {
   // From 0 on as C++ has it.
   const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
   if (counts) {
-    return fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
-                       count_text(range.upper.constant + 1));
+    const std::string next =
+        step == 1 ? "++" + range.index : fmt::format("{} += {}", range.index, step);
+    return fmt::format("for (int {0} = 0; {0} < {1}; {2})", range.index,
+                       count_text(range.upper.constant + 1), next);
   }
   return fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index, text(range.lower),
                      text(range.upper));
@@ -294,7 +312,10 @@ std::string RoutinePrinter::name(const std::string& symbol) {
     return dialect_.constant("pi");
   }
   const auto place = routine_.places.find(symbol);
-  if (place != routine_.places.end()) return text(place->second);
+  if (place != routine_.places.end()) {
+    if (is_pack(place->second)) return "Lanes::at(" + given(place->second) + ")";
+    return text(place->second);
+  }
   const bool number = std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
     return argument.name == symbol && argument.record.empty() && argument.sizes.empty();
   });
@@ -328,9 +349,11 @@ std::string RoutinePrinter::given(const Place& place) const {
   const bool record = place.field.empty() && ours;
   if (record && !dialect_.has_references()) return "&" + object(place.object);
   if (place.indices.empty()) return text(place);
-  const AffineIndex& index = place.indices.front();
+  Place array = place;
+  array.indices.pop_back();
+  const AffineIndex& index = place.indices.back();
   const std::string offset = index.factors.empty() ? count_text(index.constant) : text(index);
-  return text(Place{place.object, place.field}) + " + " + offset;
+  return text(array) + " + " + offset;
 }
 
 std::string RoutinePrinter::declaration(const Argument& argument) const {

@@ -210,8 +210,9 @@ void RoutinePrinter::contraction(const IterateArray& iterate) {
   out_.line("Distance distance;");
   if (const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
       !arrays.empty()) {
+    const char* add = iterate.lanes > 0 ? "add_lanes(Lanes(0), distance, " : "distance.add(";
     for (const WholeUnknowns& u : arrays) {
-      out_.line(fmt::format("distance.add({}, {}, {}, {});", given(u.increment), given(u.value),
+      out_.line(fmt::format("{}{}, {}, {}, {});", add, given(u.increment), given(u.value),
                             given(u.beside), count_text(u.count)));
     }
   } else {
@@ -220,9 +221,13 @@ void RoutinePrinter::contraction(const IterateArray& iterate) {
     });
   }
   // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
-  for_elements(iterate, [&](const UnknownArray& u) {
-    out_.line(fmt::format("{} += {};", name(u.value), name(u.increment)));
-  });
+  if (iterate.lanes > 0) {
+    (*this)(moved_in_lanes(iterate));
+  } else {
+    for_elements(iterate, [&](const UnknownArray& u) {
+      out_.line(fmt::format("{} += {};", name(u.value), name(u.increment)));
+    });
+  }
   out_.line(fmt::format("const Verdict verdict = {}(distance, {}iteration);", rule,
                         newton ? name(iterate.residual) + ", " + served + ", " : ""));
   end_contraction(rule);

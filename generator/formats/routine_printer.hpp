@@ -83,7 +83,9 @@ class RoutinePrinter {
   // How the routine says that it has failed.
   [[nodiscard]] std::string failure() const;
   [[nodiscard]] std::string call_text(const Call& call) const;
-  [[nodiscard]] std::string head(const KernelRange& range) const;
+  [[nodiscard]] std::string head(const KernelRange& range, int step = 1) const;
+  // Of an array in a loop over lanes: are its numbers there side by side?
+  [[nodiscard]] bool is_pack(const Place& place) const;
   [[nodiscard]] std::string count_text(long count) const;
   std::string name(const std::string& symbol);
   [[nodiscard]] std::string text(const AffineIndex& a) const;
@@ -112,7 +114,8 @@ class RoutinePrinter {
   std::set<std::string> records_;               // that it declares
   std::set<std::string> kept_;                  // locals that an iteration changes
   bool iterates_ = false;
-  std::string rule_;  // that it iterates by
+  std::string lane_index_;  // of the loop over lanes that is printed
+  std::string rule_;        // that it iterates by
   const std::vector<std::string>* remark_ = nullptr;
 };
 

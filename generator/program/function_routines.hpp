@@ -20,6 +20,9 @@ enum class StateForm { record, array };
 [[nodiscard]] Routine values_routine(const Environment& environment, std::string name,
                                      const Evaluation& evaluation,
                                      StateForm form = StateForm::record, bool sparse = false);
+// The same at all stages, side by side in the arrays z and values, many of them at once.
+[[nodiscard]] Routine stage_values_routine(const Environment& environment, std::string name,
+                                           const Evaluation& evaluation, const StageLayout& layout);
 // hessian(par, z, values), values[i][j] and values[j][i] for the places of the entries.
 [[nodiscard]] Routine hessian_routine(const Environment& environment, const Evaluation& entries,
                                       const std::vector<std::pair<int, int>>& places,

@@ -131,6 +131,13 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
   LoweredStep lowered = lowered_step(plan);
   lowered.unchecked = wishes.unchecked;
   lowered.plain_sums = wishes.plain_sums;
+  if (plan.stage_solver) {
+    const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
+    const int dimension = 2 * plan.equations.mechanics.degrees_of_freedom;
+    lowered.stage_layout = wishes.stages_in_lanes && !plan.arrays
+                               ? stages_in_lanes(stages, dimension)
+                               : StageLayout{.stages = stages, .dimension = dimension};
+  }
   if (wishes.tangent) lowered = with_tangent(std::move(lowered));
   if (!wishes.modified_terms.empty()) add_modified_energies(lowered, wishes.modified_terms);
   return lowered;

@@ -60,7 +60,8 @@ class StageNumbers {
   explicit StageNumbers(const LoweredStep& lowered)
       : table_(lowered.sequence.stages),
         nodes_(std::get<RungeKutta>(lowered.plan.equations.scheme.method).c),
-        stages_(static_cast<int>(table_.weight.size())),
+        layout_(*lowered.stage_layout),
+        stages_(layout_.stages),
         b_({.name = "prepare",
             .result = {.type = "Coefficients", .object = "k"},
             .arguments = {parameters_argument(), {.name = "h"}}}) {}
@@ -74,13 +75,16 @@ class StageNumbers {
       }
     }
     add_scaled();
-    const std::vector<int> square = {stages_, stages_};
+    const std::vector<int> square = {stages_, layout_.room()};
+    const bool turned = layout_.lanes > 0;
     return {.record = {.name = "Coefficients",
-                       .fields = {{.name = "coupling", .sizes = square, .remark = "a_ij / b_j"},
+                       .fields = {{.name = "coupling",
+                                   .sizes = square,
+                                   .remark = turned ? "[j][i]: a_ij / b_j" : "a_ij / b_j"},
                                   {.name = "ahead",
                                    .sizes = square,
                                    .remark = "from L_j of a step to Y_i - z of the next"},
-                                  {.name = "scaled", .sizes = {stages_}, .remark = "h b_i"}},
+                                  {.name = "scaled", .sizes = {layout_.room()}, .remark = "h b_i"}},
                        .remark = {"The numbers of the method, and the step."}},
             .prepare = b_.take(),
             .places = {}};
@@ -133,6 +137,7 @@ class StageNumbers {
     return numeric_value(table_.coupling[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   }
   Expression entry(const char* table, std::pair<int, int> at) {
+    if (layout_.lanes > 0) std::swap(at.first, at.second);
     return b_.at("k", table, {affine(at.first), affine(at.second)});
   }
   void assign(const char* table, std::pair<int, int> at, const Expression& value) {
@@ -141,6 +146,7 @@ class StageNumbers {
 
   const StageTable& table_;
   const std::vector<Expression>& nodes_;
+  StageLayout layout_;
   int stages_;
   RoutineBuilder b_;
 };

@@ -10,6 +10,7 @@ namespace hamgen {
 //   k.ahead[i][j]    from the L_j of one step to the increments Y_i - z of the next, on the same
 //                    polynomial
 //   k.scaled[i]      h b_i
+// In lanes it is [j][i], and 0 for what is no stage.
 [[nodiscard]] Coefficients stage_coefficients(const LoweredStep& lowered);
 
 }  // namespace hamgen

@@ -9,7 +9,9 @@
 
 namespace hamgen {
 
-void RoutineReader::operator()(const Let& let) { local("Real", let.symbol, meant(let.value)); }
+void RoutineReader::operator()(const Let& let) {
+  local(scope_.in_lanes() ? "Lanes" : "Real", let.symbol, meant(let.value));
+}
 
 void RoutineReader::operator()(const Array& node) {
   Values values;
@@ -37,7 +39,22 @@ void RoutineReader::operator()(const Copy& copy) {
 }
 
 void RoutineReader::operator()(const Assign& assign) {
+  if (scope_.in_lanes()) return lanes_assignment(assign);
   assignment(symbol(assign.symbol), "=", meant(assign.value));
+}
+
+// Lanes::put(array + i, value)
+void RoutineReader::lanes_assignment(const Assign& assign) {
+  const CppStatement& found =
+      next(CppStatement::Kind::expression, assign.symbol + " of the stages");
+  const CppExpression& e = *found.value;
+  const bool puts = e.kind == CppExpression::Kind::call && e.parts.size() == 3 &&
+                    e.parts[0].is_name("Lanes::put");
+  if (!puts) throw TextDifference(found.line, "not " + assign.symbol + " of the stages");
+  same(machine_symbol(symbol_of(scope_.lanes(e.parts[1]))), symbol(assign.symbol), found.line,
+       "the assignment to " + assign.symbol);
+  same(scope_.value(e.parts[2]), meant(assign.value), found.line,
+       assign.symbol + " of the program");
 }
 
 void RoutineReader::operator()(const Collect& sum) {
@@ -67,8 +84,10 @@ void RoutineReader::operator()(const SetFlag& set) {
 }
 
 void RoutineReader::operator()(const For& node) {
-  const CppStatement& found = loop(node.range);
+  const CppStatement& found = loop(node.range, node.lanes > 0 ? node.lanes : 1);
+  if (node.lanes > 0) scope_.set_lanes(node.range.index);
   within(found, [&] { compare(node.body); });
+  if (node.lanes > 0) scope_.set_lanes("");
   scope_.leave();
 }
 

@@ -7,6 +7,17 @@
 
 namespace hamgen {
 
+namespace {
+
+// Lanes(0)
+bool is_zero_of_lanes(const CppExpression& e) {
+  return e.kind == CppExpression::Kind::call && e.parts.size() == 2 &&
+         e.parts[0].is_name("Lanes") && e.parts[1].kind == CppExpression::Kind::number &&
+         e.parts[1].text == "0";
+}
+
+}  // namespace
+
 // What an iteration's report counts, and how it goes on.
 void RoutineReader::leave_with(const std::string& jump) {
   assignment(machine_symbol("@report.iterations"), "+=", machine_symbol("iteration "));
@@ -111,12 +122,19 @@ void RoutineReader::distance_of(const IterateArray& iterate) {
   for (const WholeUnknowns& u : arrays) {
     const CppStatement& found = next(CppStatement::Kind::expression, "the distance of an array");
     const CppExpression& e = *found.value;
-    const bool adds = e.kind == CppExpression::Kind::call && e.parts.size() == 5 &&
-                      e.parts[0].kind == CppExpression::Kind::member && e.parts[0].text == "add" &&
-                      is_place(e.parts[0].parts[0], {"distance "}) &&
-                      is_place(e.parts[1], u.increment) && is_place(e.parts[2], u.value) &&
-                      is_place(e.parts[3], u.beside) &&
-                      scope_.index(e.parts[4]) == AffineIndex{u.count, {}};
+    // distance.add(...), or add_lanes(Lanes(0), distance, ...)
+    const std::size_t first = iterate.lanes > 0 ? 3 : 1;
+    bool adds = e.kind == CppExpression::Kind::call && e.parts.size() == first + 4;
+    if (adds && iterate.lanes > 0) {
+      adds = e.parts[0].is_name("add_lanes") && is_zero_of_lanes(e.parts[1]) &&
+             is_place(e.parts[2], {"distance "});
+    } else if (adds) {
+      adds = e.parts[0].kind == CppExpression::Kind::member && e.parts[0].text == "add" &&
+             is_place(e.parts[0].parts[0], {"distance "});
+    }
+    adds = adds && is_place(e.parts[first], u.increment) && is_place(e.parts[first + 1], u.value) &&
+           is_place(e.parts[first + 2], u.beside) &&
+           scope_.index(e.parts[first + 3]) == AffineIndex{u.count, {}};
     if (!adds) throw TextDifference(found.line, "not the distance of the program's unknowns");
   }
   if (!arrays.empty()) return;
@@ -138,10 +156,14 @@ void RoutineReader::contraction(const IterateArray& iterate) {
     compare(iterate.body);
     object("Distance", "distance ");
     distance_of(iterate);
-    for_elements(iterate.ranges, [&] {
-      for (const UnknownArray& u : iterate.unknowns)
-        assignment(symbol(u.value), "+=", symbol(u.increment));
-    });
+    if (iterate.lanes > 0) {
+      (*this)(moved_in_lanes(iterate));
+    } else {
+      for_elements(iterate.ranges, [&] {
+        for (const UnknownArray& u : iterate.unknowns)
+          assignment(symbol(u.value), "+=", symbol(u.increment));
+      });
+    }
     Values given = {machine_symbol("@distance ")};
     if (simplified) {
       given.push_back(symbol(iterate.residual));

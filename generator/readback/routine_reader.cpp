@@ -17,6 +17,14 @@ std::string shortened(std::string text) {
   return text;
 }
 
+// ++i, or i += 8
+bool advances(const CppExpression& e, const std::string& index, int step) {
+  if (step == 1)
+    return e.kind == CppExpression::Kind::prefix && e.text == "++" && e.parts[0].is_name(index);
+  return e.is_binary("+=") && e.parts[0].is_name(index) &&
+         e.parts[1].kind == CppExpression::Kind::number && e.parts[1].text == std::to_string(step);
+}
+
 }  // namespace
 
 RoutineReader::RoutineReader(const CppFunction& function, const Routine& routine,
@@ -203,12 +211,11 @@ const CppStatement& RoutineReader::branch(const MachineValue& condition) {
 }
 
 // The caller enters a frame and leaves it.
-const CppStatement& RoutineReader::loop(const KernelRange& range) {
+const CppStatement& RoutineReader::loop(const KernelRange& range, int step) {
   const CppStatement& found = next(CppStatement::Kind::loop, "a loop over " + range.index);
   const CppStatement& begin = found.first.front();
   const bool plain = begin.type == "int" && begin.value && begin.sizes.empty() && found.value &&
-                     found.advance && found.advance->kind == CppExpression::Kind::prefix &&
-                     found.advance->text == "++" && found.advance->parts[0].is_name(begin.name);
+                     found.advance && advances(*found.advance, begin.name, step);
   if (!plain) throw TextDifference(found.line, "not a loop over " + range.index);
   const AffineIndex lower = scope_.index(*begin.value);
   const CppExpression& condition = *found.value;
@@ -243,14 +250,8 @@ bool RoutineReader::is_place(const CppExpression& written, const Place& place) c
     const std::optional<Place> found = scope_.place(written);
     return found && *found == place;
   }
-  // An array from an element on: array + n + 2 * i.
-  if (!written.is_binary("+") || place.indices.size() != 1) return false;
-  AffineIndex offset;
-  const CppExpression* array = &written;
-  for (; array->is_binary("+"); array = &array->parts[0])
-    offset = plus(offset, scope_.index(array->parts[1]), 1);
-  const std::optional<Place> found = scope_.place(*array);
-  return found && *found == Place{place.object, place.field} && offset == place.indices.front();
+  const std::optional<Place> found = scope_.element(written);
+  return found && *found == place;
 }
 
 bool RoutineReader::is_called(const CppExpression& written, const Call& call) const {

@@ -29,6 +29,7 @@ class RoutineReader {
   void operator()(const Matrix& matrix);
   void operator()(const Copy& copy);
   void operator()(const Assign& assign);
+  void lanes_assignment(const Assign& assign);
   void operator()(const Collect& sum);
   void operator()(const Accumulate& sum);
   void operator()(const Clear& clear);
@@ -76,7 +77,7 @@ class RoutineReader {
   // A statement that is this call.
   void call(const MachineValue& value);
   const CppStatement& branch(const MachineValue& condition);
-  const CppStatement& loop(const KernelRange& range);
+  const CppStatement& loop(const KernelRange& range, int step = 1);
   // for (int name = 1;; ++name), which `symbol` is what it counts in.
   const CppStatement& endless(const std::string& symbol);
   void same(const MachineValue& written, const MachineValue& exact, int line,

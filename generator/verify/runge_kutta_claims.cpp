@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include "generator/algebra/exact.hpp"
 #include "generator/verify/claim_list.hpp"
@@ -38,33 +39,45 @@ Identities explicit_identities(const StepUnderProof& step, const RungeKutta& tab
   return claims.take();
 }
 
+std::size_t nth(long i) { return static_cast<std::size_t>(i); }
+
+// Row i of a table of the method, of stage i.
+std::vector<Expression> row_of(SymbolicMachine& machine, const StageLayout& layout,
+                               const std::string& table, long i) {
+  std::vector<Expression> row;
+  for (long j = 0; j < layout.stages; ++j) {
+    const long at = layout.lanes > 0 ? j * layout.room() + i : i * layout.stages + j;
+    row.push_back(machine.value(of_k(table, at)));
+  }
+  return row;
+}
+
 // Where the iterations begin: at the polynomial that has the slopes of the step before, or at z.
 Identities start_identities(const StepUnderProof& step, const RungeKutta& tableau, bool known) {
-  Claims claims(step, {"vector_field", "hessian"});
+  Claims claims(step, {"vector_field", "vector_fields", "hessian"});
   SymbolicMachine& machine = claims.machine();
   machine.skip("differentiate");
-  const auto stages = static_cast<long>(tableau.b.size());
-  const long dimension = step.size();
+  const StageLayout& layout = *step.code.stages;
+  claims.add_count("the number of stages", static_cast<std::size_t>(layout.stages),
+                   tableau.b.size());
   std::vector<Expression> slopes;
-  std::vector<Expression> ahead;
-  for (long i = 0; i < stages * dimension; ++i) {
-    slopes.push_back(machine.value(of_start("slope", i)));
-  }
-  for (long i = 0; i < stages * stages; ++i) ahead.push_back(machine.value(of_k("ahead", i)));
+  std::vector<std::vector<Expression>> ahead;
+  for (long i = 0; i < layout.count(); ++i) slopes.push_back(machine.value(of_start("slope", i)));
+  for (long i = 0; i < layout.room(); ++i) ahead.push_back(row_of(machine, layout, "ahead", i));
   machine.set_flag({"start", "known"}, known);
   machine.run("solve");
   bool first = true;
   for (const IterationTrace& trace : machine.iterations) {
-    for (long row = 0; row < std::ssize(trace.starts); ++row) {
-      const long j = row % dimension;
-      Expression expected = step.mechanics.variable(static_cast<int>(j));
-      for (long m = 0; known && first && m < stages; ++m) {
-        expected += ahead[static_cast<std::size_t>(row / dimension * stages + m)] *
-                    slopes[static_cast<std::size_t>(m * dimension + j)];
+    claims.add_count("the number of unknowns", trace.starts.size(), nth(layout.count()));
+    if (std::ssize(trace.starts) != layout.count()) return claims.take();
+    for (long i = 0; i < layout.room(); ++i) {
+      for (long j = 0; j < layout.dimension; ++j) {
+        Expression expected = step.mechanics.variable(static_cast<int>(j));
+        for (long m = 0; known && first && m < layout.stages; ++m)
+          expected += ahead[nth(i)][nth(m)] * slopes[nth(layout.at(m, j))];
+        claims.add(fmt::format("the start of stage {}, {}", i + 1, step.name(static_cast<int>(j))),
+                   trace.starts[nth(layout.at(i, j))], expected);
       }
-      claims.add(fmt::format("the start of stage {}, {}", row / dimension + 1,
-                             step.name(static_cast<int>(j))),
-                 trace.starts[static_cast<std::size_t>(row)], expected);
     }
     first = false;
   }
@@ -105,25 +118,40 @@ Identities tableau_identities(const StepUnderProof& step, const RungeKutta& tabl
   Claims claims(step);
   SymbolicMachine& machine = claims.machine();
   machine.run("prepare");
-  const auto value = [&](const std::string& field, long i) {
-    return written_out(machine, machine.value(of_k(field, i)));
+  const StageLayout& layout = *step.code.stages;
+  const auto rows = [&](const std::string& table) {
+    std::vector<std::vector<Expression>> result;
+    for (long i = 0; i < layout.room(); ++i) {
+      result.push_back(row_of(machine, layout, table, i));
+      for (Expression& entry : result.back()) entry = written_out(machine, entry);
+    }
+    return result;
   };
-  const auto stages = static_cast<long>(tableau.b.size());
-  for (long i = 0; i < stages; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    claims.add_number(fmt::format("the weight b_{}", i + 1),
-                      substitute(value("scaled", i), {{"h", Expression(1)}}), tableau.b[row]);
-    claims.add(fmt::format("h in the weight b_{}", i + 1), value("scaled", i),
-               step_size() * substitute(value("scaled", i), {{"h", Expression(1)}}));
-    for (long j = 0; j < stages; ++j) {
-      const auto column = static_cast<std::size_t>(j);
+  const std::vector<std::vector<Expression>> coupling = rows("coupling");
+  const std::vector<std::vector<Expression>> ahead = rows("ahead");
+  for (long i = 0; i < layout.room(); ++i) {
+    const auto row = nth(i);
+    const Expression weight = written_out(machine, machine.value(of_k("scaled", i)));
+    if (i >= layout.stages) {
+      // Of no stage: nothing is taken of it, and it takes nothing.
+      claims.add("the weight of what is no stage", weight, Expression(0));
+      for (const auto* table : {&coupling, &ahead}) {
+        for (const Expression& entry : (*table)[row])
+          claims.add("a coefficient of what is no stage", entry, Expression(0));
+      }
+      continue;
+    }
+    const Expression plain = substitute(weight, {{"h", Expression(1)}});
+    claims.add_number(fmt::format("the weight b_{}", i + 1), plain, tableau.b[row]);
+    claims.add(fmt::format("h in the weight b_{}", i + 1), weight, step_size() * plain);
+    for (long j = 0; j < layout.stages; ++j) {
+      const auto column = nth(j);
       const Expression exact = tableau.a[row][column] / tableau.b[column];
-      claims.add_number(fmt::format("the coefficient a_{},{}", i + 1, j + 1),
-                        value("coupling", i * stages + j), exact);
+      claims.add_number(fmt::format("the coefficient a_{},{}", i + 1, j + 1), coupling[row][column],
+                        exact);
     }
   }
-  add_extrapolation(claims, tableau,
-                    [&](long i, long j) { return value("ahead", i * stages + j); });
+  add_extrapolation(claims, tableau, [&](long i, long j) { return ahead[nth(i)][nth(j)]; });
   return claims.take();
 }
 
@@ -133,17 +161,18 @@ void add_block(Claims& claims, const StepUnderProof& step, const EliminatedSyste
                std::pair<long, long> stages, const Expression& weight,
                const std::vector<Expression>& hessian) {
   const Substitution meaning = meaning_of(claims.machine());
+  const StageLayout layout = step.code.stages->without_room();
   const long dimension = step.size();
   const long n = dimension / 2;
   for (long j = 0; j < dimension; ++j) {
     for (long c = 0; c < dimension; ++c) {
-      const std::pair place(stages.first * dimension + j, stages.second * dimension + c);
-      const auto entry = system.matrix.find(place);
+      const std::pair at(layout.at(stages.first, j), layout.at(stages.second, c));
+      const auto entry = system.matrix.find(at);
       const Expression emitted =
           entry == system.matrix.end() ? Expression(0) : substitute(entry->second, meaning);
       const Expression& second =
           hessian[static_cast<std::size_t>((j < n ? j + n : j - n) * dimension + c)];
-      const Expression unit(place.first == place.second ? 1 : 0);
+      const Expression unit(at.first == at.second ? 1 : 0);
       const Expression expected = j < n ? unit - weight * second : unit + weight * second;
       if (emitted != expected || j + c == 0)
         claims.add("an entry of Newton's matrix", emitted, expected);
@@ -155,24 +184,27 @@ void add_block(Claims& claims, const StepUnderProof& step, const EliminatedSyste
 // L_j = h b_j f(Y_j), and the step adds up the L_j, with what the rounded stages lack of the exact
 // ones.  Newton's matrix is that of one Hessian for all stages, which decides how fast it
 // converges, and not to what.
-Identities implicit_identities(const StepUnderProof& step, const RungeKutta& tableau) {
-  Claims claims(step, {"vector_field", "hessian"});
+Identities implicit_identities(const StepUnderProof& step) {
+  Claims claims(step, {"vector_field", "vector_fields", "hessian"});
   SymbolicMachine& machine = claims.machine();
-  const auto stages = static_cast<long>(tableau.b.size());
-  const long dimension = step.size();
-  std::vector<Expression> coupling;
+  const StageLayout& layout = *step.code.stages;
+  const StageLayout packed = layout.without_room();
+  const long stages = layout.stages;
+  std::vector<std::vector<Expression>> coupling;
   std::vector<Expression> scaled;
-  for (long i = 0; i < stages * stages; ++i) coupling.push_back(machine.value(of_k("coupling", i)));
+  for (long i = 0; i < stages; ++i) coupling.push_back(row_of(machine, layout, "coupling", i));
   for (long i = 0; i < stages; ++i) scaled.push_back(machine.value(of_k("scaled", i)));
   machine.run("solve");
-  const auto at = [](long i) { return static_cast<std::size_t>(i); };
   // h b_m f(Y_m) where an iteration evaluates.
   const auto slope = [&](const IterationTrace& trace, long m, long j) -> Expression {
-    const auto first = trace.unknowns.begin() + m * dimension;
-    const std::vector<Expression> point(first, first + dimension);
+    const std::vector<Expression>& all = trace.unknowns;
     for (const CallTrace& call : machine.calls) {
-      if (call.routine == "vector_field" && call.input == point)
-        return scaled[at(m)] * call.output[at(j)];
+      if (call.routine == "vector_fields" && call.input == all)
+        return scaled[nth(m)] * call.output[nth(layout.at(m, j))];
+      const auto first = all.begin() + layout.at(m, 0);
+      if (call.routine == "vector_field" &&
+          std::ranges::equal(call.input, std::span(first, nth(layout.dimension))))
+        return scaled[nth(m)] * call.output[nth(j)];
     }
     return Expression::symbol("nothing at stage " + std::to_string(m + 1));
   };
@@ -180,23 +212,24 @@ Identities implicit_identities(const StepUnderProof& step, const RungeKutta& tab
   if (machine.iterations.empty()) return claims.take();
   std::size_t system = 0;
   for (const IterationTrace& trace : machine.iterations) {
-    claims.add_count("the number of stages", trace.unknowns.size(), at(stages * dimension));
-    if (trace.unknowns.size() != at(stages * dimension)) return claims.take();
+    claims.add_count("the number of stages", trace.unknowns.size(), nth(layout.count()));
+    if (trace.unknowns.size() != nth(layout.count())) return claims.take();
     const bool newton = trace.rule != Rule::fixed_point;
     if (newton && system == machine.systems.size()) break;
     const EliminatedSystem* solved = newton ? &machine.systems[system++] : nullptr;
     for (long i = 0; i < stages; ++i) {
-      for (long j = 0; j < dimension; ++j) {
-        const std::size_t row = at(i * dimension + j);
-        Expression lack = step.mechanics.variable(static_cast<int>(j)) +
-                          step.carry(static_cast<int>(j)) - trace.unknowns[row];
-        for (long m = 0; m < stages; ++m) lack += coupling[at(i * stages + m)] * slope(trace, m, j);
-        claims.add(fmt::format("what stage {} lacks of {}", i + 1, step.name(static_cast<int>(j))),
-                   solved != nullptr ? solved->right_side.at(row) : trace.corrections[row], lack);
+      for (long j = 0; j < layout.dimension; ++j) {
+        const auto component = static_cast<int>(j);
+        const std::size_t row = nth(layout.at(i, j));
+        const std::size_t line = nth(packed.at(i, j));
+        Expression lack =
+            step.mechanics.variable(component) + step.carry(component) - trace.unknowns[row];
+        for (long m = 0; m < stages; ++m) lack += coupling[nth(i)][nth(m)] * slope(trace, m, j);
+        claims.add(fmt::format("what stage {} lacks of {}", i + 1, step.name(component)),
+                   solved != nullptr ? solved->right_side.at(line) : trace.corrections[row], lack);
         if (solved == nullptr) continue;
-        claims.add(
-            fmt::format("the increment of stage {}, {}", i + 1, step.name(static_cast<int>(j))),
-            trace.corrections[row], solved->solution.at(row));
+        claims.add(fmt::format("the increment of stage {}, {}", i + 1, step.name(component)),
+                   trace.corrections[row], solved->solution.at(line));
       }
     }
     if (solved == nullptr) continue;
@@ -204,27 +237,26 @@ Identities implicit_identities(const StepUnderProof& step, const RungeKutta& tab
     const auto hessian = std::ranges::find(machine.calls, "hessian", &CallTrace::routine);
     claims.add_count("the number of Hessians", hessian == machine.calls.end() ? 0 : 1, 1);
     if (hessian == machine.calls.end()) break;
-    for (long j = 0; j < dimension; ++j) {
+    for (long j = 0; j < layout.dimension; ++j) {
       Expression sum(0);
-      for (long m = 0; m < stages; ++m) sum += trace.unknowns[at(m * dimension + j)];
-      claims.add("the mean of the stages", hessian->input[at(j)],
+      for (long m = 0; m < stages; ++m) sum += trace.unknowns[nth(layout.at(m, j))];
+      claims.add("the mean of the stages", hessian->input[nth(j)],
                  sum * Expression(Rational(1, stages)));
     }
     for (long i = 0; i < stages; ++i) {
       for (long m = 0; m < stages; ++m) {
-        add_block(claims, step, *solved, {i, m}, coupling[at(i * stages + m)] * scaled[at(m)],
+        add_block(claims, step, *solved, {i, m}, coupling[nth(i)][nth(m)] * scaled[nth(m)],
                   hessian->output);
       }
     }
   }
   const IterationTrace& last = machine.iterations.back();
-  claims.add_count("the number of components refined", last.changes.size(), at(stages * dimension));
-  if (last.changes.size() != at(stages * dimension)) return claims.take();
-  for (long j = 0; j < dimension; ++j) {
+  claims.add_count("the number of components refined", last.changes.size(), nth(layout.count()));
+  if (last.changes.size() != nth(layout.count())) return claims.take();
+  for (long j = 0; j < layout.dimension; ++j) {
     const auto i = static_cast<int>(j);
     Expression sum = step.carry(i);
-    for (long m = 0; m < stages; ++m)
-      sum += slope(last, m, j) + last.changes[at(m * dimension + j)];
+    for (long m = 0; m < stages; ++m) sum += slope(last, m, j) + last.changes[nth(layout.at(m, j))];
     claims.add("the increment of " + step.name(i), step.increment(machine, i), sum);
   }
   return claims.take();
@@ -236,7 +268,7 @@ std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
                                                const RungeKutta& tableau) {
   if (tableau.is_explicit()) return {explicit_identities(step, tableau)};
   return {tableau_identities(step, tableau), start_identities(step, tableau, false),
-          start_identities(step, tableau, true), implicit_identities(step, tableau)};
+          start_identities(step, tableau, true), implicit_identities(step)};
 }
 
 }  // namespace hamgen
