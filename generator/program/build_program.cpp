@@ -121,10 +121,15 @@ void add_functions(Program& code, const Environment& environment, const LoweredS
   code.routines.push_back(with_remark(values_routine(environment, "gradient", lowered.gradient),
                                       "grad H, the derivatives by q first."));
   const std::optional<StageLayout>& layout = lowered.stage_layout;
-  if (layout && layout->lanes > 0) {
+  if (layout && layout->by_component()) {
     code.routines.push_back(with_remark(
         stage_values_routine(environment, "vector_fields", lowered.vector_field, *layout),
         "J grad H at all stages."));
+    if (lowered.second_order)
+      code.routines.push_back(
+          with_remark(stage_values_routine(environment, "forces", lowered.second_order->forces,
+                                           *layout, environment.degrees_of_freedom),
+                      "-dH/dq at all stages."));
   } else if (array) {
     code.routines.push_back(with_remark(
         values_routine(environment, "vector_field", lowered.vector_field, StateForm::array),

@@ -60,7 +60,7 @@ Routine values_routine(const Environment& environment, std::string name,
 }
 
 Routine stage_values_routine(const Environment& environment, std::string name,
-                             const Evaluation& evaluation, const StageLayout& layout) {
+                             const Evaluation& evaluation, const StageLayout& layout, int first) {
   RoutineBuilder b({.name = std::move(name),
                     .arguments = {parameters_argument(),
                                   {.name = "z", .sizes = {layout.count()}},
@@ -75,11 +75,9 @@ Routine stage_values_routine(const Environment& environment, std::string name,
     if (used.contains(variable)) each.push_back({Let{variable, b.at("z", "", {place(c)})}});
   }
   append(each, evaluation.statements);
-  for (int c = 0; c < layout.dimension; ++c) {
-    each.push_back({Assign{b.at("values", "", {place(c)}).name(),
-                           evaluation.results[static_cast<std::size_t>(c)]}});
-  }
-  b.body().push_back(in_lanes(counting("i", layout.room()), layout.lanes, std::move(each)));
+  for (const Expression& result : evaluation.results)
+    each.push_back({Assign{b.at("values", "", {place(first++)}).name(), result}});
+  b.body().push_back(in_lanes(counting("i", layout.room()), layout.packs(), std::move(each)));
   return b.take();
 }
 

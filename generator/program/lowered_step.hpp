@@ -70,6 +70,14 @@ struct StepWishes {
   std::vector<Expression> modified_terms = {};
 };
 
+// Of an implicit Runge-Kutta method for a kinetic energy that is a sum of squares of momenta: the
+// stages of the momenta can be eliminated.
+struct SecondOrder {
+  Evaluation forces;                 // -dH/dq, n results
+  Evaluation velocities;             // dH/dp
+  std::vector<Expression> mobility;  // d^2 H/dp_j^2, of parameters alone
+};
+
 struct LoweredStep {
   SolvePlan plan;
   std::vector<Statement> coefficients;  // of h and parameters: once per run
@@ -90,6 +98,7 @@ struct LoweredStep {
   // Of a Runge-Kutta method: J grad H, 2n results.
   Evaluation vector_field = {};
   std::optional<StageLayout> stage_layout = {};  // of an implicit one
+  std::optional<SecondOrder> second_order = {};
   // What stands around the instructions.
   Sequence sequence = {};
   bool tangent = false;     // is the tangent map wanted?

@@ -25,7 +25,7 @@ namespace hamgen {
 [[nodiscard]] inline Instruction for_each(KernelRange range, Body body) {
   return {For{std::move(range), std::move(body)}};
 }
-// Where `lanes` is not 0 so many at once.
+// So many at once; 0: one after the other.
 [[nodiscard]] inline Instruction in_lanes(KernelRange range, int lanes, Body body) {
   return {For{std::move(range), std::move(body), lanes}};
 }

@@ -23,7 +23,7 @@ Routine stages_tangent(const Environment& environment, const LoweredStep& lowere
   stage.push_back({Array{"product", {size, size}}});
   Place point{"start", "value", {affine("i", 0, size)}};
   const StageLayout& layout = *lowered.stage_layout;
-  if (layout.lanes > 0) {
+  if (layout.by_component()) {
     point = {"stage"};
     stage.push_back({Array{"stage", {size}}});
     const Expression value = b.at({"start", "value", {layout.index("i", 0, "row", 0)}});
@@ -51,8 +51,8 @@ Routine stages_tangent(const Environment& environment, const LoweredStep& lowere
                 line,
                 {0, {{"j", size}, {"column", 1}}},
                 -b.product({"k", "coupling",
-                            layout.lanes > 0 ? std::vector{affine("j"), affine("i")}
-                                             : std::vector{affine("i"), affine("j")}},
+                            layout.by_component() ? std::vector{affine("j"), affine("i")}
+                                                  : std::vector{affine("i"), affine("j")}},
                            {"second", "", {affine("j"), affine("row"), affine("column")}})}}};
   Body pairs;
   Body columns;

@@ -5,26 +5,30 @@
 
 namespace hamgen {
 
-// One stage after the other, as the state has its components, or one component after the other,
-// with its numbers of all stages side by side: so they are computed in lanes.  Beyond the last
-// stage there may be room then, for stages that stay at z and that nothing takes anything of.
+// One stage after the other, as the state has its components, where the system is in loops.  Else
+// one component after the other, with its numbers of all stages side by side: as they are computed,
+// many at once or not.  Beyond the last stage there may be room then, for stages that stay at z and
+// that nothing takes anything of.
 struct StageLayout {
   int stages = 0;
   int dimension = 0;  // 2n
-  int lanes = 0;      // that are computed together: 2, 4 or 8, or 0 where stages follow each other
+  int lanes = 0;      // 0: one stage after the other; else how many are computed at once
 
-  // Of a component's numbers, in lanes.
+  [[nodiscard]] bool by_component() const { return lanes > 0; }
+  // Are numbers packs of this size?
+  [[nodiscard]] int packs() const { return lanes > 1 ? lanes : 0; }
+  // Of a component's numbers.
   [[nodiscard]] int room() const {
-    return lanes == 0 ? stages : (stages + lanes - 1) / lanes * lanes;
+    return by_component() ? (stages + lanes - 1) / lanes * lanes : stages;
   }
   [[nodiscard]] int count() const { return room() * dimension; }
   [[nodiscard]] long at(long stage, long component) const {
-    return lanes == 0 ? stage * dimension + component : component * room() + stage;
+    return by_component() ? component * room() + stage : stage * dimension + component;
   }
   // The same without that room: where rows and columns of a matrix are.
   [[nodiscard]] StageLayout without_room() const {
     StageLayout result = *this;
-    if (lanes > 0) result.lanes = 1;
+    if (by_component()) result.lanes = 1;
     return result;
   }
   // Component `component` of stage `stage`, or with indices of these names as well.
@@ -37,7 +41,8 @@ struct StageLayout {
   }
 };
 
-// With as many lanes as fit: the fewest numbers that are none of a stage, of these the widest.
+// By component, with as many lanes as fit: the fewest numbers that are none of a stage, of these
+// the widest.
 [[nodiscard]] StageLayout stages_in_lanes(int stages, int dimension);
 
 }  // namespace hamgen

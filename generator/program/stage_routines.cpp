@@ -2,31 +2,34 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/routine_builder.hpp"
+#include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_numbers.hpp"
 
 namespace hamgen {
 
 namespace {
 
-class StageRoutines {
+class StageRoutines : StageParts {
  public:
   StageRoutines(Program& code, const Environment& environment, const LoweredStep& lowered)
-      : code_(code),
+      : StageParts(lowered),
+        code_(code),
         environment_(environment),
         lowered_(lowered),
-        solver_(*lowered.plan.stage_solver),
-        layout_(*lowered.stage_layout),
-        stages_(layout_.stages),
-        n_(environment.degrees_of_freedom),
-        dimension_(2 * n_) {}
+        solver_(*lowered.plan.stage_solver) {
+    if (lowered.second_order) coordinates_.emplace(environment, lowered);
+  }
 
   void add() {
-    Coefficients coefficients = stage_coefficients(lowered_);
+    Coefficients coefficients = stage_coefficients(environment_, lowered_);
     code_.records.push_back(std::move(coefficients.record));
     code_.routines.push_back(std::move(coefficients.prepare));
     code_.records.push_back(start());
     code_.routines.push_back(evaluate());
+    if (coordinates_) {
+      for (Routine& routine : coordinates_->routines())
+        code_.routines.push_back(std::move(routine));
+    }
     if (has_newton()) code_.routines.push_back(differentiate());
     if (solver_ == StageSolver::both) {
       code_.routines.push_back(fixed_point());
@@ -39,10 +42,6 @@ class StageRoutines {
   }
 
  private:
-  // With those that are none of a stage.
-  [[nodiscard]] int unknowns() const { return layout_.count(); }
-  [[nodiscard]] bool has_lanes() const { return layout_.lanes > 0; }
-  [[nodiscard]] bool has_spare_room() const { return layout_.room() > stages_; }
   [[nodiscard]] bool has_newton() const { return solver_ != StageSolver::fixed_point; }
   [[nodiscard]] bool has_fixed_point() const { return solver_ != StageSolver::newton; }
 
@@ -50,14 +49,14 @@ class StageRoutines {
     Record record{
         .name = "Start",
         .fields = {},
-        .remark = {has_lanes() ? "Of every component its numbers at all stages, and what is "
-                                 "remembered of them."
-                               : "The stages, one after the other, and what is remembered of "
-                                 "them."}};
+        .remark = {by_component() ? "Of every component its numbers at all stages, and what is "
+                                    "remembered of them."
+                                  : "The stages, one after the other, and what is remembered of "
+                                    "them."}};
     const auto array = [&](const char* name, int size, const char* remark) {
       record.fields.push_back({.name = name, .sizes = {size}, .remark = remark});
     };
-    if (has_lanes()) {
+    if (by_component()) {
       array("state", unknowns(), "z, at every stage");
     } else {
       array("state", dimension_, "z as an array");
@@ -65,6 +64,7 @@ class StageRoutines {
     array("small", dimension_, "the carry");
     array("value", unknowns(), "Y_i");
     array("slope", unknowns(), "L_i = h b_i f(Y_i)");
+    if (coordinates_) record.fields.push_back(coordinates_->base());
     record.fields.push_back(
         {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
     array("lack", unknowns(), "of the equations at Y_i, then the increment");
@@ -89,52 +89,6 @@ class StageRoutines {
     return record;
   }
 
-  // --- elements of the arrays: of stage i or of a numbered one, component j -------------------
-
-  [[nodiscard]] AffineIndex row() const { return layout_.index("i", 0, "j", 0); }
-  [[nodiscard]] AffineIndex row_of(int stage) const { return layout_.index("", stage, "j", 0); }
-  [[nodiscard]] Expression state(RoutineBuilder& b) const {
-    return of_start(b, "state", has_lanes() ? row() : affine("j"));
-  }
-  [[nodiscard]] KernelRange all_stages() const { return counting("i", layout_.room()); }
-  [[nodiscard]] KernelRange all_components() const { return counting("j", dimension_); }
-  [[nodiscard]] Instruction for_all(Body each) const {
-    Body inner;
-    if (has_lanes()) {
-      inner.push_back(in_lanes(all_stages(), layout_.lanes, std::move(each)));
-      return for_each(all_components(), std::move(inner));
-    }
-    inner.push_back(for_each(all_components(), std::move(each)));
-    return for_each(all_stages(), std::move(inner));
-  }
-  static Expression of_start(RoutineBuilder& b, const char* field, const AffineIndex& index) {
-    return b.at("start", field, {index});
-  }
-  // sum_m k.table[i][m] L_m, the table turned over in lanes
-  Expression combination(RoutineBuilder& b, const char* table) const {
-    Expression sum(0);
-    for (int m = 0; m < stages_; ++m) {
-      std::vector<AffineIndex> indices = {affine("i"), affine(m)};
-      if (has_lanes()) std::swap(indices[0], indices[1]);
-      const Expression entry = b.at("k", table, indices);
-      sum += entry * of_start(b, "slope", row_of(m));
-    }
-    return sum;
-  }
-
-  [[nodiscard]] static std::vector<Argument> with_start(bool report) {
-    std::vector<Argument> list = {parameters_argument(),
-                                  {.name = "k", .record = "Coefficients"},
-                                  {.name = "start", .record = "Start", .changes = true}};
-    if (report) list.push_back({.name = "report", .record = "StepReport", .changes = true});
-    return list;
-  }
-  [[nodiscard]] static Call call(const char* routine, bool report = false) {
-    Call result{.routine = routine, .arguments = {{"par"}, {"k"}, {"start"}}};
-    if (report) result.arguments.push_back({"report"});
-    return result;
-  }
-
   // --- routines ---------------------------------------------------------------------------------
 
   [[nodiscard]] Routine evaluate() const {
@@ -156,7 +110,7 @@ class StageRoutines {
     const Expression slope = of_start(b, "slope", row());
     const Expression scaled = b.at("k", "scaled", {affine("i")});
     Body scale{{Assign{slope.name(), scaled * slope}}};
-    if (has_lanes()) {
+    if (by_component()) {
       b.body().push_back({Call{.routine = "vector_fields",
                                .arguments = {{"par"}, {"start", "value"}, {"start", "slope"}}}});
       b.body().push_back(for_all(std::move(scale)));
@@ -192,9 +146,7 @@ class StageRoutines {
     b.body().push_back(for_each(counting("j", stages_ * dimension_), std::move(one)));
     // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
     Body entries;
-    std::vector<AffineIndex> indices = {affine("i"), affine("m")};
-    if (has_lanes()) std::swap(indices[0], indices[1]);
-    const Expression coupling = b.at("k", "coupling", indices);
+    const Expression coupling = entry(b, "coupling", affine("m"));
     const Expression scaled = b.at("k", "scaled", {affine("m")});
     const Expression weight = b.let(entries, "weight", coupling * scaled);
     const StageLayout packed = layout_.without_room();
@@ -216,7 +168,7 @@ class StageRoutines {
   // start.lack becomes the increment of Newton's iteration.
   void add_elimination(RoutineBuilder& b, Body& body) const {
     const Place matrix{"start", "matrix"};
-    if (!has_lanes() || !has_spare_room()) {
+    if (!by_component() || !has_spare_room()) {
       body.push_back({SolveFactorised{matrix, {"start", "lack"}}});
       return;
     }
@@ -242,9 +194,9 @@ class StageRoutines {
                                        .increment = of_start(b, "lack", row()).name(),
                                        .beside = of_start(b, "state", affine("j"))}},
                          .body = std::move(body)};
-    if (has_lanes()) {
+    if (by_component()) {
       iterate.ranges = {counting("j", unknowns())};
-      iterate.lanes = layout_.lanes;
+      iterate.lanes = layout_.packs();
       iterate.unknowns = {{.value = of_start(b, "value", affine("j")).name(),
                            .increment = of_start(b, "lack", affine("j")).name(),
                            .beside = of_start(b, "state", affine("j"))}};
@@ -256,6 +208,7 @@ class StageRoutines {
   }
 
   void add_fixed_point(RoutineBuilder& b) const {
+    if (coordinates_) return coordinates_->add_fixed_point(b);
     Body body{{call("evaluate")}};
     b.body().push_back({iteration(b, Rule::fixed_point, std::move(body))});
   }
@@ -301,7 +254,7 @@ class StageRoutines {
 
   // The stages of the polynomial through those of the last step, or the state.
   void add_start_values(RoutineBuilder& b) const {
-    if (has_lanes()) {
+    if (by_component()) {
       add_state_at_stages(b);
     } else {
       read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
@@ -324,11 +277,11 @@ class StageRoutines {
       const Expression target = of_start(b, "state", layout_.index("i", 0, "", c));
       each.push_back({Assign{target.name(), b.at(environment_.place("z", c))}});
     }
-    b.body().push_back(in_lanes(all_stages(), layout_.lanes, std::move(each)));
+    b.body().push_back(in_lanes(all_stages(), layout_.packs(), std::move(each)));
   }
   [[nodiscard]] Body at_state(RoutineBuilder& b) const {
     Body all;
-    if (has_lanes()) {
+    if (by_component()) {
       const std::string value = of_start(b, "value", affine("j")).name();
       Body each{{Assign{value, of_start(b, "state", affine("j"))}}};
       all.push_back(for_each(counting("j", unknowns()), std::move(each)));
@@ -369,10 +322,19 @@ class StageRoutines {
         break;
     }
     Body again{{call("evaluate")}};
+    const Place factorised{"start", "factorised"};
     if (has_newton()) {
       Body contract;
       add_elimination(b, contract);
-      again.push_back({If{{"start", "factorised"}, true, std::move(contract)}});
+      again.push_back({If{factorised, true, std::move(contract)}});
+    }
+    if (coordinates_) {
+      Body contract{{call("eliminate_momenta")}};
+      if (has_newton()) {
+        again.push_back({If{factorised, false, std::move(contract)}});
+      } else {
+        again.push_back(std::move(contract.front()));
+      }
     }
     b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
                                     .point = {"start", "value"},
@@ -431,8 +393,7 @@ class StageRoutines {
   const Environment& environment_;
   const LoweredStep& lowered_;
   StageSolver solver_;
-  StageLayout layout_;
-  int stages_, n_, dimension_;
+  std::optional<StageCoordinates> coordinates_;
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ class FileReader {
   }
 
  private:
-  [[nodiscard]] bool has_packs() const { return program_.stages && program_.stages->lanes > 0; }
+  [[nodiscard]] bool has_packs() const { return program_.stages && program_.stages->packs() > 0; }
   void add_blocks(const FixedBlocks& blocks, std::string& digest) {
     if (blocks.digest.empty()) return;
     if (!digest.empty() && digest != blocks.digest)

@@ -80,7 +80,13 @@ class Functions {
     if (has("vector_field")) {
       add("vector_field", loops ? "f" : "values", "component of J grad H", turned(gradient));
     }
-    if (has("vector_fields")) add_stages(turned(gradient));
+    if (has("vector_fields"))
+      add_stages("vector_fields", "component at all stages of J grad H", turned(gradient));
+    if (has("forces")) {
+      std::vector<Expression> forces(static_cast<std::size_t>(n_));
+      for (const Expression& each : by_q) forces.push_back(-each);
+      add_stages("forces", "component at all stages of -dH/dq", forces);
+    }
     if (is_called("hessian"))
       add("hessian", "values", "second derivative", dense(derivatives_, 2 * n_));
     return std::move(parts_);
@@ -101,17 +107,17 @@ class Functions {
   }
   // Given the same state at all stages, the routine has the same values at them; and as each number
   // is computed from those of its own stage alone, it is this function at every stage.
-  void add_stages(const std::vector<Expression>& field) {
+  void add_stages(const char* routine, const char* what, const std::vector<Expression>& field) {
     const StageLayout& layout = *step_.code.stages;
     std::vector<Expression> expected(static_cast<std::size_t>(layout.count()));
     for (long i = 0; i < layout.room(); ++i) {
       for (long j = 0; j < layout.dimension; ++j)
         expected[static_cast<std::size_t>(layout.at(i, j))] = field[static_cast<std::size_t>(j)];
     }
-    add("vector_fields", "values", "component at all stages of J grad H", expected);
-    parts_.back().claims.push_back(
-        {"numbers that are of two stages",
-         Expression(mixed_stages(*step_.code.routine("vector_fields"), layout)), Expression(0)});
+    add(routine, "values", what, expected);
+    parts_.back().claims.push_back({"numbers that are of two stages",
+                                    Expression(mixed_stages(*step_.code.routine(routine), layout)),
+                                    Expression(0)});
   }
   // Elements of arrays that are not those of the stage that the loop is at.
   static long mixed_stages(const Routine& routine, const StageLayout& layout) {

@@ -16,7 +16,8 @@ void give_state(const StepUnderProof& step, const Routine& routine, SymbolicMach
     for (const int size : argument.sizes) count *= size;
     const int first = argument.name == "p" ? n : 0;
     // Of all stages, component by component.
-    const int each = routine.name == "vector_fields" ? step.code.stages->room() : 1;
+    const int each =
+        routine.name == "vector_fields" || routine.name == "forces" ? step.code.stages->room() : 1;
     // What a caller leaves in an array is zero where entries are added to it or left out, and else
     // anything.
     if (argument.changes && argument.name != "values") continue;
