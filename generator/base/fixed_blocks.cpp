@@ -43,6 +43,7 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"lane_mask", "LaneMask any all"},
     {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
     {"lane_distance", "add_lanes"},
+    {"lane_refinement", "RefinementInLanes"},
     {"lane_pairs", "Pair"},
     {"lane_sine", "lane_sin lane_cos lane_tan"},
     {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},

@@ -84,8 +84,9 @@ class StageRoutines : StageParts {
       record.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
-    record.fields.push_back(
-        {.name = "refinement", .type = fmt::format("Refinement<{0}, {0}>", unknowns())});
+    std::string refinement = fmt::format("Refinement<{0}, {0}>", unknowns());
+    if (layout_.packs() > 0) refinement = "RefinementInLanes<Lanes, " + refinement + ">";
+    record.fields.push_back({.name = "refinement", .type = std::move(refinement)});
     return record;
   }
 
