@@ -57,7 +57,8 @@ template <class Real>
 class CompiledExpression {
  public:
   using Resolve = std::function<Address(const std::string& symbol)>;
-  CompiledExpression(const Expression& e, const Resolve& resolve, FunctionsOf functions);
+  CompiledExpression(const Expression& e, const Resolve& resolve,
+                     FunctionsOf functions = FunctionsOf::library);
   [[nodiscard]] Real operator()(const Frame<Real>& frame) const;
 
  private:
