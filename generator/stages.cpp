@@ -141,7 +141,8 @@ Stages stages_of(Model model, const Request& request) {
         "a look at every step: H is a polynomial, explicit steps leave no domain");
   StepWishes wishes{.tangent = request.tangent && !without_tangent(plan),
                     .plain_sums = request.plain_sums,
-                    .unchecked = unchecked};
+                    .unchecked = unchecked,
+                    .stages_in_lanes = request.scalar->type->digits == 53};
   if (request.watch_modified > 0) {
     require_solved_step(request);
     wishes.modified_terms = modified_terms(system.mechanics, system.scheme, request.watch_modified);

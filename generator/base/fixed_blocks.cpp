@@ -42,6 +42,8 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"lane_vectors", "VectorOf MaskOf BitsOf"},
     {"lane_mask", "LaneMask any all"},
     {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
+    {"lane_distance", "add_lanes"},
+    {"lane_refinement", "RefinementInLanes"},
     {"lane_pairs", "Pair"},
     {"lane_sine", "lane_sin lane_cos lane_tan"},
     {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
@@ -79,6 +81,10 @@ constexpr FixedBlock kCBlocks[] = {
 
 std::span<const FixedBlock> cpp_blocks() { return kCppBlocks; }
 std::span<const FixedBlock> lane_blocks() { return kLaneBlocks; }
+std::span<const FixedBlock> pack_blocks() {
+  const auto* const end = std::ranges::find(kLaneBlocks, kVocabulary, &FixedBlock::name);
+  return {std::begin(kLaneBlocks), end};
+}
 std::span<const FixedBlock> c_blocks() { return kCBlocks; }
 
 std::vector<std::string> names_of(const FixedBlock& block) {

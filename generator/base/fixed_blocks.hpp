@@ -22,6 +22,8 @@ inline constexpr std::string_view kEpsilon = "epsilon";  // in C a block of its 
 // Each uses those before it only.
 [[nodiscard]] std::span<const FixedBlock> cpp_blocks();
 [[nodiscard]] std::span<const FixedBlock> lane_blocks();  // of a batch, where Real is a pack
+// Those of them that others have for stages in lanes: packs, and their functions.
+[[nodiscard]] std::span<const FixedBlock> pack_blocks();
 [[nodiscard]] std::span<const FixedBlock> c_blocks();
 
 [[nodiscard]] std::vector<std::string> names_of(const FixedBlock& block);

@@ -16,6 +16,12 @@ std::string CppDialect::function(const std::string& name) const {
   return "__builtin_" + cpp + function_suffix(scalar);
 }
 
+std::vector<std::string> CppDialect::taken_names() const {
+  std::vector<std::string> names = {"lane_pow"};
+  for (const Function& row : all_functions()) names.push_back("lane_" + std::string(row.name));
+  return names;
+}
+
 std::string CppDialect::argument(const Argument& argument, const std::string& name,
                                  const std::string& sizes) const {
   const std::string constant = argument.changes ? "" : "const ";

@@ -17,6 +17,8 @@ class CppDialect : public Dialect {
     return "Real(" + integer + ")";
   }
   [[nodiscard]] std::string function(const std::string& name) const override;
+  // The functions of lanes.
+  [[nodiscard]] std::vector<std::string> taken_names() const override;
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }

@@ -101,6 +101,10 @@ std::string method_text(EmitContext& context) {
     write_pi(out, context);
     out.line();
   }
+  if (const int lanes = context.stage_lanes(); lanes > 0) {
+    out.line(fmt::format("using Lanes = Pack<{}>;  // numbers of so many stages", lanes));
+    out.line();
+  }
   out.lines(pieces.text());
   return out.text();
 }
@@ -170,9 +174,18 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
     write_section(out, "system", options.spaces.system, short_digest(system), system, false);
     support.write(out, options.shared_support);
   }
-  write_section(out, "method", options.spaces.of_method(),
-                short_digest(system + method + support.digest()), with_names(support, method),
-                in_lanes);
+  const bool has_packs = context.stage_lanes() > 0;
+  Support packs = Support::of_packs(context.scalar);
+  if (has_packs) {
+    packs.require_for(method);
+    out.lines(cpp_numerics("shells/lane_registers"));
+    out.line();
+    packs.write(out, false);
+  }
+  const std::string digests = support.digest() + (has_packs ? packs.digest() : "");
+  const std::string named = has_packs ? with_names(packs, method) : method;
+  write_section(out, "method", options.spaces.of_method(), short_digest(system + method + digests),
+                with_names(support, named), in_lanes || has_packs);
   out.lines(cpp_numerics("shells/ieee_end"));
   return out.text();
 }

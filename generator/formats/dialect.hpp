@@ -29,6 +29,10 @@ class Dialect {
   [[nodiscard]] virtual std::string number(const std::string& integer) const = 0;
   // A function of the mathematical library: "sin" is std::sin.
   [[nodiscard]] virtual std::string function(const std::string& name) const = 0;
+  // That of lanes, which are numbers side by side.
+  [[nodiscard]] virtual std::string lane_function(const std::string& name) const {
+    return "lane_" + name;
+  }
   // Is a number a pack of as many as there are trajectories?
   [[nodiscard]] virtual bool has_lanes() const { return false; }
   // Names that its routines use besides and a local must not have.

@@ -31,6 +31,8 @@ class EmitContext {
 
   [[nodiscard]] int n() const { return program.environment.degrees_of_freedom; }
   [[nodiscard]] bool arrays() const { return program.environment.arrays; }
+  // Of stages that are computed together, or 0.
+  [[nodiscard]] int stage_lanes() const { return program.stages ? program.stages->packs() : 0; }
   [[nodiscard]] bool quad() const { return scalar.digits == 113; }
   [[nodiscard]] const std::string& state_field(int i) const {
     return state_fields[static_cast<std::size_t>(i)];

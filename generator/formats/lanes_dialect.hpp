@@ -1,7 +1,6 @@
 // C++ in which a number is a pack: one number of each of W trajectories.
 #pragma once
 
-#include "generator/algebra/functions.hpp"
 #include "generator/formats/cpp_dialect.hpp"
 
 namespace hamgen {
@@ -16,12 +15,12 @@ class LanesDialect : public CppDialect {
   [[nodiscard]] std::string function(const std::string& name) const override {
     // Those of both are exactly rounded.
     const bool same = name == "sqrt" || name == "abs";
-    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : lane_function(name);
   }
   [[nodiscard]] std::vector<std::string> taken_names() const override {
-    std::vector<std::string> names = {"Mask",    "any",           "select",         "moving",
-                                      "library", "end_iteration", "require_finite", "lane_pow"};
-    for (const Function& row : all_functions()) names.push_back("lane_" + std::string(row.name));
+    std::vector<std::string> names = CppDialect::taken_names();
+    names.insert(names.end(),
+                 {"Mask", "any", "select", "moving", "library", "end_iteration", "require_finite"});
     return names;
   }
   // A pack is handed on by reference: as a value it is handed on otherwise by the instructions of

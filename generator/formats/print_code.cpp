@@ -58,9 +58,9 @@ void RoutinePrinter::reserve(const written::Body& body) {
       records_.insert(declare->objects.begin(), declare->objects.end());
     }
     if (const auto* define = std::get_if<written::Define>(&statement.value)) {
-      const bool record = define->type != "Real" && define->type != "StepReport";
-      if (record) records_.insert(define->name);
-      if (record || !define->sizes.empty()) names_.reserve(written::name_in_text(define->name));
+      const bool number = define->type == "Real" || define->type == "Lanes";
+      if (!number && define->type != "StepReport") records_.insert(define->name);
+      if (!written::is_number(*define)) names_.reserve(written::name_in_text(define->name));
     }
     if (const auto* loop = std::get_if<written::For>(&statement.value))
       names_.reserve(loop->range.index);
@@ -98,11 +98,13 @@ void RoutinePrinter::print(const written::Body& body) {
     }
     std::visit(
         [this](const auto& node) {
+          if constexpr (requires { node.lanes; }) set_lanes(node.lanes > 0 ? node.range.index : "");
           if constexpr (requires { node.shape; }) {
             print_inside(head(node), node.body, node.shape);
           } else if constexpr (requires { node.body; }) {
             print_inside(head(node), node.body, written::Shape::braces);
           }
+          if constexpr (requires { node.lanes; }) set_lanes("");
         },
         statement.value);
   }
@@ -145,7 +147,7 @@ std::string RoutinePrinter::line(const Declare& declare) {
 
 std::string RoutinePrinter::line(const written::Define& define) {
   const std::string text = value(define.value);
-  const bool number = define.type == "Real" && define.sizes.empty();
+  const bool number = written::is_number(define);
   const std::string name = number && !written::is_of_text(define.name)
                                ? names_.local(define.name)
                                : written::name_in_text(define.name);
@@ -166,9 +168,11 @@ std::string RoutinePrinter::line(const written::Set& set) {
 std::string RoutinePrinter::head(const written::For& loop) {
   const KernelRange& range = loop.range;
   const bool counts = range.lower == AffineIndex{} && range.upper.factors.empty();
+  const std::string next =
+      loop.lanes > 0 ? fmt::format("{} += {}", range.index, loop.lanes) : "++" + range.index;
   if (counts) {
-    return fmt::format("for (int {0} = 0; {0} < {1}; ++{0})", range.index,
-                       count_text(range.upper.constant + 1));
+    return fmt::format("for (int {0} = 0; {0} < {1}; {2})", range.index,
+                       count_text(range.upper.constant + 1), next);
   }
   return fmt::format("for (int {0} = {1}; {0} <= {2}; ++{0})", range.index, text(range.lower),
                      text(range.upper));

@@ -21,6 +21,7 @@ std::string ExpressionPrinter::operator()(const Expression& e) const {
 std::string ExpressionPrinter::call(const std::string& function,
                                     const std::string& arguments) const {
   if (function == kProductError) return dialect_.block(function) + "(" + arguments + ")";
+  if (lanes_) return dialect_.lane_function(function) + "(" + arguments + ")";
   functions_.insert(function);
   return dialect_.function(function) + "(" + arguments + ")";
 }

@@ -19,6 +19,8 @@ class ExpressionPrinter {
 
   // The expression with the fewest parentheses; notes the functions it calls.
   [[nodiscard]] std::string operator()(const Expression& e) const;
+  // From now on: are numbers side by side meant?
+  void set_lanes(bool lanes) { lanes_ = lanes; }
   // Functions of the mathematical library used so far: they decide the includes.
   [[nodiscard]] const std::set<std::string>& functions() const { return functions_; }
 
@@ -28,6 +30,7 @@ class ExpressionPrinter {
 
   const Dialect& dialect_;
   Namer namer_;
+  bool lanes_ = false;
   mutable std::set<std::string> functions_;
 };
 

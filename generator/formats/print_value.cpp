@@ -80,7 +80,10 @@ std::string RoutinePrinter::name(const std::string& symbol) {
     return dialect_.constant("pi");
   }
   const auto place = routine_.places.find(symbol);
-  if (place != routine_.places.end()) return text(place->second);
+  if (place != routine_.places.end()) {
+    if (!written::is_of_lanes(place->second, lane_index_)) return text(place->second);
+    return "Lanes::at(" + given_text(place->second) + ")";
+  }
   const bool number = std::ranges::any_of(routine_.arguments, [&](const Argument& argument) {
     return argument.name == symbol && argument.record.empty() && argument.sizes.empty();
   });
@@ -142,9 +145,11 @@ std::string RoutinePrinter::given_text(const Place& place) const {
   const bool record = place.field.empty() && ours;
   if (record && !dialect_.has_references()) return "&" + object(place.object);
   if (place.indices.empty()) return text(place);
-  const AffineIndex& index = place.indices.front();
+  Place array = place;
+  array.indices.pop_back();
+  const AffineIndex& index = place.indices.back();
   const std::string offset = index.factors.empty() ? count_text(index.constant) : text(index);
-  return text(Place{place.object, place.field}) + " + " + offset;
+  return text(array) + " + " + offset;
 }
 
 }  // namespace hamgen

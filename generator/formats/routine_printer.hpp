@@ -59,6 +59,11 @@ class RoutinePrinter {
   // Is it a record that the routine is given the address of?
   [[nodiscard]] bool is_address(const std::string& object) const;
 
+  void set_lanes(const std::string& index) {
+    lane_index_ = index;
+    cpp_.set_lanes(!index.empty());
+  }
+
   CodeWriter& out_;
   const Routine& routine_;
   const Dialect& dialect_;
@@ -67,6 +72,7 @@ class RoutinePrinter {
   ExpressionPrinter cpp_;
   std::map<std::string, std::string> objects_;  // those called otherwise than in the routine
   std::set<std::string> records_;               // that it declares
+  std::string lane_index_;                      // of the loop over stages that is printed
 };
 
 }  // namespace hamgen

@@ -15,10 +15,6 @@ namespace hamgen {
 
 namespace {
 
-std::span<const FixedBlock> blocks_of(int lanes) {
-  return lanes > 0 ? lane_blocks() : cpp_blocks();
-}
-
 // The words of C++ code, without comments and without members: what follows a dot.
 std::set<std::string> words_of(std::string_view code) {
   std::set<std::string> words;
@@ -60,9 +56,13 @@ std::string capitals(std::string text) {
   return text;
 }
 
+std::span<const FixedBlock> Support::all_blocks() const {
+  return packs_ ? pack_blocks() : lanes_ > 0 ? lane_blocks() : cpp_blocks();
+}
+
 void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
-  for (const FixedBlock& block : blocks_of(lanes_)) {
+  for (const FixedBlock& block : all_blocks()) {
     if (block.events && !events_) continue;
     const bool used = std::ranges::any_of(
         names_of(block), [&](const std::string& name) { return words.contains(name); });
@@ -85,18 +85,19 @@ void Support::write(CodeWriter& out, bool shared) const {
   const auto is_written = [&](const FixedBlock& block) {
     return blocks_.contains(block.name) && (block.eigen || !shared);
   };
-  if (std::ranges::none_of(cpp_blocks(), is_written)) return;
+  if (std::ranges::none_of(all_blocks(), is_written)) return;
   const std::string name = name_space();
   out.line("// What follows is the same in every header.");
   out.line(fmt::format("namespace {} {{", name));
-  if (lanes_ > 0) {
+  const bool in_registers = lanes_ > 0 || packs_;
+  if (in_registers) {
     out.line(fmt::format("inline namespace {} {{", kRegisters));
   } else {
     out.line(scalar_.digits == 113 ? "__extension__ typedef __float128 Real;"
                                    : fmt::format("using Real = {};", scalar_.cpp));
   }
   out.line();
-  for (const FixedBlock& block : blocks_of(lanes_)) {
+  for (const FixedBlock& block : all_blocks()) {
     if (!is_written(block)) continue;
     const std::string guard = fmt::format("HAMGEN_{}_{}_{}", capitals(digest()), capitals(space()),
                                           capitals(std::string(block.name)));
@@ -106,29 +107,30 @@ void Support::write(CodeWriter& out, bool shared) const {
     out.line("#endif");
     out.line();
   }
-  if (lanes_ > 0) out.line(fmt::format("}}  // namespace {}", kRegisters));
+  if (in_registers) out.line(fmt::format("}}  // namespace {}", kRegisters));
   out.line(fmt::format("}}  // namespace {}", name));
   out.line();
 }
 
 void Support::write_names(CodeWriter& out, std::string_view code) const {
   const std::set<std::string> words = words_of(code);
+  const std::string alias = packs_ ? "packs" : "numerics";
   std::string list;
-  for (const FixedBlock& block : blocks_of(lanes_)) {
+  for (const FixedBlock& block : all_blocks()) {
     if (block.events && !events_) continue;
     for (const std::string& name : names_of(block)) {
-      if (words.contains(name)) list += (list.empty() ? "numerics::" : ", numerics::") + name;
+      if (words.contains(name)) list += (list.empty() ? "" : ", ") + alias + "::" + name;
     }
   }
   if (list.empty()) return;
-  out.line(fmt::format("namespace numerics = ::{};", name_space()));
+  out.line(fmt::format("namespace {} = ::{};", alias, name_space()));
   out.line("using " + list + ";");
   out.line();
 }
 
 std::string Support::digest() const {
   std::string all;
-  for (const FixedBlock& block : blocks_of(lanes_)) {
+  for (const FixedBlock& block : all_blocks()) {
     if (events_ || !block.events) all += text(block.name);
   }
   return short_digest(all);
@@ -137,6 +139,7 @@ std::string Support::digest() const {
 std::string Support::name_space() const { return fmt::format("hamgen_{}::{}", digest(), space()); }
 
 std::string Support::space() const {
+  if (packs_) return "packs";
   return lanes_ > 0 ? fmt::format("lanes_{}", lanes_) : std::string(scalar_.space);
 }
 

@@ -8,11 +8,13 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "generator/algebra/scalar.hpp"
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/formats/code_writer.hpp"
 #include "generator/formats/output_files.hpp"
 
@@ -25,6 +27,13 @@ class Support {
   // of their own for them.  Of a batch, for so many lanes.
   Support(const ScalarType& scalar, bool builtins, bool events, int lanes = 0)
       : scalar_(scalar), builtins_(builtins), events_(events), lanes_(lanes) {}
+
+  // Packs and their functions, of steps that have some of their numbers in lanes.
+  [[nodiscard]] static Support of_packs(const ScalarType& scalar_type) {
+    Support support(scalar_type, false, false);
+    support.packs_ = true;
+    return support;
+  }
 
   // Adds the blocks that the C++ text uses, and those that these use.
   void require_for(std::string_view code);
@@ -44,11 +53,13 @@ class Support {
   // What tells it from other scalars.
   [[nodiscard]] std::string space() const;
   [[nodiscard]] std::string text(std::string_view block) const;
+  [[nodiscard]] std::span<const FixedBlock> all_blocks() const;
 
   const ScalarType& scalar_;
   bool builtins_;
   bool events_;
   int lanes_;
+  bool packs_ = false;
   std::set<std::string_view> blocks_;
 };
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <type_traits>
 
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/interpreter/lane_functions.hpp"
 #include "generator/interpreter/numerics.hpp"
 
 namespace hamgen {
@@ -47,7 +49,10 @@ constexpr int kDigits<Quad> = FLT128_MANT_DIG;
 }  // namespace
 
 template <class Real>
-NumericFunction<Real> numeric_function(const std::string& name) {
+NumericFunction<Real> numeric_function(const std::string& name, FunctionsOf functions) {
+  if constexpr (std::is_same_v<Real, double>) {
+    if (functions == FunctionsOf::lanes && name != kProductError) return lane_function(name);
+  }
   if (name == "pow") return OfScalar<Real>::power;
   if (name == kProductError) return NumericsOf<Real>::lost_of_product;
   if (const Function* row = find_function(name)) return OfScalar<Real>::function(row->numbers);
@@ -87,19 +92,21 @@ Real nearest_number(const Rational& value) {
 }
 
 template <class Real>
-CompiledExpression<Real>::CompiledExpression(const Expression& e, const Resolve& resolve) {
-  add(arrange(e), resolve);
+CompiledExpression<Real>::CompiledExpression(const Expression& e, const Resolve& resolve,
+                                             FunctionsOf functions) {
+  add(arrange(e), resolve, functions);
   stack_.resize(steps_.size());
 }
 
 template <class Real>
-void CompiledExpression<Real>::add(const Arithmetic& a, const Resolve& resolve) {
-  for (const Arithmetic& operand : a.operands) add(operand, resolve);
+void CompiledExpression<Real>::add(const Arithmetic& a, const Resolve& resolve,
+                                   FunctionsOf functions) {
+  for (const Arithmetic& operand : a.operands) add(operand, resolve, functions);
   Step step{.operation = a.operation};
   if (a.operation == Operation::number) step.number = nearest_number<Real>(a.number);
   if (a.operation == Operation::symbol) step.address = resolve(a.name);
   if (a.operation == Operation::call) {
-    step.function = numeric_function<Real>(a.name);
+    step.function = numeric_function<Real>(a.name, functions);
     step.two_arguments = a.operands.size() == 2;
   }
   steps_.push_back(std::move(step));
@@ -145,10 +152,10 @@ Real CompiledExpression<Real>::operator()(const Frame<Real>& frame) const {
   return *top;
 }
 
-template NumericFunction<float> numeric_function(const std::string&);
-template NumericFunction<double> numeric_function(const std::string&);
-template NumericFunction<long double> numeric_function(const std::string&);
-template NumericFunction<Quad> numeric_function(const std::string&);
+template NumericFunction<float> numeric_function(const std::string&, FunctionsOf);
+template NumericFunction<double> numeric_function(const std::string&, FunctionsOf);
+template NumericFunction<long double> numeric_function(const std::string&, FunctionsOf);
+template NumericFunction<Quad> numeric_function(const std::string&, FunctionsOf);
 template float nearest_number(const Rational&);
 template double nearest_number(const Rational&);
 template long double nearest_number(const Rational&);

@@ -38,12 +38,15 @@ struct Frame {
   [[nodiscard]] Real& at(const Address& address) const { return *pointer(address); }
 };
 
-// A function of the language on numbers of the type, as <cmath> and <quadmath.h> have it.
+// A function of the language on numbers of the type, as <cmath> and <quadmath.h> have it, or as
+// lanes of double numbers do.
 template <class Real>
 using NumericFunction = Real (*)(Real, Real);
+enum class FunctionsOf { library, lanes };
 // An internal error for a name that is none.
 template <class Real>
-[[nodiscard]] NumericFunction<Real> numeric_function(const std::string& name);
+[[nodiscard]] NumericFunction<Real> numeric_function(const std::string& name,
+                                                     FunctionsOf functions = FunctionsOf::library);
 
 // The nearest number of the type, ties to even.
 template <class Real>
@@ -54,7 +57,8 @@ template <class Real>
 class CompiledExpression {
  public:
   using Resolve = std::function<Address(const std::string& symbol)>;
-  CompiledExpression(const Expression& e, const Resolve& resolve);
+  CompiledExpression(const Expression& e, const Resolve& resolve,
+                     FunctionsOf functions = FunctionsOf::library);
   [[nodiscard]] Real operator()(const Frame<Real>& frame) const;
 
  private:
@@ -65,7 +69,7 @@ class CompiledExpression {
     NumericFunction<Real> function = nullptr;
     bool two_arguments = false;
   };
-  void add(const Arithmetic& a, const Resolve& resolve);
+  void add(const Arithmetic& a, const Resolve& resolve, FunctionsOf functions);
   std::vector<Step> steps_;
   mutable std::vector<Real> stack_;
 };

@@ -188,8 +188,8 @@ class MachineAddresses {
   }
 
   CompiledExpression<Real> compiled(const Expression& e) {
-    return CompiledExpression<Real>(e,
-                                    [this](const std::string& symbol) { return address(symbol); });
+    return CompiledExpression<Real>(
+        e, [this](const std::string& symbol) { return address(symbol); }, functions_);
   }
   std::vector<Compiled> compiled(const std::vector<Unknown>& unknowns) {
     std::vector<Compiled> result;
@@ -202,6 +202,7 @@ class MachineAddresses {
   MachineState<Real>& m_;
   const Routine& routine_;
   const Program& code_;
+  FunctionsOf functions_ = FunctionsOf::library;  // of what is compiled now
 };
 
 }  // namespace hamgen

@@ -141,7 +141,11 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     const auto index = static_cast<std::size_t>(loop_index(loop.range.index));
     const Address lower = index_address(loop.range.lower);
     const Address upper = index_address(loop.range.upper);
-    return [this, index, lower, upper, body = steps(loop.body)] {
+    const FunctionsOf outer = this->functions_;
+    if (loop.lanes > 0) this->functions_ = FunctionsOf::lanes;
+    Steps body = steps(loop.body);
+    this->functions_ = outer;
+    return [this, index, lower, upper, body = std::move(body)] {
       const long last = evaluate(upper);
       for (long i = evaluate(lower); i <= last; ++i) {
         m_.frame.indices[index] = i;

@@ -34,6 +34,13 @@ struct Pack : PackContent<W, (W <= register_lanes)> {
     }
   }
   explicit Pack(const double (&x)[W]) { __builtin_memcpy(this, x, sizeof x); }
+  // The numbers from x on.
+  static Pack at(const double* x) {
+    Pack pack;
+    __builtin_memcpy(&pack, x, sizeof pack);
+    return pack;
+  }
+  static void put(double* x, const Pack& pack) { __builtin_memcpy(x, &pack, sizeof pack); }
   void copy_to(double (&x)[W]) const { __builtin_memcpy(x, this, sizeof x); }
   double operator[](int lane) const {
     double x[W];

@@ -52,31 +52,39 @@ struct Refinement {
   // rounded one again.
   bool operator()(Real (&point)[Size], const Real (&lack)[Size],
                   const Real (&gradient)[Components]) {
-    bool open = false;
-    last = 0;
+    if (rounds == 0) begin(point, lack, gradient);
+    Real error[Size] = {};
     for (int j = 0; j < Size; ++j) {
-      if (rounds == 0) {
-        at[j] = point[j];
-        missing[j] = lack[j];
-        moved[j] = 0;
-      }
-      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
-      moved[j] += error;
-      last += magnitude(error);
-      // What is cut off is a bias: a 2^-13th of a unit.
-      open =
-          open || magnitude(error) * 8192 > epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
+      error[j] = missing[j] + (lack[j] - missing[j]) / amplifier;
+      moved[j] += error[j];
     }
-    for (int k = 0; k < Components; ++k) {
-      if (rounds == 0) slope[k] = gradient[k];
-      change[k] = (gradient[k] - slope[k]) / amplifier;
+    last = lengths_of(error);
+    // What is cut off is a bias: a 2^-13th of a unit.
+    const Real open = sum_of(Size, [&](int j) {
+      const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
+      return magnitude(error[j]) * 8192 > unit ? Real(1) : Real(0);
+    });
+    for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
+    const bool more = goes_on(open > 0);
+    for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
+    return more;
+  }
+
+  void begin(const Real (&point)[Size], const Real (&lack)[Size],
+             const Real (&gradient)[Components]) {
+    for (int j = 0; j < Size; ++j) {
+      at[j] = point[j];
+      missing[j] = lack[j];
+      moved[j] = 0;
     }
-    // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+    for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
+  }
+  // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+  bool goes_on(bool open) {
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
     const bool more = open && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
-    for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
 };

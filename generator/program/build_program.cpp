@@ -120,7 +120,17 @@ void add_functions(Program& code, const Environment& environment, const LoweredS
   }
   code.routines.push_back(with_remark(values_routine(environment, "gradient", lowered.gradient),
                                       "grad H, the derivatives by q first."));
-  if (array) {
+  const std::optional<StageLayout>& layout = lowered.stage_layout;
+  if (layout && layout->by_component()) {
+    code.routines.push_back(with_remark(
+        stage_values_routine(environment, "vector_fields", lowered.vector_field, *layout),
+        "J grad H at all stages."));
+    if (lowered.second_order)
+      code.routines.push_back(
+          with_remark(stage_values_routine(environment, "forces", lowered.second_order->forces,
+                                           *layout, environment.degrees_of_freedom),
+                      "-dH/dq at all stages."));
+  } else if (array) {
     code.routines.push_back(with_remark(
         values_routine(environment, "vector_field", lowered.vector_field, StateForm::array),
         "J grad H at a state (q, p)."));
@@ -303,6 +313,7 @@ Program build_program(const LoweredStep& lowered) {
     }
     add_substeps(code, lowered);
   } else if (lowered.plan.stage_solver) {
+    code.stages = lowered.stage_layout;
     add_stages(code, environment, lowered);
     code.retries = true;
   } else {

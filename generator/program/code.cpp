@@ -197,6 +197,13 @@ std::vector<WholeUnknowns> whole_unknowns(const Routine& routine, const IterateA
   return list;
 }
 
+For moved_in_lanes(const IterateArray& iterate) {
+  const UnknownArray& u = iterate.unknowns.front();
+  const Expression moved = Expression::symbol(u.value, kRankOfVariable) +
+                           Expression::symbol(u.increment, kRankOfVariable + 1);
+  return {iterate.ranges.front(), {{Assign{u.value, moved}}}, iterate.lanes};
+}
+
 std::vector<Place> finite_arrays(const Routine& routine, const Return& end) {
   std::vector<Place> list;
   for (const std::string& symbol : end.finite) {

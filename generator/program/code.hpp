@@ -108,6 +108,9 @@ struct SetFlag {
 struct For {
   KernelRange range;  // both ends are taken
   Body body;
+  // So many at once, of a range from 0 on: the body is without loops, what has the index has it as
+  // it is and last, and functions are those of lanes.  0: one after the other.
+  int lanes = 0;
 };
 // Locals that end with it.
 struct Scope {
@@ -185,6 +188,7 @@ struct IterateArray {
   std::vector<KernelRange> ranges;
   std::vector<UnknownArray> unknowns;
   Body body;
+  int lanes = 0;  // so many of one array of unknowns are moved at once, as of For
   // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
   std::optional<int> work = {};
   // Of a simplified Newton: whether its matrix serves, and what the equations lacked.
@@ -341,6 +345,8 @@ struct WholeUnknowns {
 };
 [[nodiscard]] std::vector<WholeUnknowns> whole_unknowns(const Routine& routine,
                                                         const IterateArray& iterate);
+// How such an iteration moves its array of unknowns, in lanes.
+[[nodiscard]] For moved_in_lanes(const IterateArray& iterate);
 // The whole arrays that should be finite: none if one of them is not.
 [[nodiscard]] std::vector<Place> finite_arrays(const Routine& routine, const Return& end);
 // The bodies inside an instruction.

@@ -74,8 +74,9 @@ class Printer {
     line(fmt::format("{} += {}", sum.symbol, to_text(sum.value)));
   }
   void operator()(const For& loop) {
-    line(fmt::format("for {} = {}..{}:", loop.range.index, to_text(loop.range.lower),
-                     to_text(loop.range.upper)));
+    const std::string at_once = loop.lanes > 0 ? fmt::format(", {} at once", loop.lanes) : "";
+    line(fmt::format("for {} = {}..{}{}:", loop.range.index, to_text(loop.range.lower),
+                     to_text(loop.range.upper), at_once));
     inside(loop.body);
   }
   void operator()(const Scope& scope) {

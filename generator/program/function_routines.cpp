@@ -1,5 +1,7 @@
 #include "generator/program/function_routines.hpp"
 
+#include "generator/program/routine_builder.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -55,6 +57,28 @@ Routine values_routine(const Environment& environment, std::string name,
     if (!sparse || !result.is_zero()) set(routine, {i}, result);
   }
   return routine;
+}
+
+Routine stage_values_routine(const Environment& environment, std::string name,
+                             const Evaluation& evaluation, const StageLayout& layout, int first) {
+  RoutineBuilder b({.name = std::move(name),
+                    .arguments = {parameters_argument(),
+                                  {.name = "z", .sizes = {layout.count()}},
+                                  {.name = "values", .sizes = {layout.count()}, .changes = true}}});
+  environment.bind_parameters(b.routine());
+  std::set<std::string> used = used_symbols(evaluation.statements);
+  for (const Expression& e : evaluation.results) collect_symbols(e, used);
+  const auto place = [&](int component) { return layout.index("i", 0, "", component); };
+  Body each;
+  for (int c = 0; c < layout.dimension; ++c) {
+    const std::string& variable = environment.variables[static_cast<std::size_t>(c)].name;
+    if (used.contains(variable)) each.push_back({Let{variable, b.at("z", "", {place(c)})}});
+  }
+  append(each, evaluation.statements);
+  for (const Expression& result : evaluation.results)
+    each.push_back({Assign{b.at("values", "", {place(first++)}).name(), result}});
+  b.body().push_back(in_lanes(counting("i", layout.room()), layout.packs(), std::move(each)));
+  return b.take();
 }
 
 Routine hessian_routine(const Environment& environment, const Evaluation& entries,

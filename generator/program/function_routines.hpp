@@ -20,6 +20,11 @@ enum class StateForm { record, array };
 [[nodiscard]] Routine values_routine(const Environment& environment, std::string name,
                                      const Evaluation& evaluation,
                                      StateForm form = StateForm::record, bool sparse = false);
+// The same at all stages, in the arrays z and values of such a layout; result 0 is the component
+// `first` of values.
+[[nodiscard]] Routine stage_values_routine(const Environment& environment, std::string name,
+                                           const Evaluation& evaluation, const StageLayout& layout,
+                                           int first = 0);
 // hessian(par, z, values), values[i][j] and values[j][i] for the places of the entries.
 [[nodiscard]] Routine hessian_routine(const Environment& environment, const Evaluation& entries,
                                       const std::vector<std::pair<int, int>>& places,

@@ -51,6 +51,30 @@ Evaluation rotated(const Evaluation& gradient) {
   return field;
 }
 
+// Of p^2/2m + V(q), with numbers or parameters for 1/m.
+std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
+  if (!mechanics.is_separable()) return {};
+  const int n = mechanics.degrees_of_freedom;
+  SecondOrder result;
+  std::set<std::string> state;
+  for (int i = 0; i < 2 * n; ++i) state.insert(mechanics.variable(i).name());
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      if (!mechanics.second_derivative(n + i, n + j).is_zero()) return {};
+    }
+    result.mobility.push_back(mechanics.second_derivative(n + i, n + i));
+    for (const std::string& name : symbols(result.mobility.back())) {
+      if (state.contains(name)) return {};
+    }
+  }
+  const auto middle = mechanics.gradient.begin() + n;
+  std::vector<Expression> forces;
+  for (auto it = mechanics.gradient.begin(); it != middle; ++it) forces.push_back(-*it);
+  result.forces = evaluate_together(forces);
+  result.velocities = evaluate_together({middle, mechanics.gradient.end()});
+  return result;
+}
+
 void build_hessian(LoweredStep& lowered, const Mechanics& mechanics) {
   std::vector<Expression> values;
   for (const auto& [place, value] : mechanics.hessian) {
@@ -131,6 +155,16 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
   LoweredStep lowered = lowered_step(plan);
   lowered.unchecked = wishes.unchecked;
   lowered.plain_sums = wishes.plain_sums;
+  if (plan.stage_solver) {
+    const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
+    const int dimension = 2 * plan.equations.mechanics.degrees_of_freedom;
+    StageLayout layout{.stages = stages, .dimension = dimension};
+    if (!plan.arrays) layout.lanes = 1;
+    if (!plan.arrays && wishes.stages_in_lanes) layout = stages_in_lanes(stages, dimension);
+    lowered.stage_layout = layout;
+    if (!plan.arrays && *plan.stage_solver != StageSolver::newton)
+      lowered.second_order = second_order_of(plan.equations.mechanics);
+  }
   if (wishes.tangent) lowered = with_tangent(std::move(lowered));
   if (!wishes.modified_terms.empty()) add_modified_energies(lowered, wishes.modified_terms);
   return lowered;

@@ -8,6 +8,7 @@
 
 #include "generator/program/linearisation.hpp"
 #include "generator/program/sequence.hpp"
+#include "generator/program/stage_layout.hpp"
 #include "generator/program/statement.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
@@ -61,11 +62,20 @@ struct Cost {
 
 // What a step has besides what its plan says.
 struct StepWishes {
-  bool tangent = false;     // is the tangent map wanted?
-  bool plain_sums = false;  // what rounding takes from the state is lost
-  bool unchecked = false;   // no step fails, but where numbers end
+  bool tangent = false;          // is the tangent map wanted?
+  bool plain_sums = false;       // what rounding takes from the state is lost
+  bool unchecked = false;        // no step fails, but where numbers end
+  bool stages_in_lanes = false;  // of an implicit Runge-Kutta method, where it is written out
   // H_0, H_1, ... of the modified Hamiltonian sum of h^j H_j whose values are wanted.
   std::vector<Expression> modified_terms = {};
+};
+
+// Of an implicit Runge-Kutta method for a kinetic energy that is a sum of squares of momenta: the
+// stages of the momenta can be eliminated.
+struct SecondOrder {
+  Evaluation forces;                 // -dH/dq, n results
+  Evaluation velocities;             // dH/dp
+  std::vector<Expression> mobility;  // d^2 H/dp_j^2, of parameters alone
 };
 
 struct LoweredStep {
@@ -87,6 +97,8 @@ struct LoweredStep {
   Evaluation kinetic_gradient = {};
   // Of a Runge-Kutta method: J grad H, 2n results.
   Evaluation vector_field = {};
+  std::optional<StageLayout> stage_layout = {};  // of an implicit one
+  std::optional<SecondOrder> second_order = {};
   // What stands around the instructions.
   Sequence sequence = {};
   bool tangent = false;     // is the tangent map wanted?

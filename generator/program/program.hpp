@@ -10,6 +10,7 @@
 
 #include "generator/program/code.hpp"
 #include "generator/program/environment.hpp"
+#include "generator/program/stage_layout.hpp"
 #include "generator/program/step_facts.hpp"
 #include "generator/solvers/matrix_storage.hpp"
 
@@ -44,6 +45,7 @@ struct Program {
   bool unchecked = false;  // no step fails: whether the state is finite is looked at by who steps
   bool retries = false;    // is a step that failed tried again without what start remembers?
   std::optional<ArrayMatrix> matrix = {};  // what "Matrix" stands for
+  std::optional<StageLayout> stages = {};  // of an implicit Runge-Kutta method
   std::vector<Place> changed;              // fields of State that a step may change
   std::vector<EventName> events = {};      // in the order of the values of the routine "events"
   Environment environment = {};            // where parameters and state stand

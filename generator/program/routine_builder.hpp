@@ -25,6 +25,10 @@ namespace hamgen {
 [[nodiscard]] inline Instruction for_each(KernelRange range, Body body) {
   return {For{std::move(range), std::move(body)}};
 }
+// So many at once; 0: one after the other.
+[[nodiscard]] inline Instruction in_lanes(KernelRange range, int lanes, Body body) {
+  return {For{std::move(range), std::move(body), lanes}};
+}
 
 // Binds elements to symbols.  Sums and products are written in the order in which their symbols
 // came: two that are new are bound in two statements, or by `product`, for C++ leaves the order of

@@ -21,7 +21,16 @@ Routine stages_tangent(const Environment& environment, const LoweredStep& lowere
   b.body().push_back(b.set_unit("unit"));
   Body stage;
   stage.push_back({Array{"product", {size, size}}});
-  b.multiply_hessian(stage, {{"start", "value", {affine("i", 0, size)}}, false}, "unit", "product");
+  Place point{"start", "value", {affine("i", 0, size)}};
+  const StageLayout& layout = *lowered.stage_layout;
+  if (layout.by_component()) {
+    point = {"stage"};
+    stage.push_back({Array{"stage", {size}}});
+    const Expression value = b.at({"start", "value", {layout.index("i", 0, "row", 0)}});
+    Body each{{Assign{b.at({"stage", "", {affine("row")}}).name(), value}}};
+    stage.push_back(for_each(counting("row", size), std::move(each)));
+  }
+  b.multiply_hessian(stage, {point, false}, "unit", "product");
   const auto second = [&](const AffineIndex& row, const AffineIndex& column) {
     return b.at("second", "", {affine("i"), row, column});
   };
@@ -41,7 +50,9 @@ Routine stages_tangent(const Environment& environment, const LoweredStep& lowere
   Body put{{Put{{"matrix"},
                 line,
                 {0, {{"j", size}, {"column", 1}}},
-                -b.product({"k", "coupling", {affine("i"), affine("j")}},
+                -b.product({"k", "coupling",
+                            layout.by_component() ? std::vector{affine("j"), affine("i")}
+                                                  : std::vector{affine("i"), affine("j")}},
                            {"second", "", {affine("j"), affine("row"), affine("column")}})}}};
   Body pairs;
   Body columns;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/routine_builder.hpp"
+#include "generator/program/stage_coordinates.hpp"
 
 namespace hamgen {
 
@@ -57,13 +57,17 @@ Rows extrapolation(const Row& b, const Row& c) {
 
 class StageNumbers {
  public:
-  explicit StageNumbers(const LoweredStep& lowered)
+  StageNumbers(const Environment& environment, const LoweredStep& lowered)
       : table_(lowered.sequence.stages),
         nodes_(std::get<RungeKutta>(lowered.plan.equations.scheme.method).c),
-        stages_(static_cast<int>(table_.weight.size())),
+        order_(lowered.second_order),
+        layout_(*lowered.stage_layout),
+        stages_(layout_.stages),
         b_({.name = "prepare",
             .result = {.type = "Coefficients", .object = "k"},
-            .arguments = {parameters_argument(), {.name = "h"}}}) {}
+            .arguments = {parameters_argument(), {.name = "h"}}}) {
+    environment.bind_parameters(b_.routine());
+  }
 
   Coefficients build() {
     add_coupling();
@@ -74,13 +78,9 @@ class StageNumbers {
       }
     }
     add_scaled();
-    const std::vector<int> square = {stages_, stages_};
+    if (order_) add_second_order();
     return {.record = {.name = "Coefficients",
-                       .fields = {{.name = "coupling", .sizes = square, .remark = "a_ij / b_j"},
-                                  {.name = "ahead",
-                                   .sizes = square,
-                                   .remark = "from L_j of a step to Y_i - z of the next"},
-                                  {.name = "scaled", .sizes = {stages_}, .remark = "h b_i"}},
+                       .fields = fields(),
                        .remark = {"The numbers of the method, and the step."}},
             .prepare = b_.take(),
             .places = {}};
@@ -129,10 +129,50 @@ class StageNumbers {
         "h b_i, the same from both ends, with the sum h: the middle takes what rounding lost."};
   }
 
+  [[nodiscard]] std::vector<Field> fields() const {
+    const std::vector<int> square = {stages_, layout_.room()};
+    const bool turned = layout_.by_component();
+    std::vector<Field> list = {
+        {.name = "coupling",
+         .sizes = square,
+         .remark = turned ? "[j][i]: a_ij / b_j" : "a_ij / b_j"},
+        {.name = "ahead", .sizes = square, .remark = "from L_j of a step to Y_i - z of the next"},
+        {.name = "scaled", .sizes = {layout_.room()}, .remark = "h b_i"}};
+    if (!order_) return list;
+    list.push_back({.name = "twice", .sizes = square, .remark = "[j][i]: h sum_m a_im a_mj / b_j"});
+    list.push_back({.name = "node", .sizes = {layout_.room()}, .remark = "h c_i"});
+    if (StageCoordinates::needs_mobility(*order_))
+      list.push_back({.name = "mobility",
+                      .sizes = {static_cast<int>(order_->mobility.size())},
+                      .remark = "d^2 H/dp^2"});
+    return list;
+  }
+
+  void add_second_order() {
+    for (int i = 0; i < stages_; ++i) {
+      for (int j = 0; j < stages_; ++j) {
+        Rational sum(0);
+        for (int m = 0; m < stages_; ++m)
+          sum +=
+              value(i, m) * numeric_value(table_.weight[static_cast<std::size_t>(m)]) * value(m, j);
+        assign("twice", {i, j}, Expression(sum) * step_size());
+      }
+    }
+    for (int i = 0; i < stages_; ++i) {
+      const Expression node(numeric_value(nodes_[static_cast<std::size_t>(i)]));
+      b_.body().push_back({Assign{b_.at("k", "node", {affine(i)}).name(), node * step_size()}});
+    }
+    if (!StageCoordinates::needs_mobility(*order_)) return;
+    for (std::size_t j = 0; j < order_->mobility.size(); ++j)
+      b_.body().push_back({Assign{b_.at("k", "mobility", {affine(static_cast<long>(j))}).name(),
+                                  order_->mobility[j]}});
+  }
+
   [[nodiscard]] Rational value(int i, int j) const {
     return numeric_value(table_.coupling[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   }
   Expression entry(const char* table, std::pair<int, int> at) {
+    if (layout_.by_component()) std::swap(at.first, at.second);
     return b_.at("k", table, {affine(at.first), affine(at.second)});
   }
   void assign(const char* table, std::pair<int, int> at, const Expression& value) {
@@ -141,14 +181,16 @@ class StageNumbers {
 
   const StageTable& table_;
   const std::vector<Expression>& nodes_;
+  const std::optional<SecondOrder>& order_;
+  StageLayout layout_;
   int stages_;
   RoutineBuilder b_;
 };
 
 }  // namespace
 
-Coefficients stage_coefficients(const LoweredStep& lowered) {
-  return StageNumbers(lowered).build();
+Coefficients stage_coefficients(const Environment& environment, const LoweredStep& lowered) {
+  return StageNumbers(environment, lowered).build();
 }
 
 }  // namespace hamgen

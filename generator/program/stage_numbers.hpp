@@ -10,6 +10,12 @@ namespace hamgen {
 //   k.ahead[i][j]    from the L_j of one step to the increments Y_i - z of the next, on the same
 //                    polynomial
 //   k.scaled[i]      h b_i
-[[nodiscard]] Coefficients stage_coefficients(const LoweredStep& lowered);
+// and where the momenta can be eliminated
+//   k.twice[i][j]    h sum_m a_im a_mj / b_j
+//   k.node[i]        h c_i
+//   k.mobility[j]    d^2 H/dp_j^2, if one of them is not 1
+// By component tables are [j][i], and 0 for what is no stage.
+[[nodiscard]] Coefficients stage_coefficients(const Environment& environment,
+                                              const LoweredStep& lowered);
 
 }  // namespace hamgen

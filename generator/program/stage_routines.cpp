@@ -2,30 +2,34 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/routine_builder.hpp"
+#include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_numbers.hpp"
 
 namespace hamgen {
 
 namespace {
 
-class StageRoutines {
+class StageRoutines : StageParts {
  public:
   StageRoutines(Program& code, const Environment& environment, const LoweredStep& lowered)
-      : code_(code),
+      : StageParts(lowered),
+        code_(code),
         environment_(environment),
         lowered_(lowered),
-        solver_(*lowered.plan.stage_solver),
-        stages_(static_cast<int>(lowered.sequence.stages.weight.size())),
-        n_(environment.degrees_of_freedom),
-        dimension_(2 * n_) {}
+        solver_(*lowered.plan.stage_solver) {
+    if (lowered.second_order) coordinates_.emplace(environment, lowered);
+  }
 
   void add() {
-    Coefficients coefficients = stage_coefficients(lowered_);
+    Coefficients coefficients = stage_coefficients(environment_, lowered_);
     code_.records.push_back(std::move(coefficients.record));
     code_.routines.push_back(std::move(coefficients.prepare));
     code_.records.push_back(start());
     code_.routines.push_back(evaluate());
+    if (coordinates_) {
+      for (Routine& routine : coordinates_->routines())
+        code_.routines.push_back(std::move(routine));
+    }
     if (has_newton()) code_.routines.push_back(differentiate());
     if (solver_ == StageSolver::both) {
       code_.routines.push_back(fixed_point());
@@ -33,29 +37,38 @@ class StageRoutines {
     }
     code_.routines.push_back(solve());
     if (has_newton()) {
-      code_.matrix = ArrayMatrix{.kind = MatrixKind::dense, .size = unknowns()};
+      code_.matrix = ArrayMatrix{.kind = MatrixKind::dense, .size = stages_ * dimension_};
     }
   }
 
  private:
-  [[nodiscard]] int unknowns() const { return stages_ * dimension_; }
   [[nodiscard]] bool has_newton() const { return solver_ != StageSolver::fixed_point; }
   [[nodiscard]] bool has_fixed_point() const { return solver_ != StageSolver::newton; }
 
   [[nodiscard]] Record start() const {
-    Record record{.name = "Start",
-                  .fields = {},
-                  .remark = {"The stages, one after the other, and what is remembered of them."}};
+    Record record{
+        .name = "Start",
+        .fields = {},
+        .remark = {by_component() ? "Of every component its numbers at all stages, and what is "
+                                    "remembered of them."
+                                  : "The stages, one after the other, and what is remembered of "
+                                    "them."}};
     const auto array = [&](const char* name, int size, const char* remark) {
       record.fields.push_back({.name = name, .sizes = {size}, .remark = remark});
     };
-    array("state", dimension_, "z as an array");
+    if (by_component()) {
+      array("state", unknowns(), "z, at every stage");
+    } else {
+      array("state", dimension_, "z as an array");
+    }
     array("small", dimension_, "the carry");
     array("value", unknowns(), "Y_i");
     array("slope", unknowns(), "L_i = h b_i f(Y_i)");
+    if (coordinates_) record.fields.push_back(coordinates_->base());
     record.fields.push_back(
         {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
     array("lack", unknowns(), "of the equations at Y_i, then the increment");
+    if (has_newton() && has_spare_room()) array("packed", stages_ * dimension_, "lack, of stages");
     if (has_fixed_point()) {
       const bool impatient = solver_ == StageSolver::both;
       record.fields.push_back(
@@ -71,48 +84,10 @@ class StageRoutines {
       record.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
-    record.fields.push_back(
-        {.name = "refinement", .type = fmt::format("Refinement<{0}, {0}>", unknowns())});
+    std::string refinement = fmt::format("Refinement<{0}, {0}>", unknowns());
+    if (layout_.packs() > 0) refinement = "RefinementInLanes<Lanes, " + refinement + ">";
+    record.fields.push_back({.name = "refinement", .type = std::move(refinement)});
     return record;
-  }
-
-  // --- elements of the arrays: of stage i or of a numbered one, component j -------------------
-
-  [[nodiscard]] AffineIndex row() const { return {0, {{"i", dimension_}, {"j", 1}}}; }
-  [[nodiscard]] AffineIndex row_of(int stage) const {
-    return affine("j", static_cast<long>(stage) * dimension_);
-  }
-  [[nodiscard]] KernelRange all_stages() const { return counting("i", stages_); }
-  [[nodiscard]] KernelRange all_components() const { return counting("j", dimension_); }
-  [[nodiscard]] Instruction for_all(Body each) const {
-    Body inner;
-    inner.push_back(for_each(all_components(), std::move(each)));
-    return for_each(all_stages(), std::move(inner));
-  }
-  static Expression of_start(RoutineBuilder& b, const char* field, const AffineIndex& index) {
-    return b.at("start", field, {index});
-  }
-  // sum_m k.table[i][m] L_m
-  Expression combination(RoutineBuilder& b, const char* table) const {
-    Expression sum(0);
-    for (int m = 0; m < stages_; ++m) {
-      const Expression entry = b.at("k", table, {affine("i"), affine(m)});
-      sum += entry * of_start(b, "slope", row_of(m));
-    }
-    return sum;
-  }
-
-  [[nodiscard]] static std::vector<Argument> with_start(bool report) {
-    std::vector<Argument> list = {parameters_argument(),
-                                  {.name = "k", .record = "Coefficients"},
-                                  {.name = "start", .record = "Start", .changes = true}};
-    if (report) list.push_back({.name = "report", .record = "StepReport", .changes = true});
-    return list;
-  }
-  [[nodiscard]] static Call call(const char* routine, bool report = false) {
-    Call result{.routine = routine, .arguments = {{"par"}, {"k"}, {"start"}}};
-    if (report) result.arguments.push_back({"report"});
-    return result;
   }
 
   // --- routines ---------------------------------------------------------------------------------
@@ -121,24 +96,34 @@ class StageRoutines {
     RoutineBuilder b({.name = "evaluate",
                       .remark = {"L_i at the stages, and what these lack of z + sum coupling L."},
                       .arguments = with_start(false)});
+    add_slopes(b);
+    Body each;
+    const Expression from = state(b);
+    const Expression value = of_start(b, "value", row());
+    const Expression sum = b.let(each, "moved", combination(b, "coupling"));
+    const Expression small = of_start(b, "small", affine("j"));
+    each.push_back({Assign{of_start(b, "lack", row()).name(), from - value + sum + small}});
+    b.body().push_back(for_all(std::move(each)));
+    return b.take();
+  }
+
+  void add_slopes(RoutineBuilder& b) const {
+    const Expression slope = of_start(b, "slope", row());
+    const Expression scaled = b.at("k", "scaled", {affine("i")});
+    Body scale{{Assign{slope.name(), scaled * slope}}};
+    if (by_component()) {
+      b.body().push_back({Call{.routine = "vector_fields",
+                               .arguments = {{"par"}, {"start", "value"}, {"start", "slope"}}}});
+      b.body().push_back(for_all(std::move(scale)));
+      return;
+    }
     const AffineIndex first = affine("i", 0, dimension_);
     Body stage;
     stage.push_back(
         {Call{.routine = "vector_field",
               .arguments = {{"par"}, {"start", "value", {first}}, {"start", "slope", {first}}}}});
-    const Expression slope = of_start(b, "slope", row());
-    const Expression scaled = b.at("k", "scaled", {affine("i")});
-    Body scale{{Assign{slope.name(), scaled * slope}}};
     stage.push_back(for_each(all_components(), std::move(scale)));
     b.body().push_back(for_each(all_stages(), std::move(stage)));
-    Body each;
-    const Expression state = of_start(b, "state", affine("j"));
-    const Expression value = of_start(b, "value", row());
-    const Expression sum = b.let(each, "moved", combination(b, "coupling"));
-    const Expression small = of_start(b, "small", affine("j"));
-    each.push_back({Assign{of_start(b, "lack", row()).name(), state - value + sum + small}});
-    b.body().push_back(for_all(std::move(each)));
-    return b.take();
   }
 
   // I - coupling h b J H'' with the Hessian at the mean of the stages.
@@ -159,29 +144,47 @@ class StageRoutines {
     const Place matrix{"start", "matrix"};
     b.body().push_back({Clear{matrix}});
     Body one{{Put{matrix, affine("j"), affine("j"), Expression(1)}}};
-    b.body().push_back(for_each(counting("j", unknowns()), std::move(one)));
+    b.body().push_back(for_each(counting("j", stages_ * dimension_), std::move(one)));
     // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
     Body entries;
-    const Expression coupling = b.at("k", "coupling", {affine("i"), affine("m")});
+    const Expression coupling = entry(b, "coupling", affine("m"));
     const Expression scaled = b.at("k", "scaled", {affine("m")});
     const Expression weight = b.let(entries, "weight", coupling * scaled);
-    const AffineIndex column{0, {{"m", dimension_}, {"c", 1}}};
+    const StageLayout packed = layout_.without_room();
+    const AffineIndex column = packed.index("m", 0, "c", 0);
     Body each;
-    each.push_back({Put{matrix,
-                        {0, {{"i", dimension_}, {"j", 1}}},
-                        column,
+    each.push_back({Put{matrix, packed.index("i", 0, "j", 0), column,
                         -weight * b.at("values", "", {affine("j", n_), affine("c")})}});
-    each.push_back({Put{matrix,
-                        {n_, {{"i", dimension_}, {"j", 1}}},
-                        column,
+    each.push_back({Put{matrix, packed.index("i", 0, "j", n_), column,
                         weight * b.at("values", "", {affine("j"), affine("c")})}});
     Body columns;
     columns.push_back(for_each(counting("c", dimension_), std::move(each)));
     entries.push_back(for_each(counting("j", n_), std::move(columns)));
     Body pairs;
     pairs.push_back(for_each(counting("m", stages_), std::move(entries)));
-    b.body().push_back(for_each(all_stages(), std::move(pairs)));
+    b.body().push_back(for_each(counting("i", stages_), std::move(pairs)));
     return b.take();
+  }
+
+  // start.lack becomes the increment of Newton's iteration.
+  void add_elimination(RoutineBuilder& b, Body& body) const {
+    const Place matrix{"start", "matrix"};
+    if (!by_component() || !has_spare_room()) {
+      body.push_back({SolveFactorised{matrix, {"start", "lack"}}});
+      return;
+    }
+    const StageLayout packed = layout_.without_room();
+    const std::string here = of_start(b, "packed", packed.index("i", 0, "j", 0)).name();
+    const std::string there = of_start(b, "lack", row()).name();
+    const auto copy = [&](const std::string& to, const std::string& from) {
+      Body each{{Assign{to, b.local(from)}}};
+      Body stages;
+      stages.push_back(for_each(counting("i", stages_), std::move(each)));
+      body.push_back(for_each(all_components(), std::move(stages)));
+    };
+    copy(here, there);
+    body.push_back({SolveFactorised{matrix, {"start", "packed"}}});
+    copy(there, here);
   }
 
   [[nodiscard]] IterateArray iteration(RoutineBuilder& b, Rule rule, Body body) const {
@@ -192,6 +195,13 @@ class StageRoutines {
                                        .increment = of_start(b, "lack", row()).name(),
                                        .beside = of_start(b, "state", affine("j"))}},
                          .body = std::move(body)};
+    if (by_component()) {
+      iterate.ranges = {counting("j", unknowns())};
+      iterate.lanes = layout_.packs();
+      iterate.unknowns = {{.value = of_start(b, "value", affine("j")).name(),
+                           .increment = of_start(b, "lack", affine("j")).name(),
+                           .beside = of_start(b, "state", affine("j"))}};
+    }
     if (rule == Rule::fixed_point) return iterate;
     iterate.factorised = Place{"start", "factorised"};
     iterate.residual = b.at("start", "residual").name();
@@ -199,6 +209,7 @@ class StageRoutines {
   }
 
   void add_fixed_point(RoutineBuilder& b) const {
+    if (coordinates_) return coordinates_->add_fixed_point(b);
     Body body{{call("evaluate")}};
     b.body().push_back({iteration(b, Rule::fixed_point, std::move(body))});
   }
@@ -218,7 +229,7 @@ class StageRoutines {
     Body size{{Accumulate{residual.name(),
                           Expression::apply("abs", {of_start(b, "lack", affine("j"))})}}};
     body.push_back(for_each(counting("j", unknowns()), std::move(size)));
-    body.push_back({SolveFactorised{matrix, {"start", "lack"}}});
+    add_elimination(b, body);
     b.body().push_back({iteration(b, Rule::simplified_newton, std::move(body))});
   }
 
@@ -244,22 +255,40 @@ class StageRoutines {
 
   // The stages of the polynomial through those of the last step, or the state.
   void add_start_values(RoutineBuilder& b) const {
-    read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
+    if (by_component()) {
+      add_state_at_stages(b);
+    } else {
+      read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
+    }
     read_state(b, b.body(), environment_, "carry", {"start", "small"}, is_array());
     const Place known{"start", "known"};
     Body ahead;
     Body each;
-    const Expression state = of_start(b, "state", affine("j"));
+    const Expression from = state(b);
     const Expression moved = b.let(each, "moved", combination(b, "ahead"));
-    each.push_back({Assign{of_start(b, "value", row()).name(), state + moved}});
+    each.push_back({Assign{of_start(b, "value", row()).name(), from + moved}});
     ahead.push_back(for_all(std::move(each)));
     b.body().push_back({If{known, true, std::move(ahead)}});
     b.body().push_back({If{known, false, at_state(b)}});
     b.body().push_back({SetFlag{known, false}});
   }
+  void add_state_at_stages(RoutineBuilder& b) const {
+    Body each;
+    for (int c = 0; c < dimension_; ++c) {
+      const Expression target = of_start(b, "state", layout_.index("i", 0, "", c));
+      each.push_back({Assign{target.name(), b.at(environment_.place("z", c))}});
+    }
+    b.body().push_back(in_lanes(all_stages(), layout_.packs(), std::move(each)));
+  }
   [[nodiscard]] Body at_state(RoutineBuilder& b) const {
-    Body each{{Assign{of_start(b, "value", row()).name(), of_start(b, "state", affine("j"))}}};
     Body all;
+    if (by_component()) {
+      const std::string value = of_start(b, "value", affine("j")).name();
+      Body each{{Assign{value, of_start(b, "state", affine("j"))}}};
+      all.push_back(for_each(counting("j", unknowns()), std::move(each)));
+      return all;
+    }
+    Body each{{Assign{of_start(b, "value", row()).name(), of_start(b, "state", affine("j"))}}};
     all.push_back(for_all(std::move(each)));
     return all;
   }
@@ -294,9 +323,19 @@ class StageRoutines {
         break;
     }
     Body again{{call("evaluate")}};
+    const Place factorised{"start", "factorised"};
     if (has_newton()) {
-      Body contract{{SolveFactorised{{"start", "matrix"}, {"start", "lack"}}}};
-      again.push_back({If{{"start", "factorised"}, true, std::move(contract)}});
+      Body contract;
+      add_elimination(b, contract);
+      again.push_back({If{factorised, true, std::move(contract)}});
+    }
+    if (coordinates_) {
+      Body contract{{call("eliminate_momenta")}};
+      if (has_newton()) {
+        again.push_back({If{factorised, false, std::move(contract)}});
+      } else {
+        again.push_back(std::move(contract.front()));
+      }
     }
     b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
                                     .point = {"start", "value"},
@@ -317,8 +356,8 @@ class StageRoutines {
     for (int c = 0; c < components; ++c) {
       // Of a system in loops the elements of q, then those of p.
       const auto index = [&](int stage) {
-        const long first = static_cast<long>(stage) * dimension_;
-        return is_array() ? affine("j", first + (c == 0 ? 0 : n_)) : affine(first + c);
+        return is_array() ? layout_.index("", stage, "j", c == 0 ? 0 : n_)
+                          : affine(layout_.at(stage, c));
       };
       const auto component = [&](const char* state) {
         if (!is_array()) return b.at(environment_.place(state, c));
@@ -355,7 +394,7 @@ class StageRoutines {
   const Environment& environment_;
   const LoweredStep& lowered_;
   StageSolver solver_;
-  int stages_, n_, dimension_;
+  std::optional<StageCoordinates> coordinates_;
 };
 
 }  // namespace

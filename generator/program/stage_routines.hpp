@@ -1,7 +1,7 @@
 // The step of an implicit Runge-Kutta method, as routines.
 //
 // With L_i = h b_i f(Y_i) the stages are Y_i = z + sum coupling_ij L_j and Z = z + sum L_i.  In the
-// routines a stage after the other is one array: start.value the Y_i, start.slope the L_i.
+// routines all are one array (StageLayout): start.value the Y_i, start.slope the L_i.
 #pragma once
 
 #include "generator/program/environment.hpp"
@@ -12,7 +12,8 @@
 namespace hamgen {
 
 // Adds the records Coefficients and Start, and solve with what it calls.  There are vector_field
-// and, where Newton is among the solvers, hessian for the state as one array.
+// or vector_fields and, where Newton is among the solvers, hessian for the state as one array, and
+// where there is a second order forces.
 void add_stages(Program& code, const Environment& environment, const LoweredStep& lowered);
 
 // The array `name` of 2n numbers is the state.

@@ -36,7 +36,8 @@ class RoutineWriter : public RunWriter {
   }
 
   void operator()(const Let& let) {
-    add(Define{"Real", let.symbol, formula(let.value), let.varies});
+    const char* type = lane_index_.empty() ? "Real" : "Lanes";
+    add(Define{type, let.symbol, formula(let.value), let.varies});
   }
   void operator()(const Array& array) {
     std::vector<Value> values;
@@ -55,7 +56,12 @@ class RoutineWriter : public RunWriter {
     if (!copy.declares) return set(at({copy.to}), std::move(from));
     add(Define{copy.record, copy.to, std::move(from), true});
   }
-  void operator()(const Assign& assign) { set(symbol(assign.symbol), formula(assign.value)); }
+  void operator()(const Assign& assign) {
+    const auto place = routine_.places.find(assign.symbol);
+    if (place == routine_.places.end() || !is_of_lanes(place->second, lane_index_))
+      return set(symbol(assign.symbol), formula(assign.value));
+    add(Do{call("Lanes::put", {at(place->second, Value::Kind::given), formula(assign.value)})});
+  }
   void operator()(const Collect& sum) {
     Value collect = call("collect", {symbol(sum.symbol), symbol(sum.lost), formula(sum.value)});
     collect.changed = 2;
@@ -69,7 +75,9 @@ class RoutineWriter : public RunWriter {
   }
   void operator()(const SetFlag& flag) { set(at(flag.flag), word(flag.value ? "true" : "false")); }
   void operator()(const hamgen::For& loop) {
-    add(For{loop.range, inside(loop.body), Shape::fitting});
+    if (loop.lanes > 0) lane_index_ = loop.range.index;
+    add(For{loop.range, inside(loop.body), Shape::fitting, loop.lanes});
+    if (loop.lanes > 0) lane_index_.clear();
   }
   void operator()(const Scope& scope) { add(Block{inside(scope.body)}); }
   void operator()(const hamgen::If& node) {
@@ -214,12 +222,18 @@ class RoutineWriter : public RunWriter {
     // Of a lane that has failed nothing is asked any more.
     if (end.flag) set(at(*end.flag), form_.lanes ? call("any", {converged}) : converged);
   }
+
+  std::string lane_index_;  // of a loop over stages in lanes
 };
 
 }  // namespace
 
 Body body_of(const Routine& routine, const Form& form) {
   return RoutineWriter(routine, form).run();
+}
+
+bool is_of_lanes(const Place& place, const std::string& index) {
+  return !index.empty() && !place.indices.empty() && place.indices.back().factors.contains(index);
 }
 
 std::string type_of(const ArrayMatrix& matrix) {

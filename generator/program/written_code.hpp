@@ -65,6 +65,10 @@ struct Define {
   bool varies = false;
   std::vector<int> sizes = {};  // of an array
 };
+// A number, or one of each of the stages in lanes?
+[[nodiscard]] inline bool is_number(const Define& define) {
+  return define.sizes.empty() && (define.type == "Real" || define.type == "Lanes");
+}
 // Value += sum and the like.
 struct Set {
   Value to;
@@ -78,6 +82,7 @@ struct For {
   KernelRange range;  // both ends are taken
   Body body;
   Shape shape = Shape::braces;
+  int lanes = 0;  // so many at once
 };
 // for (type index = first; index < limit; ++index); without a limit until something ends it.
 struct Loop {
@@ -125,6 +130,8 @@ struct Statement {
 
 // From what it returns, as that begins, to its end.
 [[nodiscard]] Body body_of(const Routine& routine, const Form& form);
+// Are the numbers of the array side by side in the loop of this index?
+[[nodiscard]] bool is_of_lanes(const Place& place, const std::string& index);
 // "BandMatrix<8, 1>"
 [[nodiscard]] std::string type_of(const ArrayMatrix& matrix);
 // The body inside a statement, if there is one.

@@ -237,7 +237,7 @@ class IterationWriter : public StatementWriter {
       add(Declare{"Distance", {"distance "}});
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
-      move(iterate);
+      iterate.lanes > 0 ? write({{moved_in_lanes(iterate)}}) : move(iterate);
       std::vector<Value> judged = {object({"distance "})};
       if (newton) judged.push_back(symbol(iterate.residual));
       if (newton) judged.push_back(object(*iterate.factorised));
@@ -248,8 +248,12 @@ class IterationWriter : public StatementWriter {
   }
 
   void distance_of(const IterateArray& iterate) {
-    const auto add_to_distance = [this](std::vector<Value> values) {
-      add(Do{action("Distance", {"distance "}, "add", std::move(values))});
+    const auto add_to_distance = [&](std::vector<Value> values) {
+      if (iterate.lanes == 0)
+        return void(add(Do{action("Distance", {"distance "}, "add", std::move(values))}));
+      const std::vector<Value> sum = {call("Lanes", {integer(0)}), object({"distance "})};
+      values.insert(values.begin(), sum.begin(), sum.end());
+      add(Do{call("add_lanes", std::move(values))});
     };
     const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
     for (const WholeUnknowns& u : arrays) {

@@ -169,33 +169,51 @@ void expect_ieee_end(TokenCursor& cursor, const Precision& precision) {
   expect_tested(cursor, "shells/ieee_end", precision);
 }
 
-FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision) {
+namespace {
+
+// The blocks of a namespace that begins like this, up to its last bracket.
+FixedBlocks read_space(TokenCursor& cursor, std::string_view text, const Precision& precision,
+                       const std::string& space, const std::string& begin) {
   FixedBlocks blocks;
-  if (!cursor.peek().is("namespace")) return blocks;
-  cursor.take();
+  cursor.expect("namespace");
   const int line = cursor.line();
   const std::string name = cursor.word();
   if (!name.starts_with("hamgen_")) throw TextDifference(line, "not the namespace of fixed blocks");
   blocks.digest = name.substr(7);
-  const std::string type = precision.is_quad() ? "__extension__ typedef __float128 Real;"
-                                               : fmt::format("using Real = {};", precision.type);
-  expect_pattern(cursor, {fmt::format("::{} {{ {}", precision.space, type)}, precision,
+  expect_pattern(cursor, {fmt::format("::{} {{ {}", space, begin)}, precision,
                  "the namespace of fixed blocks");
-  const std::string prefix =
-      fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(std::string(precision.space)));
+  const std::string prefix = fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(space));
   while (is_directive(cursor, "#ifndef "))
     blocks.names.insert(read_block(cursor, text, prefix, precision));
   expect_pattern(cursor, {"}"}, precision, "the namespace of fixed blocks");
   return blocks;
 }
 
-void read_block_names(TokenCursor& cursor) {
+}  // namespace
+
+FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision) {
+  if (!cursor.peek().is("namespace")) return {};
+  const std::string type = precision.is_quad() ? "__extension__ typedef __float128 Real;"
+                                               : fmt::format("using Real = {};", precision.type);
+  return read_space(cursor, text, precision, std::string(precision.space), type);
+}
+
+FixedBlocks read_packs(TokenCursor& cursor, std::string_view text, const Precision& precision) {
+  expect_tested(cursor, "shells/lane_registers", precision);
+  const FixedBlocks blocks =
+      read_space(cursor, text, precision, "packs", "inline namespace HAMGEN_REGISTERS {");
+  expect_pattern(cursor, {"}"}, precision, "the namespace of packs");
+  return blocks;
+}
+
+void read_block_names(TokenCursor& cursor, const std::string& space) {
   do {
     const int line = cursor.line();
-    cursor.expect("numerics");
+    cursor.expect(space);
     cursor.expect("::");
     const std::string name = cursor.word();
-    if (!is_defined(cpp_blocks(), name)) throw TextDifference(line, name + " is no fixed block");
+    if (!is_defined(space == "packs" ? pack_blocks() : cpp_blocks(), name))
+      throw TextDifference(line, name + " is no fixed block");
   } while (cursor.accept(","));
   cursor.expect(";");
 }

@@ -27,8 +27,11 @@ struct FixedBlocks {
 };
 [[nodiscard]] FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text,
                                       const Precision& precision);
-// "using numerics::two_sum, ...": of names that the blocks define.
-void read_block_names(TokenCursor& cursor);
+// Those of packs, where stages are computed in lanes.
+[[nodiscard]] FixedBlocks read_packs(TokenCursor& cursor, std::string_view text,
+                                     const Precision& precision);
+// "using numerics::two_sum, ...": of names that the blocks define, `space` of these or of packs.
+void read_block_names(TokenCursor& cursor, const std::string& space);
 
 // The header of generator/numerics of this name.
 [[nodiscard]] std::string_view tested_text(std::string_view name);

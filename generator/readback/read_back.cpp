@@ -72,6 +72,11 @@ class FileReader {
     for (const std::string& name : included) add_blocks(read_support(name), digest);
     add_blocks(read_blocks(cursor_, file_.text, precision_), digest);
     if (!digest.empty()) digest_ = digest;
+    if (has_packs()) {
+      const FixedBlocks packs = read_packs(cursor_, file_.text, precision_);
+      packs_digest_ = packs.digest;
+      found_.blocks += static_cast<int>(packs.names.size());
+    }
     read_section("method", contents_.method);
     expect_ieee_end(cursor_, precision_);
     if (plugin) read_interface();
@@ -79,6 +84,7 @@ class FileReader {
   }
 
  private:
+  [[nodiscard]] bool has_packs() const { return program_.stages && program_.stages->packs() > 0; }
   void add_blocks(const FixedBlocks& blocks, std::string& digest) {
     if (blocks.digest.empty()) return;
     if (!digest.empty() && digest != blocks.digest)
@@ -152,10 +158,14 @@ class FileReader {
     const bool inside = name == system_ || name.starts_with(system_ + "::");
     if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", name, system_));
     expect(fmt::format("{{ inline namespace emitted_{} {{", digest), "a section");
+    const bool in_registers = kind == "method" && has_packs();
+    if (in_registers) expect("inline namespace HAMGEN_REGISTERS {", "a section");
     kind == "system" ? read_type() : read_names();
     read_constants(kind);
+    if (in_registers)
+      expect(fmt::format("using Lanes = Pack<{}>;", program_.stages->lanes), "Lanes");
     for (const Piece& piece : pieces) std::visit([this](const auto& each) { read(each); }, piece);
-    expect("} }", "a section");
+    expect(in_registers ? "} } }" : "} }", "a section");
     expect_directive(cursor_, fmt::format("#elif {} != 0x{}", macro, digest));
     expect_directive(cursor_,
                      fmt::format("#error \"another {} of this name is included before: generate "
@@ -173,7 +183,11 @@ class FileReader {
     if (!cursor_.peek().is("namespace")) return;
     expect(fmt::format("namespace numerics = ::hamgen_{}::{}; using", digest_, precision_.space),
            "the names of the fixed blocks");
-    read_block_names(cursor_);
+    read_block_names(cursor_, "numerics");
+    if (!has_packs()) return;
+    expect(fmt::format("namespace packs = ::hamgen_{}::packs; using", packs_digest_),
+           "the names of packs");
+    read_block_names(cursor_, "packs");
   }
   void read_constants(const std::string& kind) {
     if (cursor_.peek(3).is("pi")) {
@@ -222,7 +236,7 @@ class FileReader {
   ReadBack& found_;
   TokenCursor cursor_;
   std::string system_, method_;  // namespaces
-  std::string digest_;
+  std::string digest_, packs_digest_;
 };
 
 }  // namespace

@@ -17,9 +17,18 @@ std::string shortened(std::string text) {
   return text;
 }
 
-bool is_number(const std::string& type) {
-  return type == "Real" || type == "bool" || type == "int" || type == "long long" ||
-         type == "Verdict";
+// ++i, or i += 8
+bool advances(const CppExpression& e, const std::string& index, int lanes) {
+  if (lanes == 0)
+    return e.kind == CppExpression::Kind::prefix && e.text == "++" && e.parts[0].is_name(index);
+  return e.is_binary("+=") && e.parts[0].is_name(index) &&
+         e.parts[1].kind == CppExpression::Kind::number && e.parts[1].text == std::to_string(lanes);
+}
+
+// What is no object but stands for itself.
+bool is_value(const written::Define& define) {
+  return written::is_number(define) || define.type == "bool" || define.type == "int" ||
+         define.type == "long long" || define.type == "Verdict";
 }
 
 }  // namespace
@@ -155,8 +164,8 @@ void RoutineReader::read(const written::Define& define) {
   }
   if (!right) throw TextDifference(found.line, fmt::format("not {} with its value", define.name));
   require_same(*found.value, define.value, found.line, define.name + " of the program");
-  const bool number = define.sizes.empty() && is_number(define.type);
-  scope_.declare(found.name, {number ? Meaning::Kind::number : Meaning::Kind::object, define.name},
+  scope_.declare(found.name,
+                 {is_value(define) ? Meaning::Kind::number : Meaning::Kind::object, define.name},
                  found.line);
 }
 
@@ -183,8 +192,10 @@ void RoutineReader::read(const written::Do& action) {
 }
 
 void RoutineReader::read(const written::For& node) {
-  const CppStatement& found = loop(node.range);
+  const CppStatement& found = loop(node.range, node.lanes);
+  if (node.lanes > 0) scope_.set_lanes(node.range.index);
   compare_inside(found, node.body);
+  if (node.lanes > 0) scope_.set_lanes("");
 }
 
 void RoutineReader::read(const written::Loop& node) {
@@ -254,19 +265,19 @@ void RoutineReader::read(const written::Return& end) {
 }
 
 // for (type name = ...; ...; ++name)
-const CppStatement& RoutineReader::counter(const std::string& type, const std::string& what) {
+const CppStatement& RoutineReader::counter(const std::string& type, const std::string& what,
+                                           int lanes) {
   const CppStatement& found = next(CppStatement::Kind::loop, what);
   const CppStatement& begin = found.first.front();
   const bool counts = begin.type == type && begin.value && begin.sizes.empty() && found.advance &&
-                      found.advance->kind == CppExpression::Kind::prefix &&
-                      found.advance->text == "++" && found.advance->parts[0].is_name(begin.name);
+                      advances(*found.advance, begin.name, lanes);
   if (!counts) throw TextDifference(found.line, "not " + what);
   return found;
 }
 
 // The caller leaves the frame.
-const CppStatement& RoutineReader::loop(const KernelRange& range) {
-  const CppStatement& found = counter("int", "a loop over " + range.index);
+const CppStatement& RoutineReader::loop(const KernelRange& range, int lanes) {
+  const CppStatement& found = counter("int", "a loop over " + range.index, lanes);
   const CppStatement& begin = found.first.front();
   if (!found.value) throw TextDifference(found.line, "not a loop over " + range.index);
   const AffineIndex lower = scope_.index(*begin.value);

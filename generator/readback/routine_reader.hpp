@@ -56,8 +56,8 @@ class RoutineReader {
   [[nodiscard]] const CppStatement* peek() const;
   // A declaration, of which nothing is read but that it has this type.
   const CppStatement& declaration(std::string type, const std::string& what);
-  const CppStatement& counter(const std::string& type, const std::string& what);
-  const CppStatement& loop(const KernelRange& range);
+  const CppStatement& counter(const std::string& type, const std::string& what, int lanes = 0);
+  const CppStatement& loop(const KernelRange& range, int lanes);
   void require_same(const CppExpression& e, const written::Value& value, int line,
                     const std::string& what);
 

@@ -92,12 +92,8 @@ bool RoutineReader::is_given(const CppExpression& e, const Place& place) const {
            is_free_name(e.parts[0], place.object.substr(4));
   if (place.indices.empty()) return scope_.is_place(e, place);
   // An array from an element on: array + n + 2 * i.
-  if (!e.is_binary("+") || place.indices.size() != 1) return false;
-  AffineIndex offset;
-  const CppExpression* array = &e;
-  for (; array->is_binary("+"); array = &array->parts[0])
-    offset = plus(offset, scope_.index(array->parts[1]), 1);
-  return scope_.is_place(*array, {place.object, place.field}) && offset == place.indices.front();
+  const std::optional<Place> found = scope_.element(e);
+  return e.is_binary("+") && found && to_text(*found) == to_text(place);
 }
 
 }  // namespace hamgen

@@ -103,6 +103,16 @@ bool TextScope::is_place(const CppExpression& e, const Place& exact) const {
   return found && to_text(*found) == to_text(exact);
 }
 
+std::optional<Place> TextScope::element(const CppExpression& e) const {
+  AffineIndex offset;
+  const CppExpression* array = &e;
+  for (; array->is_binary("+"); array = &array->parts[0])
+    offset = plus(offset, index(array->parts[1]), 1);
+  std::optional<Place> found = place(*array);
+  if (found && array != &e) found->indices.push_back(offset);
+  return found;
+}
+
 MachineValue TextScope::value(const CppExpression& e) const {
   switch (e.kind) {
     case TermKind::number:
@@ -126,6 +136,10 @@ MachineValue TextScope::value(const CppExpression& e) const {
     case TermKind::member: {
       const std::optional<Place> found = place(e);
       if (!found) throw TextNotUnderstood(e.line, "an object that is not declared here");
+      for (const AffineIndex& each : found->indices) {
+        if (in_lanes() && each.factors.contains(lane_index_))
+          throw TextDifference(e.line, "a number of one stage where those of all belong");
+      }
       return machine_symbol(symbol_of(*found));
     }
     case TermKind::list: {
@@ -187,12 +201,22 @@ MachineValue TextScope::binary(const CppExpression& e) const {
 MachineValue TextScope::call(const CppExpression& e) const {
   const CppExpression& callee = e.parts[0];
   if (callee.is_name("Real") && e.parts.size() == 2) return converted(e.parts[1]);
+  if (in_lanes() && callee.is_name("Lanes::at") && e.parts.size() == 2)
+    return machine_symbol(symbol_of(lanes(e.parts[1])));
   std::vector<MachineValue> arguments;
   for (std::size_t i = 1; i < e.parts.size(); ++i) arguments.push_back(value(e.parts[i]));
   if (const std::optional<Place> found = place(callee))
     return machine_call(symbol_of(*found), std::move(arguments));
   if (callee.kind != TermKind::name) throw TextNotUnderstood(e.line, "what is called here");
   return machine_call(function(callee.text, e.line), std::move(arguments));
+}
+
+Place TextScope::lanes(const CppExpression& e) const {
+  const std::optional<Place> found = element(e);
+  const bool all =
+      found && !found->indices.empty() && found->indices.back().factors.contains(lane_index_);
+  if (!all) throw TextDifference(e.line, "no numbers of the stages of this loop");
+  return *found;
 }
 
 // Real(2 * i + 1), and the doubles that quad numbers are written in.
@@ -211,6 +235,7 @@ MachineValue TextScope::converted(const CppExpression& argument) const {
 // with "::" before it, but for what the fixed blocks are called in the routines.
 std::string TextScope::function(const std::string& name, int line) const {
   if (name == kProductError) return name;
+  if (in_lanes() && name.starts_with("lane_")) return name.substr(5);
   if (name.starts_with("std::") && !precision_.is_quad()) return name.substr(5);
   constexpr std::string_view kBuiltin = "__builtin_";
   if (name.starts_with(kBuiltin) && !precision_.is_quad()) {

@@ -37,6 +37,13 @@ class TextScope {
   [[nodiscard]] MachineValue value(const CppExpression& e) const;
   // Of an index.  Throws TextNotUnderstood for what is none.
   [[nodiscard]] AffineIndex index(const CppExpression& e) const;
+  // Of a loop over stages in lanes, until it is set to nothing: its numbers are packs.
+  void set_lanes(const std::string& index) { lane_index_ = index; }
+  [[nodiscard]] bool in_lanes() const { return !lane_index_.empty(); }
+  // What an address is that of: array + n + 2 * i.
+  [[nodiscard]] std::optional<Place> element(const CppExpression& e) const;
+  // The same of the stages of such a loop.  Throws TextDifference if it is not.
+  [[nodiscard]] Place lanes(const CppExpression& e) const;
   // An object, a field or an element; none for anything else.
   [[nodiscard]] std::optional<Place> place(const CppExpression& e) const;
   [[nodiscard]] bool is_place(const CppExpression& e, const Place& exact) const;
@@ -54,6 +61,7 @@ class TextScope {
   const Precision& precision_;
   int n_;  // what the text calls n; 0: nothing
   std::vector<std::map<std::string, Meaning>> frames_;
+  std::string lane_index_;
 };
 
 // a + sign b.

@@ -142,7 +142,7 @@ class Lexer {
         return add(CppToken::Kind::sign, sign);
       }
     }
-    constexpr std::string_view kSigns = "+-*/%<>=!&|?:;,.()[]{}~";
+    constexpr std::string_view kSigns = "+-*/%<>=!&|^?:;,.()[]{}~";
     if (kSigns.find(text_[at_]) == std::string_view::npos)
       throw TextNotUnderstood(line_, fmt::format("the character '{}'", text_[at_]));
     add(CppToken::Kind::sign, text_.substr(at_++, 1));

@@ -80,6 +80,13 @@ class Functions {
     if (has("vector_field")) {
       add("vector_field", loops ? "f" : "values", "component of J grad H", turned(gradient));
     }
+    if (has("vector_fields"))
+      add_stages("vector_fields", "component at all stages of J grad H", turned(gradient));
+    if (has("forces")) {
+      std::vector<Expression> forces(static_cast<std::size_t>(n_));
+      for (const Expression& each : by_q) forces.push_back(-each);
+      add_stages("forces", "component at all stages of -dH/dq", forces);
+    }
     if (is_called("hessian"))
       add("hessian", "values", "second derivative", dense(derivatives_, 2 * n_));
     return std::move(parts_);
@@ -97,6 +104,32 @@ class Functions {
   void add(const char* routine, const char* array, const char* what,
            const std::vector<Expression>& expected) {
     parts_.push_back(values_identities(step_, routine, array, what, expected));
+  }
+  // Given the same state at all stages, the routine has the same values at them; and as each number
+  // is computed from those of its own stage alone, it is this function at every stage.
+  void add_stages(const char* routine, const char* what, const std::vector<Expression>& field) {
+    const StageLayout& layout = *step_.code.stages;
+    std::vector<Expression> expected(static_cast<std::size_t>(layout.count()));
+    for (long i = 0; i < layout.room(); ++i) {
+      for (long j = 0; j < layout.dimension; ++j)
+        expected[static_cast<std::size_t>(layout.at(i, j))] = field[static_cast<std::size_t>(j)];
+    }
+    add(routine, "values", what, expected);
+    parts_.back().claims.push_back({"numbers that are of two stages",
+                                    Expression(mixed_stages(*step_.code.routine(routine), layout)),
+                                    Expression(0)});
+  }
+  // Elements of arrays that are not those of the stage that the loop is at.
+  static long mixed_stages(const Routine& routine, const StageLayout& layout) {
+    if (routine.body.size() != 1 || !std::holds_alternative<For>(routine.body[0].value)) return 1;
+    const std::string& stage = std::get<For>(routine.body[0].value).range.index;
+    return std::ranges::count_if(routine.places, [&](const auto& bound) {
+      const std::vector<AffineIndex>& indices = bound.second.indices;
+      if (indices.empty() || bound.second.object == "par") return false;
+      const AffineIndex& last = indices.back();
+      return indices.size() > 1 ||
+             last != layout.index(stage, 0, "", last.constant / layout.room());
+    });
   }
   void add_whole_gradient(const std::vector<Expression>& by_q,
                           const std::vector<Expression>& by_p) {

@@ -15,12 +15,15 @@ void give_state(const StepUnderProof& step, const Routine& routine, SymbolicMach
     long count = 1;
     for (const int size : argument.sizes) count *= size;
     const int first = argument.name == "p" ? n : 0;
+    // Of all stages, component by component.
+    const int each =
+        routine.name == "vector_fields" || routine.name == "forces" ? step.code.stages->room() : 1;
     // What a caller leaves in an array is zero where entries are added to it or left out, and else
     // anything.
     if (argument.changes && argument.name != "values") continue;
     for (int i = 0; i < count; ++i) {
       machine.set({argument.name, "", {{i, {}}}},
-                  argument.changes ? Expression(0) : step.mechanics.variable(first + i));
+                  argument.changes ? Expression(0) : step.mechanics.variable(first + i / each));
     }
   }
 }

@@ -181,6 +181,12 @@ struct SymbolicMachine::Run {
     IterationTrace& trace = m.iterations.back();
     const Reference refinement = m.reference(frame, refine.refinement);
     const std::string stem = cell(refinement);
+    const auto read_all = [&](const Place& array, std::vector<Expression>& values) {
+      for (const std::string& place : m.cells_of(m.reference(frame, array)))
+        values.push_back(m.read(place));
+    };
+    read_all(refine.point, trace.refined_at);
+    read_all(refine.lack, trace.refined_lack);
     Reference gradient = m.reference(frame, refine.gradient);
     gradient.sizes = {refine.components};
     const std::vector<std::string> cells = m.cells_of(gradient);

@@ -44,6 +44,7 @@ SymbolicMachine::Frame SymbolicMachine::frame_of(const std::string& routine,
   const Result& result = frame.routine->result;
   if (!result.object.empty()) {
     frame.objects[result.object] = {.root = prefix + result.object, .record = result.type};
+    zeroed_.insert(prefix + result.object);
   }
   return frame;
 }

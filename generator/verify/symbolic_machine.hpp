@@ -41,6 +41,9 @@ struct IterationTrace {
   // Of a fixed point: what its refinement looks at, and the free symbols of what that lacks.
   std::vector<Expression> gradient = {};
   std::vector<Expression> changes = {};
+  // The same of arrays: where it looks, and what the unknowns lack there.
+  std::vector<Expression> refined_at = {};
+  std::vector<Expression> refined_lack = {};
   std::set<std::string> inside = {};  // definitions that depend on the unknowns
 };
 struct SweepTrace {

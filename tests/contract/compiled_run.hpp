@@ -88,7 +88,14 @@ struct CompiledExact : Compiled<Emitted> {
       result.converged = all.step().converged;
       result.end = state_and_carry<Quad>(all);
       if constexpr (requires { all.start_.value; }) {
-        for (const Quad value : all.start_.value) result.stages.push_back(value);
+        // z at every stage, too, where a component's numbers of all stages stand side by side.
+        const std::size_t count = std::size(all.start_.value);
+        const bool by_component = std::size(all.start_.state) == count;
+        const std::size_t size = by_component ? z.size() : count;
+        for (std::size_t i = 0; i < count / size; ++i) {
+          for (std::size_t k = 0; k < size; ++k)
+            result.stages.push_back(all.start_.value[k * (count / size) + i]);
+        }
       }
     }
     return result;

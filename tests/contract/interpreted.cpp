@@ -74,7 +74,14 @@ class InterpretedExact {
     if (!run) run = std::make_unique<Interpreter<Quad>>(code_, parameters_, h, z);
     run->reset(z, Vector(z.size()));
     const bool converged = run->step().converged;
-    return {converged, state_and_carry(*run), run->remembered(0, "value")};
+    const Vector values = run->remembered(0, "value");
+    if (!code_.stages) return {converged, state_and_carry(*run), values};
+    Vector stages;
+    for (long i = 0; i < code_.stages->stages; ++i) {
+      for (long j = 0; j < code_.stages->dimension; ++j)
+        stages.push_back(values[static_cast<std::size_t>(code_.stages->at(i, j))]);
+    }
+    return {converged, state_and_carry(*run), stages};
   }
 
  private:
@@ -83,8 +90,8 @@ class InterpretedExact {
   std::map<Quad, std::unique_ptr<Interpreter<Quad>>> runs_;
 };
 
-Program code_of(const StepEquations& equations, const std::string& solver) {
-  return build_program(plan_solve(equations, solver));
+Program code_of(const StepEquations& equations, const std::string& solver, bool lanes = false) {
+  return build_program(plan_solve(equations, solver), {.stages_in_lanes = lanes});
 }
 
 // A slow fixed point has not the iterations for the digits of quad; Newton has.
@@ -138,8 +145,11 @@ std::vector<Defects> Interpretable::measure(const Request& request,
                                             const std::vector<Case>& cases) const {
   Codes codes{.equations = discretise(parts_->mechanics,
                                       choose_scheme(parts_->model, parts_->mechanics, request))};
-  codes.measured = code_of(codes.equations, request.solver.text());
-  codes.exact = request.solver == "fixed-point" ? code_of(codes.equations, "") : codes.measured;
+  codes.exact =
+      code_of(codes.equations, request.solver == "fixed-point" ? "" : request.solver.text());
+  // As double numbers are emitted.
+  codes.measured =
+      code_of(codes.equations, request.solver.text(), request.scalar->type->digits == 53);
   std::vector<Defects> result;
   for (const Case& c : cases) {
     result.push_back(request.scalar == "float"         ? contract::measure<float>(c, codes)

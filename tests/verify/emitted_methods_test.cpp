@@ -23,6 +23,8 @@ const std::string kHenonHeiles =
 const std::string kKepler =
     "coordinate x, y\nmomentum px, py\nparameter mu = 1\nH = (px^2 + py^2)/2 - mu/sqrt(x^2 + "
     "y^2)\n";
+const std::string kMasses =
+    "coordinate x, y\nmomentum px, py\nparameter m = 2\nH = px^2/(2*m) + py^2/2 + cos(x - y)\n";
 const std::string kProduct = "coordinate q\nmomentum p\nH = (q^2 + 1)*(p^2 + 1)/2\n";
 
 Finding prove(const Mechanics& mechanics, const Scheme& scheme, const LoweredStep& lowered,
@@ -53,6 +55,7 @@ struct Case {
   std::string text;
   int order = 0;  // of K, with the gauge 3/10, 1/5, -1/10 if it is odd
   std::string solver = "";
+  bool lanes = false;  // are stages computed together?
 };
 
 Scheme scheme_of(const Case& c, const Mechanics& mechanics) {
@@ -73,6 +76,8 @@ std::vector<Case> cases() {
       {"suzuki-4", kProduct},
       {"gauss-4", kHenonHeiles},
       {"gauss-6", kProduct, 0, "fixed-point"},
+      {"gauss-6", kMasses, 0, "fixed-point", true},
+      {"gauss-4", kMasses, 0, "", true},
       {"rk4", kKepler},
       {"order 4, midpoint", kPendulum, 4},
       {"order 6, midpoint", kKepler, 6},
@@ -89,7 +94,7 @@ TEST(EmittedMethods, AreTheMathematics) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver);
+    const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver, c.lanes);
     const Finding finding = prove(mechanics, scheme, lowered);
     EXPECT_EQ(finding.verdict, expected_verdict(c)) << c.name << ": " << finding.detail;
     if (c.order > 0) {
@@ -125,7 +130,7 @@ TEST(EmittedMethods, EveryMutationIsRefuted) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const LoweredStep original = lowered_of(mechanics, scheme, c.solver);
+    const LoweredStep original = lowered_of(mechanics, scheme, c.solver, c.lanes);
     const Program code = build_program(original);
     std::vector<Mutant> mutants = mutants_of(code, {5, first});
     for (Mutant& mutant : mutants_of_structure(code, {5, first++}))
@@ -159,7 +164,7 @@ TEST(EmittedModifiedEnergies, AreTheSeriesAndEveryMutationIsRefuted) {
                         Case{"implicit-midpoint", kHenonHeiles}}) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    LoweredStep original = lowered_of(mechanics, scheme, c.solver);
+    LoweredStep original = lowered_of(mechanics, scheme, c.solver, c.lanes);
     const std::vector<Expression> terms =
         modified_hamiltonian(mechanics, scheme.member().c, 0, scheme.symmetric ? 5 : 3);
     std::vector<Expression> sums;
@@ -202,7 +207,7 @@ TEST(EmittedTangent, IsTheMathematicsAndEveryMutationIsRefuted) {
   for (const Case& c : tangent_cases()) {
     const Mechanics mechanics = mechanics_of(c.text);
     const Scheme scheme = scheme_of(c, mechanics);
-    const LoweredStep without = lowered_of(mechanics, scheme, c.solver);
+    const LoweredStep without = lowered_of(mechanics, scheme, c.solver, c.lanes);
     if (!without.plan.equations.has_exact_hessian()) continue;
     const LoweredStep original = with_tangent(without);
     const Finding finding = prove(mechanics, scheme, original);

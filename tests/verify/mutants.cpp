@@ -18,9 +18,9 @@ Mechanics mechanics_of(const std::string& text) {
   return derive(read_model(make_source("case.ham", "system case\n" + text)));
 }
 
-LoweredStep lowered_of(const Mechanics& mechanics, const Scheme& scheme,
-                       const std::string& solver) {
-  return lower_step(plan_solve(discretise(mechanics, scheme), solver));
+LoweredStep lowered_of(const Mechanics& mechanics, const Scheme& scheme, const std::string& solver,
+                       bool lanes) {
+  return lower_step(plan_solve(discretise(mechanics, scheme), solver), {.stages_in_lanes = lanes});
 }
 
 namespace {

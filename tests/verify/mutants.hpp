@@ -14,7 +14,7 @@ namespace hamgen::verify_test {
 // The model of a text without its first line.
 [[nodiscard]] Mechanics mechanics_of(const std::string& text);
 [[nodiscard]] LoweredStep lowered_of(const Mechanics& mechanics, const Scheme& scheme,
-                                     const std::string& solver);
+                                     const std::string& solver, bool lanes = false);
 
 // Every value that a routine computes.
 void for_each_expression(Program& code, const std::function<void(Expression&)>& visit);

@@ -1,0 +1,38 @@
+// The stages of the coordinates alone, for H = p^2/2m + V(q): with velocities that are linear in
+// the momenta these can be eliminated, so that an iteration contracts as two of the whole do, at
+// half the work.  It is a way to the solution of the stages' equations, which remain what they are.
+#pragma once
+
+#include "generator/program/stage_parts.hpp"
+
+namespace hamgen {
+
+class StageCoordinates : StageParts {
+ public:
+  // Only for a step that has them.
+  StageCoordinates(const Environment& environment, const LoweredStep& lowered)
+      : StageParts(lowered), environment_(environment), order_(*lowered.second_order) {}
+
+  // What the iteration remembers: start.base.
+  [[nodiscard]] Field base() const;
+  // The fields of k that hold the mobilities, if these are no ones, and what fills them in.
+  [[nodiscard]] static bool needs_mobility(const SecondOrder& order);
+
+  // begin_coordinates, evaluate_coordinates, end_coordinates, eliminate_momenta
+  [[nodiscard]] std::vector<Routine> routines() const;
+  // The fixed point of the coordinates, and the momenta then.
+  void add_fixed_point(RoutineBuilder& b) const;
+
+ private:
+  [[nodiscard]] Routine begin() const;
+  [[nodiscard]] Routine evaluate() const;
+  [[nodiscard]] Routine end() const;
+  [[nodiscard]] Routine eliminate() const;
+  // The mobility of coordinate j times that.
+  Expression moved(RoutineBuilder& b, const Expression& momentum) const;
+
+  const Environment& environment_;
+  const SecondOrder& order_;
+};
+
+}  // namespace hamgen
