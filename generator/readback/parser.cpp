@@ -133,10 +133,11 @@ class CppReader {
     return result;
   }
 
-  // One, or those that declare the names of a list.
+  // One, none if it is empty, or those that declare the names of a list.
   void statement(std::vector<CppStatement>& to) {
     const Deeper deeper(*this);
     const int line = cursor_.line();
+    if (cursor_.accept(";")) return;
     if (cursor_.peek().is("{"))
       return to.push_back({.kind = CppStatement::Kind::block, .line = line, .body = block()});
     if (cursor_.accept("if")) return to.push_back(branch(line));
