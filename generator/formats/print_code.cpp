@@ -189,6 +189,9 @@ void RoutinePrinter::operator()(const Collect& sum) {
 // target += value, or target -= what follows a minus, if that is one product.
 void RoutinePrinter::operator()(const Accumulate& sum) {
   const std::string value = cpp_(sum.value);
+  const auto place = routine_.places.find(sum.symbol);
+  if (place != routine_.places.end() && is_pack(place->second))
+    return out_.line(fmt::format("Lanes::add({}, {});", given(place->second), value));
   const bool negative =
       value.starts_with('-') && value.find_first_of("+-(", 1) == std::string::npos;
   out_.line(fmt::format("{} {}= {};", name(sum.symbol), negative ? '-' : '+',

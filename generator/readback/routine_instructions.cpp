@@ -39,22 +39,27 @@ void RoutineReader::operator()(const Copy& copy) {
 }
 
 void RoutineReader::operator()(const Assign& assign) {
-  if (scope_.in_lanes()) return lanes_assignment(assign);
+  if (is_of_stages(assign.symbol))
+    return lanes_assignment("Lanes::put", assign.symbol, assign.value);
   assignment(symbol(assign.symbol), "=", meant(assign.value));
 }
 
+bool RoutineReader::is_of_stages(const std::string& symbol) const {
+  const auto place = routine_.places.find(symbol);
+  return place != routine_.places.end() && scope_.is_of_stages(place->second);
+}
+
 // Lanes::put(array + i, value)
-void RoutineReader::lanes_assignment(const Assign& assign) {
-  const CppStatement& found =
-      next(CppStatement::Kind::expression, assign.symbol + " of the stages");
+void RoutineReader::lanes_assignment(const std::string& how, const std::string& to,
+                                     const Expression& value) {
+  const CppStatement& found = next(CppStatement::Kind::expression, to + " of the stages");
   const CppExpression& e = *found.value;
-  const bool puts = e.kind == CppExpression::Kind::call && e.parts.size() == 3 &&
-                    e.parts[0].is_name("Lanes::put");
-  if (!puts) throw TextDifference(found.line, "not " + assign.symbol + " of the stages");
-  same(machine_symbol(symbol_of(scope_.lanes(e.parts[1]))), symbol(assign.symbol), found.line,
-       "the assignment to " + assign.symbol);
-  same(scope_.value(e.parts[2]), meant(assign.value), found.line,
-       assign.symbol + " of the program");
+  const bool puts =
+      e.kind == CppExpression::Kind::call && e.parts.size() == 3 && e.parts[0].is_name(how);
+  if (!puts) throw TextDifference(found.line, "not " + to + " of the stages");
+  same(machine_symbol(symbol_of(scope_.lanes(e.parts[1]))), symbol(to), found.line,
+       "the assignment to " + to);
+  same(scope_.value(e.parts[2]), meant(value), found.line, to + " of the program");
 }
 
 void RoutineReader::operator()(const Collect& sum) {
@@ -62,6 +67,7 @@ void RoutineReader::operator()(const Collect& sum) {
 }
 
 void RoutineReader::operator()(const Accumulate& sum) {
+  if (is_of_stages(sum.symbol)) return lanes_assignment("Lanes::add", sum.symbol, sum.value);
   assignment(symbol(sum.symbol), "+=", meant(sum.value));
 }
 

@@ -29,7 +29,8 @@ class RoutineReader {
   void operator()(const Matrix& matrix);
   void operator()(const Copy& copy);
   void operator()(const Assign& assign);
-  void lanes_assignment(const Assign& assign);
+  [[nodiscard]] bool is_of_stages(const std::string& symbol) const;
+  void lanes_assignment(const std::string& how, const std::string& to, const Expression& value);
   void operator()(const Collect& sum);
   void operator()(const Accumulate& sum);
   void operator()(const Clear& clear);
