@@ -288,7 +288,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
     if (request.order > 0) plugin.scheme_name += fmt::format(", order {}", request.order);
   }
   plugin.order = stages.equations.scheme.order;
-  plugin.solver = stages.plan.solver;
+  plugin.solver = stages.program.facts.solver;
   plugin.left_out = stages.plan.left_out;
   plugin.left_out_for_scene = stages.folded.folding.left_out.size() + stages.system.left_out.size();
   for (const Quantity& parameter : stages.system.mechanics.parameters) {

@@ -13,24 +13,24 @@ struct RefinementInLanes : Refinement {
     for (int k = 0; k < 8 / width; ++k) size[k] = open[k] = zero;
     for (int j = 0; j < Size; j += 8) {
       for (int k = 0; k < 8 / width && j + width * k < Size; ++k) {
-        const int at = j + width * k;
-        const Lanes missing = Lanes::at(this->missing + at);
-        const Lanes error = missing + (Lanes::at(lack + at) - missing) * part;
-        const Lanes moved = Lanes::at(this->moved + at) + error;
-        Lanes::put(this->moved + at, moved);
+        const int first = j + width * k;
+        const Lanes before = Lanes::at(this->missing + first);
+        const Lanes error = before + (Lanes::at(lack + first) - before) * part;
+        const Lanes way = Lanes::at(this->moved + first) + error;
+        Lanes::put(this->moved + first, way);
         size[k] += lane_abs(error);
-        const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + at)) + lane_abs(moved) * 0x1p-7;
+        const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + first)) + lane_abs(way) * 0x1p-7;
         open[k] += select(lane_abs(error) * 8192 > unit, Lanes(1), zero);
-        Lanes::put(this->change + at,
-                   (Lanes::at(gradient + at) - Lanes::at(this->slope + at)) * part);
+        Lanes::put(this->change + first,
+                   (Lanes::at(gradient + first) - Lanes::at(this->slope + first)) * part);
       }
     }
     this->last = total_of<width>(size);
     const bool more = this->goes_on(total_of<width>(open) > 0);
-    for (int at = 0; at < Size; at += width) {
-      const Lanes kept = Lanes::at(this->at + at);
-      const Lanes ahead = kept + Refinement::amplifier * Lanes::at(this->moved + at);
-      Lanes::put(point + at, more ? ahead : kept);
+    for (int first = 0; first < Size; first += width) {
+      const Lanes kept = Lanes::at(this->at + first);
+      const Lanes ahead = kept + Refinement::amplifier * Lanes::at(this->moved + first);
+      Lanes::put(point + first, more ? ahead : kept);
     }
     return more;
   }

@@ -41,6 +41,7 @@ struct Pack : PackContent<W, (W <= register_lanes)> {
     return pack;
   }
   static void put(double* x, const Pack& pack) { __builtin_memcpy(x, &pack, sizeof pack); }
+  static void add(double* x, const Pack& pack) { put(x, at(x) + pack); }
   void copy_to(double (&x)[W]) const { __builtin_memcpy(x, this, sizeof x); }
   double operator[](int lane) const {
     double x[W];

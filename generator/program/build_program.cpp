@@ -99,7 +99,19 @@ void add_kernel_functions(Program& code, const Environment& environment,
   } else {
     code.routines.push_back(kernel_gradient(environment, mechanics, "gradient", Part::all));
   }
-  if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
+  const std::optional<StageLayout>& layout = lowered.stage_layout;
+  if (layout && layout->by_component()) {
+    std::vector<Routine> leaves =
+        mechanics.is_separable()
+            ? std::vector{*code.routine("potential_gradient"), *code.routine("kinetic_gradient")}
+            : std::vector{*code.routine("gradient")};
+    for (Routine& leaf : leaves) code.routines.push_back(at_stages(std::move(leaf), *layout));
+    code.routines.push_back(array_vector_fields(*layout, mechanics.is_separable()));
+    if (lowered.second_order) code.routines.push_back(array_forces(*layout));
+    if (lowered.second_order && !lowered.second_order->unit_mobility)
+      code.routines.push_back(kernel_masses(environment, mechanics));
+    code.routines.push_back(array_hessian(environment, mechanics));
+  } else if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
     code.routines.push_back(array_vector_field(environment));
     code.routines.push_back(array_hessian(environment, mechanics));
   }

@@ -123,6 +123,14 @@ bool needs_eigen(const LoweredStep& lowered) {
   });
 }
 
+std::string solver_text(const LoweredStep& lowered) {
+  std::string text = lowered.plan.solver;
+  if (lowered.second_order) text += "; its momenta eliminated";
+  const int packs = lowered.stage_layout ? lowered.stage_layout->packs() : 0;
+  if (packs > 0) text += fmt::format("; {} stages at once", packs);
+  return text;
+}
+
 }  // namespace
 
 StepFacts describe_step(const LoweredStep& lowered, const Program& program) {
@@ -137,7 +145,7 @@ StepFacts describe_step(const LoweredStep& lowered, const Program& program) {
                   .scheme = scheme.name,
                   .properties = properties_of(scheme, !lowered.plan.sweeps),
                   .equations = equations_of(scheme),
-                  .solver = lowered.plan.solver,
+                  .solver = solver_text(lowered),
                   .left_out = lowered.plan.left_out,
                   .cost = cost_text(lowered, program),
                   .needs_eigen = needs_eigen(lowered)};

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/stage_layout.hpp"
 
 namespace hamgen {
 
@@ -20,6 +21,12 @@ enum class Part { all, potential, kinetic };
                                       std::string name, Part part);
 // Of a separable H: the two one after the other.
 [[nodiscard]] Routine both_gradients(const Environment& environment);
+// potential_gradients(par, q, dq) and the like: the routine, of arrays alone, at all stages in
+// arrays of such a layout.
+[[nodiscard]] Routine at_stages(Routine routine, const StageLayout& layout);
+// vector_fields(par, z, values), or with the forces alone: by those, with the sign of J.
+[[nodiscard]] Routine array_vector_fields(const StageLayout& layout, bool separable);
+[[nodiscard]] Routine array_forces(const StageLayout& layout);
 // vector_field(par, x, f): J grad H at the state as one array.
 [[nodiscard]] Routine array_vector_field(const Environment& environment);
 [[nodiscard]] Routine kernel_masses(const Environment& environment, const Mechanics& mechanics);

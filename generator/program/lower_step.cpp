@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/step_builder.hpp"
@@ -55,6 +57,10 @@ Evaluation rotated(const Evaluation& gradient) {
 std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
   if (!mechanics.is_separable()) return {};
   const int n = mechanics.degrees_of_freedom;
+  if (mechanics.keeps_sums()) {
+    if (!has_diagonal_kinetic_energy(mechanics)) return {};
+    return SecondOrder{.unit_mobility = uniform_mass(mechanics) == Expression(1)};
+  }
   SecondOrder result;
   std::set<std::string> state;
   for (int i = 0; i < 2 * n; ++i) state.insert(mechanics.variable(i).name());
@@ -67,6 +73,8 @@ std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
       if (state.contains(name)) return {};
     }
   }
+  result.unit_mobility = std::ranges::all_of(
+      result.mobility, [](const Expression& each) { return each == Expression(1); });
   const auto middle = mechanics.gradient.begin() + n;
   std::vector<Expression> forces;
   for (auto it = mechanics.gradient.begin(); it != middle; ++it) forces.push_back(-*it);
@@ -160,9 +168,9 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
     const int dimension = 2 * plan.equations.mechanics.degrees_of_freedom;
     StageLayout layout{.stages = stages, .dimension = dimension};
     if (!plan.arrays) layout.lanes = 1;
-    if (!plan.arrays && wishes.stages_in_lanes) layout = stages_in_lanes(stages, dimension);
+    if (wishes.stages_in_lanes) layout = stages_in_lanes(stages, dimension);
     lowered.stage_layout = layout;
-    if (!plan.arrays && *plan.stage_solver != StageSolver::newton)
+    if (layout.by_component() && *plan.stage_solver != StageSolver::newton)
       lowered.second_order = second_order_of(plan.equations.mechanics);
   }
   if (wishes.tangent) lowered = with_tangent(std::move(lowered));

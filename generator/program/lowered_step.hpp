@@ -73,9 +73,11 @@ struct StepWishes {
 // Of an implicit Runge-Kutta method for a kinetic energy that is a sum of squares of momenta: the
 // stages of the momenta can be eliminated.
 struct SecondOrder {
-  Evaluation forces;                 // -dH/dq, n results
-  Evaluation velocities;             // dH/dp
-  std::vector<Expression> mobility;  // d^2 H/dp_j^2, of parameters alone
+  bool unit_mobility = false;  // is d^2 H/dp_j^2 = 1 for all j?
+  // Of what is written out, not of loops:
+  Evaluation forces = {};                 // -dH/dq, n results
+  Evaluation velocities = {};             // dH/dp
+  std::vector<Expression> mobility = {};  // d^2 H/dp_j^2, of parameters alone
 };
 
 struct LoweredStep {

@@ -8,13 +8,8 @@ Field StageCoordinates::base() const {
   return {.name = "base", .sizes = {layout_.room() * n_}, .remark = "q + h c_i dH/dp(p)"};
 }
 
-bool StageCoordinates::needs_mobility(const SecondOrder& order) {
-  return std::ranges::any_of(order.mobility,
-                             [](const Expression& each) { return each != Expression(1); });
-}
-
 Expression StageCoordinates::moved(RoutineBuilder& b, const Expression& momentum) const {
-  if (!needs_mobility(order_)) return momentum;
+  if (order_.unit_mobility) return momentum;
   const Expression mobility = b.at("k", "mobility", {affine("j")});
   return mobility * momentum;
 }
@@ -27,6 +22,19 @@ Routine StageCoordinates::begin() const {
   RoutineBuilder b({.name = "begin_coordinates",
                     .remark = {"Where the coordinates of the stages were without forces."},
                     .arguments = with_start(false)});
+  Body each;
+  const Expression from = state(b);
+  if (environment_.arrays) {
+    const AffineIndex momenta = affine(static_cast<long>(layout_.room()) * n_);
+    b.body().push_back(
+        {Call{.routine = "kinetic_gradients",
+              .arguments = {{"par"}, {"start", "state", {momenta}}, {"start", "base"}}}});
+    const Expression node = b.at("k", "node", {affine("i")});
+    const Expression base = of_start(b, "base", row());
+    each.push_back({Assign{base.name(), from + node * base}});
+    b.body().push_back(for_all(std::move(each), n_));
+    return b.take();
+  }
   environment_.bind_parameters(b.routine());
   std::set<std::string> used = used_symbols(order_.velocities.statements);
   for (const Expression& e : order_.velocities.results) collect_symbols(e, used);
@@ -37,8 +45,6 @@ Routine StageCoordinates::begin() const {
   }
   append(b.body(), order_.velocities.statements);
   b.body().push_back({Array{"velocity", {n_}, order_.velocities.results}});
-  Body each;
-  const Expression from = state(b);
   const Expression way = b.product({"k", "node", {affine("i")}}, {"velocity", "", {affine("j")}});
   each.push_back({Assign{of_start(b, "base", row()).name(), from + way}});
   b.body().push_back(for_all(std::move(each), n_));

@@ -15,9 +15,6 @@ class StageCoordinates : StageParts {
 
   // What the iteration remembers: start.base.
   [[nodiscard]] Field base() const;
-  // The fields of k that hold the mobilities, if these are no ones, and what fills them in.
-  [[nodiscard]] static bool needs_mobility(const SecondOrder& order);
-
   // begin_coordinates, evaluate_coordinates, end_coordinates, eliminate_momenta
   [[nodiscard]] std::vector<Routine> routines() const;
   // The fixed point of the coordinates, and the momenta then.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/stage_coordinates.hpp"
+#include "generator/program/routine_builder.hpp"
 
 namespace hamgen {
 
@@ -61,6 +61,7 @@ class StageNumbers {
       : table_(lowered.sequence.stages),
         nodes_(std::get<RungeKutta>(lowered.plan.equations.scheme.method).c),
         order_(lowered.second_order),
+        in_loops_(environment.arrays),
         layout_(*lowered.stage_layout),
         stages_(layout_.stages),
         b_({.name = "prepare",
@@ -141,10 +142,9 @@ class StageNumbers {
     if (!order_) return list;
     list.push_back({.name = "twice", .sizes = square, .remark = "[j][i]: h sum_m a_im a_mj / b_j"});
     list.push_back({.name = "node", .sizes = {layout_.room()}, .remark = "h c_i"});
-    if (StageCoordinates::needs_mobility(*order_))
-      list.push_back({.name = "mobility",
-                      .sizes = {static_cast<int>(order_->mobility.size())},
-                      .remark = "d^2 H/dp^2"});
+    if (!order_->unit_mobility)
+      list.push_back(
+          {.name = "mobility", .sizes = {layout_.dimension / 2}, .remark = "d^2 H/dp^2"});
     return list;
   }
 
@@ -162,7 +162,11 @@ class StageNumbers {
       const Expression node(numeric_value(nodes_[static_cast<std::size_t>(i)]));
       b_.body().push_back({Assign{b_.at("k", "node", {affine(i)}).name(), node * step_size()}});
     }
-    if (!StageCoordinates::needs_mobility(*order_)) return;
+    if (order_->unit_mobility) return;
+    if (in_loops_) {
+      b_.body().push_back({Call{.routine = "masses", .arguments = {{"par"}, {"k", "mobility"}}}});
+      return;
+    }
     for (std::size_t j = 0; j < order_->mobility.size(); ++j)
       b_.body().push_back({Assign{b_.at("k", "mobility", {affine(static_cast<long>(j))}).name(),
                                   order_->mobility[j]}});
@@ -182,6 +186,7 @@ class StageNumbers {
   const StageTable& table_;
   const std::vector<Expression>& nodes_;
   const std::optional<SecondOrder>& order_;
+  bool in_loops_;
   StageLayout layout_;
   int stages_;
   RoutineBuilder b_;

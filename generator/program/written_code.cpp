@@ -57,17 +57,18 @@ class RoutineWriter : public RunWriter {
     add(Define{copy.record, copy.to, std::move(from), true});
   }
   void operator()(const Assign& assign) {
-    const auto place = routine_.places.find(assign.symbol);
-    if (place == routine_.places.end() || !is_of_lanes(place->second, lane_index_))
-      return set(symbol(assign.symbol), formula(assign.value));
-    add(Do{call("Lanes::put", {at(place->second, Value::Kind::given), formula(assign.value)})});
+    if (!put_lanes("Lanes::put", assign.symbol, assign.value))
+      set(symbol(assign.symbol), formula(assign.value));
   }
   void operator()(const Collect& sum) {
     Value collect = call("collect", {symbol(sum.symbol), symbol(sum.lost), formula(sum.value)});
     collect.changed = 2;
     add(Do{std::move(collect)});
   }
-  void operator()(const Accumulate& sum) { set(symbol(sum.symbol), formula(sum.value), "+="); }
+  void operator()(const Accumulate& sum) {
+    if (!put_lanes("Lanes::add", sum.symbol, sum.value))
+      set(symbol(sum.symbol), formula(sum.value), "+=");
+  }
   void operator()(const Clear& clear) { add(Do{action("Matrix", clear.matrix, "clear")}); }
   void operator()(const Put& put) {
     add(Do{action("Matrix", put.matrix, "put",
@@ -221,6 +222,14 @@ class RoutineWriter : public RunWriter {
     }
     // Of a lane that has failed nothing is asked any more.
     if (end.flag) set(at(*end.flag), form_.lanes ? call("any", {converged}) : converged);
+  }
+
+  // To numbers of the stages side by side, if it is that.
+  bool put_lanes(const char* how, const std::string& to, const Expression& value) {
+    const auto place = routine_.places.find(to);
+    if (place == routine_.places.end() || !is_of_lanes(place->second, lane_index_)) return false;
+    add(Do{call(how, {at(place->second, Value::Kind::given), formula(value)})});
+    return true;
   }
 
   std::string lane_index_;  // of a loop over stages in lanes

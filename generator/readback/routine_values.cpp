@@ -93,7 +93,7 @@ bool RoutineReader::is_given(const CppExpression& e, const Place& place) const {
   if (place.indices.empty()) return scope_.is_place(e, place);
   // An array from an element on: array + n + 2 * i.
   const std::optional<Place> found = scope_.element(e);
-  return e.is_binary("+") && found && to_text(*found) == to_text(place);
+  return (e.is_binary("+") || e.is_binary("-")) && found && to_text(*found) == to_text(place);
 }
 
 }  // namespace hamgen

@@ -7,6 +7,7 @@
 
 #include "generator/algebra/functions.hpp"
 #include "generator/program/arithmetic.hpp"
+#include "generator/program/written_code.hpp"
 #include "generator/readback/findings.hpp"
 
 namespace hamgen {
@@ -106,8 +107,8 @@ bool TextScope::is_place(const CppExpression& e, const Place& exact) const {
 std::optional<Place> TextScope::element(const CppExpression& e) const {
   AffineIndex offset;
   const CppExpression* array = &e;
-  for (; array->is_binary("+"); array = &array->parts[0])
-    offset = plus(offset, index(array->parts[1]), 1);
+  for (; array->is_binary("+") || array->is_binary("-"); array = &array->parts[0])
+    offset = plus(offset, index(array->parts[1]), array->is_binary("+") ? 1 : -1);
   std::optional<Place> found = place(*array);
   if (found && array != &e) found->indices.push_back(offset);
   return found;
@@ -211,11 +212,14 @@ MachineValue TextScope::call(const CppExpression& e) const {
   return machine_call(function(callee.text, e.line), std::move(arguments));
 }
 
+bool TextScope::is_of_stages(const Place& place) const {
+  return written::is_of_lanes(place, lane_index_);
+}
+
 Place TextScope::lanes(const CppExpression& e) const {
   const std::optional<Place> found = element(e);
-  const bool all =
-      found && !found->indices.empty() && found->indices.back().factors.contains(lane_index_);
-  if (!all) throw TextDifference(e.line, "no numbers of the stages of this loop");
+  if (!found || !is_of_stages(*found))
+    throw TextDifference(e.line, "no numbers of the stages of this loop");
   return *found;
 }
 

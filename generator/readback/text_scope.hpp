@@ -40,6 +40,8 @@ class TextScope {
   // Of a loop over stages in lanes, until it is set to nothing: its numbers are packs.
   void set_lanes(const std::string& index) { lane_index_ = index; }
   [[nodiscard]] bool in_lanes() const { return !lane_index_.empty(); }
+  // Is it that of all stages?
+  [[nodiscard]] bool is_of_stages(const Place& place) const;
   // What an address is that of: array + n + 2 * i.
   [[nodiscard]] std::optional<Place> element(const CppExpression& e) const;
   // The same of the stages of such a loop.  Throws TextDifference if it is not.

@@ -12,4 +12,9 @@ namespace hamgen {
 [[nodiscard]] ArrayMatrix choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
                                         bool reduced);
 
+// Of sums that are loops: is the kinetic energy a sum of squares of momenta?
+[[nodiscard]] bool has_diagonal_kinetic_energy(const Mechanics& mechanics);
+// d^2 H/dp_i^2 then, if it is the same for all i.
+[[nodiscard]] std::optional<Expression> uniform_mass(const Mechanics& mechanics);
+
 }  // namespace hamgen

@@ -32,6 +32,8 @@ bool has_diagonal_hessian(const Kernel& kernel) {
       kernel.hessian, [](const auto& entry) { return entry.first.first == entry.first.second; });
 }
 
+}  // namespace
+
 bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
   return std::ranges::all_of(mechanics.kernels, [](const Kernel& kernel) {
     return !uses_momenta(kernel) || (has_constant_hessian(kernel) && has_diagonal_hessian(kernel));
@@ -62,6 +64,8 @@ std::optional<Expression> uniform_mass(const Mechanics& mechanics) {
       std::ranges::all_of(masses, [&](const Expression& m) { return m == masses[0]; });
   return same ? std::optional(masses[0]) : std::nullopt;
 }
+
+namespace {
 
 std::string matrix_text(const ArrayMatrix& matrix) {
   switch (matrix.kind) {

@@ -115,21 +115,38 @@ class Functions {
         expected[static_cast<std::size_t>(layout.at(i, j))] = field[static_cast<std::size_t>(j)];
     }
     add(routine, "values", what, expected);
-    parts_.back().claims.push_back({"numbers that are of two stages",
-                                    Expression(mixed_stages(*step_.code.routine(routine), layout)),
-                                    Expression(0)});
+    long mixed = 0;
+    for (const std::string& name : callees(step_.code, routine))
+      mixed += mixed_stages(*step_.code.routine(name), layout);
+    parts_.back().claims.push_back(
+        {"numbers that are of two stages", Expression(mixed), Expression(0)});
   }
-  // Elements of arrays that are not those of the stage that the loop is at.
+  // Loops that are not over all stages, and elements of arrays in them that are not those of the
+  // stage that the loop is at.
   static long mixed_stages(const Routine& routine, const StageLayout& layout) {
-    if (routine.body.size() != 1 || !std::holds_alternative<For>(routine.body[0].value)) return 1;
-    const std::string& stage = std::get<For>(routine.body[0].value).range.index;
-    return std::ranges::count_if(routine.places, [&](const auto& bound) {
-      const std::vector<AffineIndex>& indices = bound.second.indices;
-      if (indices.empty() || bound.second.object == "par") return false;
-      const AffineIndex& last = indices.back();
-      return indices.size() > 1 ||
-             last != layout.index(stage, 0, "", last.constant / layout.room());
-    });
+    long mixed = 0;
+    std::string stage;
+    for (const Instruction& instruction : routine.body) {
+      const auto* loop = std::get_if<For>(&instruction.value);
+      if (loop == nullptr) continue;
+      const AffineIndex last{layout.room() - 1, {}};
+      const bool all = loop->range.lower == AffineIndex{} && loop->range.upper == last;
+      if (!all || (!stage.empty() && stage != loop->range.index)) ++mixed;
+      stage = loop->range.index;
+    }
+    return mixed + std::ranges::count_if(routine.places, [&](const auto& bound) {
+             const Place& place = bound.second;
+             if (place.indices.empty() || place.object.empty() || place.object == "par")
+               return false;
+             AffineIndex index = place.indices.back();
+             const bool of_stage = place.indices.size() == 1 && index.factors.contains(stage) &&
+                                   index.factors.at(stage) == 1 &&
+                                   index.constant % layout.room() == 0;
+             index.factors.erase(stage);
+             return !of_stage || std::ranges::any_of(index.factors, [&](const auto& factor) {
+               return factor.second % layout.room() != 0;
+             });
+           });
   }
   void add_whole_gradient(const std::vector<Expression>& by_q,
                           const std::vector<Expression>& by_p) {

@@ -47,6 +47,7 @@ class FunctionValues {
 [[nodiscard]] std::vector<Identities> method_identities(const StepUnderProof& step,
                                                         const Derivatives& derivatives);
 [[nodiscard]] std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
+                                                             const Derivatives& derivatives,
                                                              const RungeKutta& tableau);
 
 // Of sums that are loops: the derivatives of their summands, and that they sum up to H if that is

@@ -144,7 +144,7 @@ std::vector<Identities> method_identities(const StepUnderProof& step,
     return parts;
   }
   if (const auto* tableau = std::get_if<RungeKutta>(&method)) {
-    return runge_kutta_identities(step, *tableau);
+    return runge_kutta_identities(step, derivatives, *tableau);
   }
   if (const auto* composition = std::get_if<Composition>(&method)) {
     return {composition_identities(step, *composition)};

@@ -127,7 +127,8 @@ void add_extrapolation(Claims& claims, const RungeKutta& tableau,
 }
 
 // What the momenta are eliminated with: k.twice is h (A A)_ij / b_j, k.node h c_i.
-void add_second_order(Claims& claims, const StepUnderProof& step, const RungeKutta& tableau,
+void add_second_order(Claims& claims, const StepUnderProof& step, const Derivatives& derivatives,
+                      const RungeKutta& tableau,
                       const std::vector<std::vector<Expression>>& twice) {
   SymbolicMachine& machine = claims.machine();
   const StageLayout& layout = *step.code.stages;
@@ -154,12 +155,13 @@ void add_second_order(Claims& claims, const StepUnderProof& step, const RungeKut
   for (int j = 0; j < n && has_mobility(step); ++j) {
     claims.add("the mobility of " + step.name(j),
                written_out(machine, machine.value(of_k("mobility", j))),
-               step.mechanics.second_derivative(n + j, n + j));
+               derivatives.second(n + j, n + j));
   }
 }
 
 // k.coupling is a_ij / b_j, k.scaled is h b_i.
-Identities tableau_identities(const StepUnderProof& step, const RungeKutta& tableau) {
+Identities tableau_identities(const StepUnderProof& step, const Derivatives& derivatives,
+                              const RungeKutta& tableau) {
   Claims claims(step);
   SymbolicMachine& machine = claims.machine();
   machine.run("prepare");
@@ -198,7 +200,7 @@ Identities tableau_identities(const StepUnderProof& step, const RungeKutta& tabl
   }
   add_extrapolation(claims, tableau, [&](long i, long j) { return ahead[nth(i)][nth(j)]; });
   if (step.code.routine("forces") != nullptr)
-    add_second_order(claims, step, tableau, rows("twice"));
+    add_second_order(claims, step, derivatives, tableau, rows("twice"));
   return claims.take();
 }
 
@@ -233,8 +235,9 @@ void add_block(Claims& claims, const StepUnderProof& step, const EliminatedSyste
 // converges, and not to what; and so do the momenta that are eliminated.
 class ImplicitStages {
  public:
-  explicit ImplicitStages(const StepUnderProof& step)
+  ImplicitStages(const StepUnderProof& step, const Derivatives& derivatives)
       : step_(step),
+        derivatives_(derivatives),
         layout_(*step.code.stages),
         packed_(layout_.without_room()),
         n_(layout_.dimension / 2),
@@ -336,7 +339,7 @@ class ImplicitStages {
           pushed += twice[nth(m)] * force(trace.unknowns, m, j);
         claims_.add(fmt::format("what coordinate {} of stage {} lacks", name(j), i + 1),
                     trace.corrections[row],
-                    variable(j) + node * step_.mechanics.gradient[nth(n_ + j)] +
+                    variable(j) + node * derivatives_.first(static_cast<int>(n_ + j)) +
                         mobility(machine_, j) * pushed - trace.unknowns[row]);
       }
     }
@@ -396,6 +399,7 @@ class ImplicitStages {
   }
 
   const StepUnderProof& step_;
+  const Derivatives& derivatives_;
   const StageLayout& layout_;
   StageLayout packed_;
   long n_;
@@ -436,11 +440,12 @@ Identities elimination_identities(const StepUnderProof& step) {
 }  // namespace
 
 std::vector<Identities> runge_kutta_identities(const StepUnderProof& step,
+                                               const Derivatives& derivatives,
                                                const RungeKutta& tableau) {
   if (tableau.is_explicit()) return {explicit_identities(step, tableau)};
   std::vector<Identities> parts = {
-      tableau_identities(step, tableau), start_identities(step, tableau, false),
-      start_identities(step, tableau, true), ImplicitStages(step).run()};
+      tableau_identities(step, derivatives, tableau), start_identities(step, tableau, false),
+      start_identities(step, tableau, true), ImplicitStages(step, derivatives).run()};
   if (step.code.routine("eliminate_momenta") != nullptr)
     parts.push_back(elimination_identities(step));
   return parts;

@@ -87,7 +87,7 @@ struct CompiledExact : Compiled<Emitted> {
     } else {
       result.converged = all.step().converged;
       result.end = state_and_carry<Quad>(all);
-      if constexpr (requires { all.start_.value; }) {
+      if constexpr (requires { all.start_.value, all.start_.state; }) {
         // z at every stage, too, where a component's numbers of all stages stand side by side.
         const std::size_t count = std::size(all.start_.value);
         const bool by_component = std::size(all.start_.state) == count;

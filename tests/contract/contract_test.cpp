@@ -83,7 +83,7 @@ TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
 // state itself does not.
 TEST(ContractIsBroken, ByGaussThatDoesNotTryAgainFromTheStateItself) {
   const Case hard =
-      case_of("hard_box", "coarse", {.scheme = "gauss-8", .solver = "fixed-point"}, 0);
+      case_of("hard_box", "coarse", {.scheme = "gauss-10", .solver = "fixed-point"}, 0);
   const Defects kept = Interpretable(hard.model).measure(hard);
   EXPECT_FALSE(kept.failed);
   EXPECT_LE(kept.worst, kAllowed);
