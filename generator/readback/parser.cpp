@@ -268,6 +268,13 @@ class CppReader {
       return {ParsedKind::quoted, cursor_.take().text, {}, line};
     std::string name = cursor_.word();
     while (cursor_.accept("::")) name += "::" + cursor_.word();
+    // Of lanes, one after the other: library<std::sin>.
+    if (name == "library" && cursor_.accept("<")) {
+      name = cursor_.word();
+      while (cursor_.accept("::")) name += "::" + cursor_.word();
+      cursor_.expect(">");
+      name = "library<" + name + ">";
+    }
     return {ParsedKind::name, std::move(name), {}, line};
   }
 
