@@ -31,10 +31,15 @@ std::string stem(const std::string& path) {
   return name.empty() ? "model" : name;
 }
 
-int lanes_of(const Request& request) {
-  if (request.math.empty() && request.batch == 0) return 0;
-  if (request.batch == 0)
-    throw UsageError("--math: is of the elementary functions of a batch\nhelp: add --batch 8");
+int lanes_of(const Request& request, const Program& program) {
+  if (request.batch == 0) {
+    const bool in_lanes = program.stages && program.stages->packs() > 0;
+    if (!request.math.empty() && !in_lanes)
+      throw UsageError(
+          "--math: is of the elementary functions of a batch, and of stages that are computed at "
+          "once\nhelp: add --batch 8, or take --scheme gauss-4");
+    return 0;
+  }
   constexpr int most = 256;  // beyond, compilers take minutes
   if (!std::has_single_bit(static_cast<unsigned>(request.batch)) || request.batch > most)
     throw UsageError(fmt::format(
@@ -61,7 +66,7 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .tangent = request.tangent && !without_tangent(stages.plan),
           .shared_support = request.support->shared,
           .watched_step = request.step,
-          .lanes = lanes_of(request),
+          .lanes = lanes_of(request, stages.program),
           .library_functions = request.math->of_library};
 }
 

@@ -42,12 +42,16 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"lane_vectors", "VectorOf MaskOf BitsOf"},
     {"lane_mask", "LaneMask any all"},
     {"pack", "Pack lanes_of select lane_abs lane_sqrt"},
-    {"lane_distance", "add_lanes"},
+    {.name = "lane_distance", .defines = "add_lanes", .helpers = "total_of"},
     {"lane_refinement", "RefinementInLanes"},
     {"lane_pairs", "Pair"},
     {"lane_sine", "lane_sin lane_cos lane_tan"},
-    {"lane_exponential", "lane_exp lane_sinh lane_cosh lane_tanh"},
-    {"lane_logarithm", "lane_log lane_asinh lane_acosh lane_atanh"},
+    {.name = "lane_exponential",
+     .defines = "lane_exp lane_sinh lane_cosh lane_tanh",
+     .helpers = "exponential clamped"},
+    {.name = "lane_logarithm",
+     .defines = "lane_log lane_asinh lane_acosh lane_atanh",
+     .helpers = "mantissa_of"},
     {"lane_power", "lane_pow"},
     {"lane_arcs", "lane_atan lane_atan2 lane_asin lane_acos"},
     {"lane_library", "library"},
@@ -87,12 +91,19 @@ std::span<const FixedBlock> pack_blocks() {
 }
 std::span<const FixedBlock> c_blocks() { return kCBlocks; }
 
-std::vector<std::string> names_of(const FixedBlock& block) {
-  std::istringstream text{std::string(block.defines)};
+namespace {
+
+std::vector<std::string> words_in(std::string_view list) {
+  std::istringstream text{std::string(list)};
   std::vector<std::string> names;
   for (std::string name; text >> name;) names.push_back(name);
   return names;
 }
+
+}  // namespace
+
+std::vector<std::string> names_of(const FixedBlock& block) { return words_in(block.defines); }
+std::vector<std::string> helpers_of(const FixedBlock& block) { return words_in(block.helpers); }
 
 bool defines(const FixedBlock& block, std::string_view word) {
   const std::vector<std::string> names = names_of(block);

@@ -12,7 +12,8 @@ struct FixedBlock {
   std::string_view name;     // of its file, there or in its folder c
   std::string_view defines;  // with blanks between them
   bool eigen = false;
-  bool events = false;  // of headers that find events alone
+  bool events = false;            // of headers that find events alone
+  std::string_view helpers = {};  // what it defines for other blocks alone
 };
 
 // Not in a file, but made for each scalar: what numerics.hpp of formats/ says of it.
@@ -27,6 +28,7 @@ inline constexpr std::string_view kEpsilon = "epsilon";  // in C a block of its 
 [[nodiscard]] std::span<const FixedBlock> c_blocks();
 
 [[nodiscard]] std::vector<std::string> names_of(const FixedBlock& block);
+[[nodiscard]] std::vector<std::string> helpers_of(const FixedBlock& block);
 // Is the word one of these?
 [[nodiscard]] bool defines(const FixedBlock& block, std::string_view word);
 [[nodiscard]] bool is_defined(std::span<const FixedBlock> blocks, std::string_view word);

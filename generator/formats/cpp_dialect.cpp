@@ -16,8 +16,14 @@ std::string CppDialect::function(const std::string& name) const {
   return "__builtin_" + cpp + function_suffix(scalar);
 }
 
+std::string CppDialect::lane_function(const std::string& name) const {
+  // Those of both are exactly rounded.
+  const bool same = name == "sqrt" || name == "abs";
+  return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+}
+
 std::vector<std::string> CppDialect::taken_names() const {
-  std::vector<std::string> names = {"lane_pow"};
+  std::vector<std::string> names = {"lane_pow", "library"};
   for (const Function& row : all_functions()) names.push_back("lane_" + std::string(row.name));
   return names;
 }

@@ -8,8 +8,9 @@ class CppDialect : public Dialect {
  public:
   // With builtins, functions are the compiler's own (__builtin_sin), which need no header: reading
   // <cmath> takes three times as long as compiling a small plugin.
-  CppDialect(const ScalarType& scalar_type, int count, bool builtins)
-      : Dialect(scalar_type, count), builtins_(builtins) {}
+  // library: elementary functions of lanes are those of <cmath>, one after the other.
+  CppDialect(const ScalarType& scalar_type, int count, bool builtins, bool library = false)
+      : Dialect(scalar_type, count), builtins_(builtins), library_(library) {}
 
   [[nodiscard]] std::string language() const override { return "C++17"; }
   [[nodiscard]] std::string real() const override { return "Real"; }
@@ -19,6 +20,7 @@ class CppDialect : public Dialect {
   [[nodiscard]] std::string function(const std::string& name) const override;
   // The functions of lanes.
   [[nodiscard]] std::vector<std::string> taken_names() const override;
+  [[nodiscard]] std::string lane_function(const std::string& name) const override;
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }
@@ -37,7 +39,7 @@ class CppDialect : public Dialect {
   }
 
  private:
-  bool builtins_;
+  bool builtins_, library_;
 };
 
 }  // namespace hamgen

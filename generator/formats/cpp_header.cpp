@@ -139,7 +139,7 @@ std::unique_ptr<Dialect> dialect_of(const Program& program, const EmitOptions& o
   if (options.lanes > 0) {
     return std::make_unique<LanesDialect>(scalar, n, options.library_functions);
   }
-  return std::make_unique<CppDialect>(scalar, n, options.builtins);
+  return std::make_unique<CppDialect>(scalar, n, options.builtins, options.library_functions);
 }
 
 // The text, and before it what it uses of the fixed blocks.

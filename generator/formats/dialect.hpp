@@ -31,7 +31,7 @@ class Dialect {
   [[nodiscard]] virtual std::string function(const std::string& name) const = 0;
   // That of lanes, which are numbers side by side.
   [[nodiscard]] virtual std::string lane_function(const std::string& name) const {
-    return "lane_" + name;
+    return function(name);
   }
   // Is a number a pack of as many as there are trajectories?
   [[nodiscard]] virtual bool has_lanes() const { return false; }

@@ -7,20 +7,17 @@ namespace hamgen {
 
 class LanesDialect : public CppDialect {
  public:
-  // library: elementary functions are those of <cmath>, lane by lane.
   LanesDialect(const ScalarType& scalar_type, int count, bool library)
-      : CppDialect(scalar_type, count, false), library_(library) {}
+      : CppDialect(scalar_type, count, false, library) {}
 
   [[nodiscard]] bool has_lanes() const override { return true; }
   [[nodiscard]] std::string function(const std::string& name) const override {
-    // Those of both are exactly rounded.
-    const bool same = name == "sqrt" || name == "abs";
-    return library_ && !same ? "library<" + CppDialect::function(name) + ">" : lane_function(name);
+    return lane_function(name);
   }
   [[nodiscard]] std::vector<std::string> taken_names() const override {
     std::vector<std::string> names = CppDialect::taken_names();
     names.insert(names.end(),
-                 {"Mask", "any", "select", "moving", "library", "end_iteration", "require_finite"});
+                 {"Mask", "any", "select", "moving", "end_iteration", "require_finite"});
     return names;
   }
   // A pack is handed on by reference: as a value it is handed on otherwise by the instructions of
@@ -31,9 +28,6 @@ class LanesDialect : public CppDialect {
     if (!number) return CppDialect::argument(argument, name, sizes);
     return name.empty() ? "const Real&" : "const Real& " + name;
   }
-
- private:
-  bool library_;
 };
 
 }  // namespace hamgen

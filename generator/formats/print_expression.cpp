@@ -21,9 +21,9 @@ std::string ExpressionPrinter::operator()(const Expression& e) const {
 std::string ExpressionPrinter::call(const std::string& function,
                                     const std::string& arguments) const {
   if (function == kProductError) return dialect_.block(function) + "(" + arguments + ")";
-  if (lanes_) return dialect_.lane_function(function) + "(" + arguments + ")";
-  functions_.insert(function);
-  return dialect_.function(function) + "(" + arguments + ")";
+  const std::string name = lanes_ ? dialect_.lane_function(function) : dialect_.function(function);
+  if (!name.starts_with("lane_")) functions_.insert(function);
+  return name + "(" + arguments + ")";
 }
 
 std::string ExpressionPrinter::print(const Arithmetic& a, int context) const {

@@ -64,8 +64,9 @@ void Support::require_for(std::string_view code) {
   const std::set<std::string> words = words_of(code);
   for (const FixedBlock& block : all_blocks()) {
     if (block.events && !events_) continue;
-    const bool used = std::ranges::any_of(
-        names_of(block), [&](const std::string& name) { return words.contains(name); });
+    const auto is_read = [&](const std::string& name) { return words.contains(name); };
+    const bool used = std::ranges::any_of(names_of(block), is_read) ||
+                      std::ranges::any_of(helpers_of(block), is_read);
     if (used && blocks_.insert(block.name).second) require_for(text(block.name));
   }
 }

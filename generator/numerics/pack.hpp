@@ -37,10 +37,22 @@ struct Pack : PackContent<W, (W <= register_lanes)> {
   // The numbers from x on.
   static Pack at(const double* x) {
     Pack pack;
-    __builtin_memcpy(&pack, x, sizeof pack);
+    if constexpr (W <= register_lanes) {
+      __builtin_memcpy(&pack, x, sizeof pack);
+    } else {
+      pack.first = Pack<W / 2>::at(x);
+      pack.second = Pack<W / 2>::at(x + W / 2);
+    }
     return pack;
   }
-  static void put(double* x, const Pack& pack) { __builtin_memcpy(x, &pack, sizeof pack); }
+  static void put(double* x, const Pack& pack) {
+    if constexpr (W <= register_lanes) {
+      __builtin_memcpy(x, &pack, sizeof pack);
+    } else {
+      Pack<W / 2>::put(x, pack.first);
+      Pack<W / 2>::put(x + W / 2, pack.second);
+    }
+  }
   static void add(double* x, const Pack& pack) { put(x, at(x) + pack); }
   void copy_to(double (&x)[W]) const { __builtin_memcpy(x, this, sizeof x); }
   double operator[](int lane) const {

@@ -125,9 +125,9 @@ bool needs_eigen(const LoweredStep& lowered) {
 
 std::string solver_text(const LoweredStep& lowered) {
   std::string text = lowered.plan.solver;
-  if (lowered.second_order) text += "; its momenta eliminated";
+  if (lowered.second_order) text += "; momenta eliminated";
   const int packs = lowered.stage_layout ? lowered.stage_layout->packs() : 0;
-  if (packs > 0) text += fmt::format("; {} stages at once", packs);
+  if (packs > 0) text += fmt::format("; stages in {} lanes", packs);
   return text;
 }
 

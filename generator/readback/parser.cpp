@@ -292,6 +292,13 @@ class CppReader {
       for (const char* sign : {"<", "void", ">"}) cursor_.expect(sign);
       name += "<void>";
     }
+    // Of lanes, one after the other: library<std::sin>.
+    if (name == "library" && cursor_.accept("<")) {
+      name = cursor_.word();
+      while (cursor_.accept("::")) name += "::" + cursor_.word();
+      cursor_.expect(">");
+      name = "library<" + name + ">";
+    }
     return {ParsedKind::name, std::move(name), {}, line};
   }
 

@@ -240,6 +240,9 @@ MachineValue TextScope::converted(const CppExpression& argument) const {
 std::string TextScope::function(const std::string& name, int line) const {
   if (name == kProductError) return name;
   if (in_lanes() && name.starts_with("lane_")) return name.substr(5);
+  constexpr std::string_view kLibrary = "library<std::";
+  if (in_lanes() && name.starts_with(kLibrary))
+    return name.substr(kLibrary.size(), name.size() - kLibrary.size() - 1);
   if (name.starts_with("std::") && !precision_.is_quad()) return name.substr(5);
   constexpr std::string_view kBuiltin = "__builtin_";
   if (name.starts_with(kBuiltin) && !precision_.is_quad()) {
