@@ -257,7 +257,14 @@ std::string point_beyond_text(const SourceText& source, const Request& request) 
 Scheme request_scheme(const SourceText& source, const Request& request) {
   const Model model = read_request(source, request);
   require_few_coupled(model, request);
-  return choose_scheme(model, derive(model, may_keep_sums(request)), request);
+  Scheme scheme = choose_scheme(model, derive(model, may_keep_sums(request)), request);
+  const auto n = static_cast<int>(degrees_of_freedom(model));
+  if (auto* member = std::get_if<Member>(&scheme.method)) {
+    *member = of_all(*member, n);
+  } else if (auto* composition = std::get_if<Composition>(&scheme.method)) {
+    composition->base = of_all(composition->base, n);
+  }
+  return scheme;
 }
 
 Program make_program(const SourceText& source, const Request& request) {

@@ -89,7 +89,9 @@ bool is_polynomial(const Mechanics& mechanics) {
         others, [&](const std::string& symbol) { return variables.contains(symbol); });
   };
   std::set<std::string> variables;
-  for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  if (!mechanics.keeps_sums()) {
+    for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  }
   for (const Kernel& kernel : mechanics.kernels) {
     for (const Slot& slot : kernel.slots) variables.insert(slot.symbol);
   }

@@ -54,11 +54,19 @@ class SceneReader {
   SceneReader(const Model& model, const SceneRequest& request)
       : model_(model), request_(request), symbols_(model.source, mistakes_) {
     declare_names(model, symbols_);
-    for (const Size& each : model.sizes) values_[each.name] = each.value;
-    known_ = values_;
+    for (const Size& each : model.sizes) known_[each.name] = each.value;
+    values_ = numbers_of_sizes(model);
   }
 
   SceneValues run() { return run(find_scene()); }
+
+  // Without a scene and without options.
+  std::vector<Rational> default_parameters() {
+    std::vector<Rational> result;
+    for (const Parameter& each : model_.parameters) read_parameter(each, result);
+    stop_if_wrong();
+    return result;
+  }
 
   SceneValues run(const Scene* scene) {
     scene_ = scene;
@@ -116,7 +124,7 @@ class SceneReader {
       const Symbol* symbol = symbols_.find(each.name);
       if (each.value) result.formulas.push_back({each.name, each.value, each.text});
       if (each.element) {
-        const Rational at = value_of(each.element, lookup_in(values_), nullptr);
+        const Rational at = value_of(each.element, lookup_in(known_), nullptr);
         result.observe.push_back(element_name(each.name, at.get_num().get_si()));
       } else if (symbol != nullptr && symbol->range) {
         for (long i = symbol->range->first; i <= symbol->range->last; ++i)
@@ -178,7 +186,7 @@ class SceneReader {
       return value_of(node, lookup_in(values_, setting.index, i), option);
     };
     if (setting.element) {
-      const Rational at = value(setting.element, 0);
+      const Rational at = value_of(setting.element, lookup_in(known_), option);
       elements.at(static_cast<std::size_t>(at.get_num().get_si() - first)) =
           value(setting.values.front(), 0);
       return;
@@ -321,6 +329,16 @@ SceneValues scene_values(const Model& model, const SceneRequest& request) {
 SceneValues values_of_scene(const Model& model, const Scene& scene) {
   const SceneRequest request{.scene = scene.name};
   return SceneReader(model, request).run(&scene);
+}
+
+std::map<std::string, Rational> numbers_of_sizes(const Model& model) {
+  std::map<std::string, Rational> numbers;
+  for (const Size& size : model.sizes) numbers[size.name] = size.number;
+  return numbers;
+}
+
+std::vector<Rational> default_parameters(const Model& model) {
+  return SceneReader(model, {}).default_parameters();
 }
 
 bool observes(const SceneValues& scene, const std::string& name) {

@@ -71,6 +71,20 @@ class KernelBuilder {
     return value;
   }
 
+  // The least or the largest value, or one beyond it where a range has no elements.
+  static long bound(AffineIndex a, const std::vector<KernelRange>& ranges, bool largest) {
+    for (auto range = ranges.rbegin(); range != ranges.rend(); ++range) {
+      const auto found = a.factors.find(range->index);
+      if (found == a.factors.end()) continue;
+      const long factor = found->second;
+      a.factors.erase(found);
+      const AffineIndex& end = (factor > 0) == largest ? range->upper : range->lower;
+      a.constant += factor * end.constant;
+      for (const auto& [index, of_end] : end.factors) a.factors[index] += factor * of_end;
+    }
+    return a.constant;
+  }
+
   // Subscripted names of the term, with their subscripts as affine functions.
   struct Reference {
     const NameNode* name;
@@ -144,6 +158,7 @@ class KernelBuilder {
 
   bool all_regular(const std::vector<KernelRange>& ranges, std::size_t depth, Indices indices,
                    const std::vector<Reference>& references) const {
+    if (depth == 0 && stays_inside(ranges, references)) return true;
     if (depth == ranges.size()) return is_regular(references, indices);
     const long last = value_at(ranges[depth].upper, indices);
     for (long i = value_at(ranges[depth].lower, indices); i <= last; ++i) {
@@ -152,34 +167,57 @@ class KernelBuilder {
     }
     return true;
   }
+  // Known without a look at every instance.
+  static bool stays_inside(const std::vector<KernelRange>& ranges,
+                           const std::vector<Reference>& references) {
+    return std::ranges::all_of(references, [&](const Reference& r) {
+      const auto& range = r.variable ? r.variable->range : r.parameter->range;
+      return range && bound(r.subscript, ranges, false) >= range->first &&
+             bound(r.subscript, ranges, true) <= range->last;
+    });
+  }
 
   // The longest run of regular instances becomes a loop, the others are written out.
   bool add_single(const SumTerm& term, const KernelRange& range,
                   const std::vector<Reference>& references) {
-    const long lower = value_at(range.lower, {});
-    const long upper = value_at(range.upper, {});
+    const long lower = range.lower.constant;
+    const long upper = range.upper.constant;
     long first = lower;
-    long best_first = lower;
-    long best_size = 0;
-    for (long i = lower; i <= upper + 1; ++i) {
-      if (i <= upper && is_regular(references, {{range.index, i}})) continue;
-      if (i - first > best_size) {
-        best_first = first;
-        best_size = i - first;
-      }
-      first = i + 1;
+    long last = upper;
+    for (const Reference& r : references) {
+      const auto& inside = r.variable ? r.variable->range : r.parameter->range;
+      if (!inside) last = lower - 1;
+      if (inside) narrow(r.subscript, range.index, *inside, first, last);
     }
-    if (static_cast<std::size_t>(upper - lower + 1 - best_size) > kMostPeeled) return false;
+    if (last < first) last = first - 1;
+    if (upper - lower - (last - first) > static_cast<long>(kMostPeeled)) return false;
     for (long i = lower; i <= upper; ++i) {
-      if (i < best_first || i >= best_first + best_size) instance(term, {{range.index, i}});
+      if (i == first && first <= last) i = last + 1;
+      if (i <= upper) instance(term, {{range.index, i}});
     }
-    if (best_size > 0) {
-      KernelRange inner{range.index,
-                        {.constant = best_first, .factors = {}},
-                        {.constant = best_first + best_size - 1, .factors = {}}};
+    if (first <= last) {
+      KernelRange inner{
+          range.index, {.constant = first, .factors = {}}, {.constant = last, .factors = {}}};
       regular(term, {inner}, references);
     }
     return true;
+  }
+  // The indices whose subscript lies inside: an interval, as it is affine.
+  static void narrow(const AffineIndex& subscript, const std::string& index,
+                     const IndexRange& inside, long& first, long& last) {
+    const auto found = subscript.factors.find(index);
+    const long factor = found == subscript.factors.end() ? 0 : found->second;
+    const long below = inside.first - subscript.constant;
+    const long above = inside.last - subscript.constant;
+    if (factor == 0) {
+      if (below > 0 || above < 0) last = first - 1;
+      return;
+    }
+    first = std::max(first, factor > 0 ? rounded_up(below, factor) : rounded_up(-above, -factor));
+    last = std::min(last, factor > 0 ? -rounded_up(-above, factor) : -rounded_up(below, -factor));
+  }
+  static long rounded_up(long a, long positive) {
+    return a / positive + (a % positive > 0 ? 1 : 0);
   }
 
   static GiNaC::ex body(const SumTerm& term, TreeConverter& converter, const Indices& indices) {
@@ -218,16 +256,29 @@ class KernelBuilder {
     return result;
   }
 
+  // Those of the names that are elements of the variable, in its order, and their places in it.
+  static std::vector<std::pair<std::string, long>> elements_among(
+      const std::set<std::string>& names, const Variable& variable) {
+    std::map<long, std::string> found;
+    for (const std::string& name : names) {
+      const std::size_t bracket = name.find('[');
+      if (name.substr(0, bracket) != variable.name) continue;
+      const long first = variable.range ? variable.range->first : 0;
+      found[bracket == std::string::npos ? 0 : std::stol(name.substr(bracket + 1)) - first] = name;
+    }
+    std::vector<std::pair<std::string, long>> result;
+    for (const auto& [behind, name] : found) result.emplace_back(name, behind);
+    return result;
+  }
+
   void finish(Boundary& boundary) {
     Kernel kernel{.value = from_ginac(boundary.value, boundary.table), .terms = boundary.terms};
-    std::set<std::string> names = symbols(kernel.value);
+    const std::set<std::string> names = symbols(kernel.value);
     for (const auto& [name, entry] : variables_) {
       const auto& [variable, position] = entry;
-      const std::vector<std::string> elements = element_names(std::vector{*variable});
-      for (std::size_t k = 0; k < elements.size(); ++k) {
-        if (!names.contains(elements[k])) continue;
-        kernel.slots.push_back({elements[k],
-                                {.constant = position + static_cast<long>(k), .factors = {}},
+      for (const auto& [element, behind] : elements_among(names, *variable)) {
+        kernel.slots.push_back({element,
+                                {.constant = position + behind, .factors = {}},
                                 position >= degrees_of_freedom(model_)});
       }
     }

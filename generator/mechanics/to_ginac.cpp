@@ -40,7 +40,8 @@ TreeConverter::TreeConverter(const Model& model, SymbolTable& table)
     }
   }
   rank = kRankOfParameter;
-  std::map<std::string, Rational> values;  // of all parameters so far, for the folded ones
+  // Of all parameters so far, for the folded ones.
+  std::map<std::string, Rational> values = numbers_of_sizes(model);
   for (const Parameter& parameter : model.parameters) {
     parameters_[parameter.name] = {&parameter, rank};
     const long count = parameter.range ? parameter.range->size() : 1;
@@ -136,7 +137,7 @@ GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
     return table_.symbol(element, place);
   }
   for (const Size& size : model_.sizes) {
-    if (size.name == name.name) return size.value;
+    if (size.name == name.name) return size.number;
   }
   for (const Definition& definition : model_.definitions) {
     if (definition.name != name.name) continue;

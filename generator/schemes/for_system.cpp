@@ -53,10 +53,14 @@ std::string alternative(const Scheme& scheme) {
 
 }  // namespace
 
+int entries_for(const Mechanics& mechanics) {
+  return mechanics.keeps_sums() ? 1 : mechanics.degrees_of_freedom;
+}
+
 Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
   if (const auto* member = std::get_if<Member>(&scheme.method)) {
     const auto [alpha, beta, gamma] = uniform_parameters(*member).value();
-    return family_member(mechanics.degrees_of_freedom, {{alpha}}, {{beta}}, {{gamma}});
+    return family_member(entries_for(mechanics), {{alpha}}, {{beta}}, {{gamma}});
   }
   if (std::holds_alternative<Splitting>(scheme.method)) {
     if (!mechanics.is_separable()) {
