@@ -31,8 +31,8 @@ Finding prove_front_end(const Stages& stages, const Surroundings& around) {
 }
 
 // With fewer elements, of which every formula is what it is in the large system.
-SizedSystem sized_system(const SourceText& source, Request request, const Size& constant,
-                         long size) {
+SizedSystem sized_system(const SourceText& source, Request request, const Size& constant, long size,
+                         bool reads = true) {
   request.sizes[constant.name] = size;
   request.numbers_of_sizes[constant.name] = constant.value;
   if (request.scene) {
@@ -45,7 +45,7 @@ SizedSystem sized_system(const SourceText& source, Request request, const Size& 
   Stages stages = run_stages(source, request);
   Expression hamiltonian = written_out_hamiltonian(stages);
   Surroundings around = surroundings_of(stages.model);
-  Finding read = prove_front_end(stages, around);
+  Finding read = reads ? prove_front_end(stages, around) : Finding();
   return {size,
           std::move(stages.system.mechanics),
           std::move(stages.equations.scheme),
@@ -81,7 +81,7 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
                            sized_system(source, wish, *largest, size),
                            sized_system(source, wish, *largest, size + 1)};
     if (sums_over_pairs(stages.system.mechanics))
-      smaller.third = sized_system(source, wish, *largest, size + 2);
+      smaller.third = sized_system(source, wish, *largest, size + 2, false);
     return smaller;
   };
   try {
@@ -109,10 +109,8 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
 Finding read_at_smaller_sizes(const SmallerSystems& smaller) {
   Finding read = smaller.first.read;
   if (holds(read.verdict) && !holds(smaller.second.read.verdict)) read = smaller.second.read;
-  if (holds(read.verdict) && smaller.third && !holds(smaller.third->read.verdict))
-    read = smaller.third->read;
-  read.detail +=
-      fmt::format(", at {}; more elements repeat the inner ones", sizes_text(smaller));
+  read.detail += fmt::format(", at {0} = {1} and {0} = {2}; more elements repeat the inner ones",
+                             smaller.constant, smaller.first.size, smaller.second.size);
   return read;
 }
 

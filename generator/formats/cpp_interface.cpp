@@ -61,8 +61,7 @@ void add_values(Lines& lines, const std::string& array, std::size_t count, std::
 }
 
 // Elements of one array that follow each other are one entry.
-void write_quantity_list(CodeWriter& out, const std::string& name,
-                         const QuantityList& quantities) {
+void write_quantity_list(CodeWriter& out, const std::string& name, const QuantityList& quantities) {
   out.line(fmt::format("const hamgen_quantity {}[] = {{", name));
   for (const QuantityList::Run& run : quantities.runs()) {
     out.line(fmt::format("    {{{}, {}, {}, {}, {}, {}}},", cpp_string(run.of.name),

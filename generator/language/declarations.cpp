@@ -59,8 +59,11 @@ class Declarations {
     }
     if (!value) return symbols_.spoil(size.name.text);
     known_[size.name.text] = *value;
-    model_.sizes.push_back(
-        {.name = size.name.text, .value = *value, .number = *value, .comment = size.comment, .span = size.name.span});
+    model_.sizes.push_back({.name = size.name.text,
+                            .value = *value,
+                            .number = *value,
+                            .comment = size.comment,
+                            .span = size.name.span});
   }
 
   std::optional<IndexRange> range_of(const Declarator& declarator) {

@@ -131,8 +131,10 @@ Mechanics derived(const Model& model, bool keep_sums, int most) {
   const std::vector<WrittenTerm> terms = written_terms(model);
   for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
   if (keep_sums && mechanics.degrees_of_freedom > most) {
-    if (auto kernels = derive_kernels(model)) {
-      mechanics.kernels = std::move(*kernels);
+    if (auto form = derive_kernels(model)) {
+      mechanics.kernels = std::move(form->kernels);
+      mechanics.sums = std::move(form->sums);
+      mechanics.of_sums = std::move(form->of_sums);
       return mechanics;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "generator/algebra/ginac_derivatives.hpp"
 #include "generator/language/scene.hpp"
+#include "generator/mechanics/collective_sums.hpp"
 #include "generator/mechanics/energy_terms.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/mechanics/split_sums.hpp"
@@ -30,6 +31,7 @@ struct Boundary {
   SymbolTable table;
   TreeConverter converter;
   Touch touch;
+  std::optional<std::size_t> sum = {};
   std::set<std::string> elements;
   std::set<int> terms;
   GiNaC::ex value;
@@ -47,42 +49,47 @@ class KernelBuilder {
     }
   }
 
-  std::optional<std::vector<Kernel>> build() {
+  std::optional<KernelForm> build() {
     for (const Variable& momentum : model_.momenta) {
       if (momentum.is_time) return std::nullopt;
     }
-    const std::optional<std::vector<SumTerm>> terms = split_into_sums(model_);
-    if (!terms) return std::nullopt;
-    for (const SumTerm& term : *terms) {
-      if (add(term)) continue;
-      // Together their boundaries may be too many.
-      for (const Summand& summand : term.summands) {
-        if (!add({term.ranges, term.touch, {summand}})) return std::nullopt;
+    const std::optional<SplitSums> split = split_into_sums(model_, model_.hamiltonian);
+    if (!split || !add_all(split->terms)) return std::nullopt;
+    KernelForm form;
+    if (!split->functions.empty()) {
+      std::optional<CollectiveSums> collective = collective_sums(model_, split->functions);
+      if (!collective) return std::nullopt;
+      for (std::size_t k = 0; k < collective->terms.size(); ++k) {
+        sum_ = k;
+        if (!add_all(collective->terms[k])) return std::nullopt;
       }
+      form.sums = std::move(collective->sums);
+      form.of_sums = std::move(collective->value);
     }
-    for (Boundary& boundary : boundaries_) finish(boundary);
-    return std::move(kernels_);
+    for (Boundary& boundary : boundaries_) {
+      sum_ = boundary.sum;
+      finish(boundary);
+    }
+    form.kernels = std::move(kernels_);
+    return form;
   }
 
  private:
+  bool add_all(const std::vector<SumTerm>& terms) {
+    for (const SumTerm& term : terms) {
+      if (add(term)) continue;
+      // Together their boundaries may be too many.
+      for (const Summand& summand : term.summands) {
+        if (!add({term.ranges, term.touch, {summand}})) return false;
+      }
+    }
+    return true;
+  }
+
   static long value_at(const AffineIndex& a, const Indices& indices) {
     long value = a.constant;
     for (const auto& [index, factor] : a.factors) value += factor * indices.at(index);
     return value;
-  }
-
-  // The least or the largest value, or one beyond it where a range has no elements.
-  static long bound(AffineIndex a, const std::vector<KernelRange>& ranges, bool largest) {
-    for (auto range = ranges.rbegin(); range != ranges.rend(); ++range) {
-      const auto found = a.factors.find(range->index);
-      if (found == a.factors.end()) continue;
-      const long factor = found->second;
-      a.factors.erase(found);
-      const AffineIndex& end = (factor > 0) == largest ? range->upper : range->lower;
-      a.constant += factor * end.constant;
-      for (const auto& [index, of_end] : end.factors) a.factors[index] += factor * of_end;
-    }
-    return a.constant;
   }
 
   // Subscripted names of the term, with their subscripts as affine functions.
@@ -172,8 +179,8 @@ class KernelBuilder {
                            const std::vector<Reference>& references) {
     return std::ranges::all_of(references, [&](const Reference& r) {
       const auto& range = r.variable ? r.variable->range : r.parameter->range;
-      return range && bound(r.subscript, ranges, false) >= range->first &&
-             bound(r.subscript, ranges, true) <= range->last;
+      return range && least_value(r.subscript, ranges) >= range->first &&
+             largest_value(r.subscript, ranges) <= range->last;
     });
   }
 
@@ -187,7 +194,11 @@ class KernelBuilder {
     for (const Reference& r : references) {
       const auto& inside = r.variable ? r.variable->range : r.parameter->range;
       if (!inside) last = lower - 1;
-      if (inside) narrow(r.subscript, range.index, *inside, first, last);
+      if (!inside) continue;
+      const IndexInterval fits =
+          indices_between(r.subscript, range.index, inside->first, inside->last);
+      first = std::max(first, fits.first);
+      last = std::min(last, fits.last);
     }
     if (last < first) last = first - 1;
     if (upper - lower - (last - first) > static_cast<long>(kMostPeeled)) return false;
@@ -202,24 +213,6 @@ class KernelBuilder {
     }
     return true;
   }
-  // The indices whose subscript lies inside: an interval, as it is affine.
-  static void narrow(const AffineIndex& subscript, const std::string& index,
-                     const IndexRange& inside, long& first, long& last) {
-    const auto found = subscript.factors.find(index);
-    const long factor = found == subscript.factors.end() ? 0 : found->second;
-    const long below = inside.first - subscript.constant;
-    const long above = inside.last - subscript.constant;
-    if (factor == 0) {
-      if (below > 0 || above < 0) last = first - 1;
-      return;
-    }
-    first = std::max(first, factor > 0 ? rounded_up(below, factor) : rounded_up(-above, -factor));
-    last = std::min(last, factor > 0 ? -rounded_up(-above, factor) : -rounded_up(below, -factor));
-  }
-  static long rounded_up(long a, long positive) {
-    return a / positive + (a % positive > 0 ? 1 : 0);
-  }
-
   static GiNaC::ex body(const SumTerm& term, TreeConverter& converter, const Indices& indices) {
     GiNaC::ex sum = 0;
     for (const Summand& summand : term.summands) {
@@ -239,8 +232,10 @@ class KernelBuilder {
     TreeConverter converter(model_, table);
     const std::set<std::string> used = symbols(from_ginac(body(term, converter, indices), table));
     if (boundaries_.empty() || boundaries_.back().touch != term.touch ||
+        boundaries_.back().sum != sum_ ||
         boundaries_.back().elements.size() + used.size() > kMostTogether) {
       boundaries_.emplace_back(model_, term.touch);
+      boundaries_.back().sum = sum_;
     }
     Boundary& boundary = boundaries_.back();
     boundary.value += body(term, boundary.converter, indices);
@@ -357,6 +352,7 @@ class KernelBuilder {
         if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), expression(entry));
       }
     }
+    kernel.sum = sum_;
     kernels_.push_back(std::move(kernel));
   }
 
@@ -365,11 +361,12 @@ class KernelBuilder {
   std::vector<WrittenTerm> terms_;
   std::vector<Kernel> kernels_;
   std::list<Boundary> boundaries_;
+  std::optional<std::size_t> sum_;  // that is added to
 };
 
 }  // namespace
 
-std::optional<std::vector<Kernel>> derive_kernels(const Model& model) {
+std::optional<KernelForm> derive_kernels(const Model& model) {
   return KernelBuilder(model).build();
 }
 

@@ -35,8 +35,10 @@ std::string kernels_text(const Mechanics& mechanics) {
       text +=
           fmt::format("sum {} = {}..{}: ", range.index, to_text(range.lower), to_text(range.upper));
     }
+    if (kernel.sum) text += "to " + mechanics.sums[*kernel.sum].name + ": ";
     text += to_text(kernel.value) + "\n";
   }
+  if (!mechanics.sums.empty()) text += "  " + to_text(mechanics.of_sums) + "\n";
   return text;
 }
 

@@ -46,6 +46,8 @@ struct Mechanics {
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
   // written-out expressions below are empty.
   std::vector<Kernel> kernels;
+  std::vector<CollectiveSum> sums;  // of which H has a function besides
+  Expression of_sums;
   Expression energy;                                  // H(z), sums written out
   std::vector<Expression> gradient;                   // 2n
   std::map<std::pair<int, int>, Expression> hessian;  // nonzero entries, i <= j

@@ -96,7 +96,11 @@ GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
       });
       return ginac_function(call->function, arguments);
     }
-    return convert_sum(std::get<SumNode>(node->value), 0, indices);
+    const auto& sum = std::get<SumNode>(node->value);
+    if (sum_) {
+      if (const auto value = sum_(sum)) return *value;
+    }
+    return convert_sum(sum, 0, indices);
   } catch (const ModelError&) {
     throw;
   } catch (const OverBudget&) {

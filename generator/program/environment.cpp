@@ -18,9 +18,8 @@ Environment environment_of(const StepEquations& equations, bool arrays) {
     result.parameters.push_back({"E0", "", "energy of the initial state: set it before use", 0});
   }
   result.parameter_layout = layout("Parameters", result.parameters, Defaults::values);
-  result.state_layout =
-      arrays ? array_state(result.variables)
-             : layout("State", result.variables.elements(), Defaults::none);
+  result.state_layout = arrays ? array_state(result.variables)
+                               : layout("State", result.variables.elements(), Defaults::none);
   return result;
 }
 

@@ -29,6 +29,7 @@ bool is_quadratic_in_momenta(const Mechanics& mechanics) {
   }
   for (const Kernel& kernel : mechanics.kernels) {
     if (!uses_momenta(kernel)) continue;
+    if (kernel.sum) return false;
     const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
     for (const Slot& slot : kernel.slots) {
       if (beyond.contains(slot.symbol)) return false;

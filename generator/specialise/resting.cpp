@@ -165,6 +165,7 @@ std::vector<int> resting(const Mechanics& mechanics, const Scheme& scheme,
                          const SceneFacts& scene) {
   const Member* member = member_of(scheme);
   if (member != nullptr && !gauge_defect(*member).empty()) return {};
+  if (!mechanics.sums.empty()) return {};  // to which also what rests adds
   Pairs pairs = starting_at_zero(mechanics, scene);
   while (!pairs.empty()) {
     if (mechanics.keeps_sums()) keep_whole_arrays(mechanics, pairs);

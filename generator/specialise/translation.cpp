@@ -91,7 +91,8 @@ class ByTranslation {
 
   // q_i = Q_i + Q_last and q_last = Q_last, so that P_i = p_i and P_last is their sum.
   LinearChange change() const {
-    LinearChange result{.from = n_, .to = n_, .a = {}, .b = {}, .variables = mechanics_.variables.elements()};
+    LinearChange result{
+        .from = n_, .to = n_, .a = {}, .b = {}, .variables = mechanics_.variables.elements()};
     for (int i = 0; i < n_; ++i) {
       result.a[{i, i}] = 1;
       result.b[{i, i}] = 1;

@@ -54,9 +54,7 @@ class Reachability {
   }
 
  private:
-  std::string name(int i) const {
-    return mechanics_.variables.name(static_cast<std::size_t>(i));
-  }
+  std::string name(int i) const { return mechanics_.variables.name(static_cast<std::size_t>(i)); }
   // The component of the gradient that moves z_i.
   const Expression& mover(int i) const {
     return mechanics_.gradient[static_cast<std::size_t>(i < n_ ? i + n_ : i - n_)];

@@ -306,7 +306,8 @@ class Locality {
   // One of the innermost loop is an instance's own.
   void change_local(const CodeEvent& of, long declared) {
     if (!in_pairs() || declared == growing_loops()) return;
-    if (of.kind != Event::add) throw NotLonger{"an instance of a loop reads what another one writes"};
+    if (of.kind != Event::add)
+      throw NotLonger{"an instance of a loop reads what another one writes"};
     sum_over_pairs(of.text);
   }
   void sum_over_pairs(const std::string& name) {

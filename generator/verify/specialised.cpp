@@ -97,9 +97,7 @@ class SpecialisedClaims {
   }
 
  private:
-  [[nodiscard]] std::string name(int i) const {
-    return system_.whole.variables.name(position(i));
-  }
+  [[nodiscard]] std::string name(int i) const { return system_.whole.variables.name(position(i)); }
   void claim(std::string what, const Expression& is, const Expression& should_be) {
     identities_.claims.push_back({std::move(what), is, should_be});
   }

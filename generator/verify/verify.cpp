@@ -104,10 +104,10 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& 
     }
   }
   if (hamiltonian || says_nothing_of_invariants(mechanics)) {
-    std::ranges::move(
-        prove_invariants(mechanics, hamiltonian.value_or(Expression(0)), scheme, is_solved(mechanics, scheme, plan),
-                         verdict_of(proof, "symplectic"), around),
-        std::back_inserter(proof));
+    std::ranges::move(prove_invariants(mechanics, hamiltonian.value_or(Expression(0)), scheme,
+                                       is_solved(mechanics, scheme, plan),
+                                       verdict_of(proof, "symplectic"), around),
+                      std::back_inserter(proof));
   }
   proof.push_back(
       prove_emitted(mechanics, scheme, plan, program, hamiltonian, around, of_k, smaller));
