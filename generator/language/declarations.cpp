@@ -43,9 +43,9 @@ class Declarations {
     if (!check_names(node, role, symbols_)) return std::nullopt;
     const auto value = check_values(node, known_, symbols_);
     if (!value) return std::nullopt;
-    if (value->get_den() != 1 || abs(*value) > largest_integer) {
+    if (value->get_den() != 1 || abs(*value) > largest_count) {
       symbols_.report(node->span, fmt::format("{} is not a usable integer", short_text(*value)),
-                      fmt::format("an integer between -{0} and {0} is needed", largest_integer));
+                      fmt::format("an integer between -{0} and {0} is needed", largest_count));
       return std::nullopt;
     }
     return value->get_num().get_si();

@@ -42,11 +42,12 @@ TreeConverter::TreeConverter(const Model& model, SymbolTable& table)
   rank = kRankOfParameter;
   // Of all parameters so far, for the folded ones.
   std::map<std::string, Rational> values = numbers_of_sizes(model);
+  const bool is_any_folded = std::ranges::any_of(model.parameters, &Parameter::folded);
   for (const Parameter& parameter : model.parameters) {
     parameters_[parameter.name] = {&parameter, rank};
     const long count = parameter.range ? parameter.range->size() : 1;
     rank += static_cast<int>(count);
-    for (long k = 0; k < count; ++k) {
+    for (long k = 0; is_any_folded && k < count; ++k) {
       const std::string name = parameter.range
                                    ? element_name(parameter.name, parameter.range->first + k)
                                    : parameter.name;

@@ -38,7 +38,7 @@ inline constexpr int kMostLookedAt = 32;
 // Beyond, nothing is said of the invariants of a system in loops.
 inline constexpr int kMostBracketed = 64;
 // With more instances of its loops a system is not written out to be looked at.
-inline constexpr long kMostInstances = 100'000;
+inline constexpr long kMostInstances = 30'000;
 [[nodiscard]] long instances_of_loops(const Mechanics& mechanics);
 
 // Everything that can be decided by algebra about the scheme's step for this system, and about the

@@ -248,15 +248,15 @@ TEST(EmittedLoops, AreTheMathematics) {
       const Finding finding =
           prove_emitted(mechanics, *c.scheme, lowered.plan, build_program(lowered), hamiltonian);
       EXPECT_TRUE(holds(finding.verdict)) << c.name << ": " << finding.detail;
-      EXPECT_EQ(finding.verdict == Verdict::proved, mechanics.sums.empty()) << c.name;
+      EXPECT_TRUE(finding.verdict == Verdict::proved || !mechanics.sums.empty()) << c.name;
     }
   }
 }
 
-TEST(EmittedLoops, EveryMutationIsRefuted) {
+int refuted_mutants(const std::vector<std::string>& texts) {
   int mutants = 0;
   std::size_t first = 0;
-  for (const std::string& text : {kChain, kCoupledRing, kRotators}) {
+  for (const std::string& text : texts) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     for (const Loops& c : loops(mechanics)) {
       const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
@@ -276,7 +276,15 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
     }
   }
   fmt::print("{} mutants of loops\n", mutants);
-  EXPECT_GE(mutants, 20);
+  return mutants;
+}
+
+TEST(EmittedLoops, EveryMutationIsRefuted) {
+  EXPECT_GE(refuted_mutants({kChain, kCoupledRing}), 20);
+}
+
+TEST(EmittedLoops, EveryMutationOfAFunctionOfSumsIsRefuted) {
+  EXPECT_GE(refuted_mutants({kRotators}), 5);
 }
 
 // Of a separable system the step calls the two halves: the whole is for who uses the header.
