@@ -21,7 +21,7 @@ TEST(CollectiveSums, AreKeptWithTheSlopesOfTheirFunction) {
          "H = sum(i = 1..N, p[i]^2/2) - K*(C^2 + sum(i = 1..N, sin(q[i]))^2)/(2*N) + C\n");
   ASSERT_EQ(mechanics.sums.size(), 2u);
   EXPECT_EQ(mechanics.sums[0].name, "C");
-  EXPECT_EQ(to_text(mechanics.sums[0].slope_value), "-C*K/30");
+  EXPECT_EQ(to_text(mechanics.sums[0].slope_value), "-K*C/30");
   EXPECT_EQ(to_text(mechanics.sums[1].slope_value), "-K*sum_2/30");
   // The energy of motion, C by itself, and what the two sums are made of.
   EXPECT_EQ(mechanics.kernels.size(), 4u);
