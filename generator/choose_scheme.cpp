@@ -32,7 +32,7 @@ Scheme requested_member(const Model& model, const Mechanics& mechanics, const Re
   if (request.gauge->locally_exact) {
     return locally_exact_member(mechanics, read_reference(model, request.reference));
   }
-  return family_member(mechanics.degrees_of_freedom, gauge_block(model, *request.alpha),
+  return family_member(entries_for(mechanics), gauge_block(model, *request.alpha),
                        gauge_block(model, *request.beta), gauge_block(model, *request.gamma));
 }
 

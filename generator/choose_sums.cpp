@@ -50,8 +50,9 @@ long work(const Mechanics& mechanics) {
 }  // namespace
 
 bool has_sums(const Model& model) {
-  const std::optional<std::vector<SumTerm>> terms = split_into_sums(model);
-  return terms && std::ranges::any_of(*terms, [](const SumTerm& t) { return !t.ranges.empty(); });
+  const std::optional<SplitSums> split = split_into_sums(model, model.hamiltonian);
+  return split &&
+         std::ranges::any_of(split->terms, [](const SumTerm& t) { return !t.ranges.empty(); });
 }
 
 bool asks_for_expressions(const Request& request, const Scheme& scheme) {
@@ -60,11 +61,22 @@ bool asks_for_expressions(const Request& request, const Scheme& scheme) {
          !request.format->format->takes_loops;
 }
 
+Mechanics derive_for(const Request& request, const Model& model, bool keep_sums, int most) {
+  Mechanics mechanics = derive(model, keep_sums, most);
+  const bool newton = !request.solver.empty() && request.solver->kind == SolverWish::Kind::newton;
+  const bool needs_more = newton || request.order > 0 || request.tangent ||
+                          request.watch_modified > 0 || request.batch > 0 ||
+                          !request.format->format->takes_loops;
+  if (mechanics.sums.empty() || !needs_more) return mechanics;
+  return derive(model, false, most);
+}
+
 bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops) {
   const bool has_loops = std::ranges::any_of(
       in_loops.kernels, [](const Kernel& kernel) { return !kernel.ranges.empty(); });
   const int n = written_out.degrees_of_freedom;
-  if (!has_loops || n <= kFewUnknowns || n < in_loops.degrees_of_freedom) return false;
+  if (!has_loops || !in_loops.sums.empty() || n <= kFewUnknowns || n < in_loops.degrees_of_freedom)
+    return false;
   return work(in_loops) + besides(in_loops) < work(written_out);
 }
 

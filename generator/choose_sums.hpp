@@ -2,6 +2,7 @@
 #pragma once
 
 #include "generator/language/model.hpp"
+#include "generator/mechanics/derive.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/request.hpp"
 #include "generator/schemes/scheme.hpp"
@@ -18,5 +19,10 @@ namespace hamgen {
 // rule stands for all methods, for these share the functions of a system's header.  Of what a scene
 // does not need loops leave out whole arrays only: where more is left out it is written out.
 [[nodiscard]] bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops);
+
+// The system, in loops where that is wanted.  A function of sums is written out where more is asked
+// for than its gradient.
+[[nodiscard]] Mechanics derive_for(const Request& request, const Model& model, bool keep_sums,
+                                   int most = kMostWrittenOut);
 
 }  // namespace hamgen

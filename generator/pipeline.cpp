@@ -9,6 +9,7 @@
 #include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/choose_scheme.hpp"
+#include "generator/choose_sums.hpp"
 #include "generator/emitted_spaces.hpp"
 #include "generator/emitted_text.hpp"
 #include "generator/formats/all_formats.hpp"
@@ -188,6 +189,8 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
   const Model model = read_request(source, request);
   constexpr long most = 600;  // the symmetric eigenvalue problem takes the third power
   if (hamgen::degrees_of_freedom(model) > most) return {};
+  constexpr long most_collective = 100;  // a function of sums has a full second derivative
+  if (hamgen::degrees_of_freedom(model) > most_collective && !derive(model).sums.empty()) return {};
   const Mechanics mechanics = derive(model, false);
   std::map<std::string, Rational> point;
   const auto add = [&point](const std::vector<std::string>& names,
@@ -262,7 +265,14 @@ std::string point_beyond_text(const SourceText& source, const Request& request) 
 Scheme request_scheme(const SourceText& source, const Request& request) {
   const Model model = read_request(source, request);
   require_few_coupled(model, request);
-  return choose_scheme(model, derive(model, may_keep_sums(request)), request);
+  Scheme scheme = choose_scheme(model, derive_for(request, model, may_keep_sums(request)), request);
+  const auto n = static_cast<int>(degrees_of_freedom(model));
+  if (auto* member = std::get_if<Member>(&scheme.method)) {
+    *member = of_all(*member, n);
+  } else if (auto* composition = std::get_if<Composition>(&scheme.method)) {
+    composition->base = of_all(composition->base, n);
+  }
+  return scheme;
 }
 
 Program make_program(const SourceText& source, const Request& request) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/stages.hpp"
 #include "generator/verify/derivatives.hpp"
@@ -29,9 +30,11 @@ Finding prove_front_end(const Stages& stages, const Surroundings& around) {
   return prove_model_read(stages.model, mechanics, derived, around);
 }
 
-SizedSystem sized_system(const SourceText& source, Request request, const std::string& constant,
-                         long size) {
-  request.sizes[constant] = size;
+// With fewer elements, of which every formula is what it is in the large system.
+SizedSystem sized_system(const SourceText& source, Request request, const Size& constant, long size,
+                         bool reads = true) {
+  request.sizes[constant.name] = size;
+  request.numbers_of_sizes[constant.name] = constant.value;
   if (request.scene) {
     SceneValues values = scene_values(read_request(source, request), request.scene->asked);
     values.observe = request.scene->values.observe;
@@ -41,17 +44,30 @@ SizedSystem sized_system(const SourceText& source, Request request, const std::s
   }
   Stages stages = run_stages(source, request);
   Expression hamiltonian = written_out_hamiltonian(stages);
-  Finding read = prove_front_end(stages, surroundings_of(stages.model));
+  Surroundings around = surroundings_of(stages.model);
+  Finding read = reads ? prove_front_end(stages, around) : Finding();
   return {size,
           std::move(stages.system.mechanics),
           std::move(stages.equations.scheme),
           std::move(stages.plan),
           std::move(stages.program),
           std::move(hamiltonian),
-          std::move(read)};
+          std::move(read),
+          std::move(around)};
 }
 
-// Of a large system in loops: its largest size as small as loops are made of, and the next one.
+// The least size that is not written out, without its sums being asked for.
+long least_size_in_loops(const SourceText& source, Request request, const std::string& constant) {
+  long least = 2;
+  const auto is_written_out = [&](long size) {
+    request.sizes[constant] = size;
+    return degrees_of_freedom(read_model(source, request.sizes)) <= kMostWrittenOut;
+  };
+  while (least <= kMostWrittenOut && is_written_out(least)) ++least;
+  return least;
+}
+
+// Of a large system in loops: its largest size as small as loops are made of, and the next ones.
 // Empty where the model has no such sizes: a list of values fits one of them only.
 std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
                                               const Stages& stages) {
@@ -59,21 +75,25 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
       stages.system.mechanics.degrees_of_freedom <= kMostLookedAt)
     return {};
   const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
-  constexpr long size = kMostWrittenOut + 1;
-  if (largest == stages.model.sizes.end() || largest->value <= size + 1) return {};
-  const auto made_by = [&](const Request& wish) {
-    return SmallerSystems{largest->name, largest->value,
-                          sized_system(source, wish, largest->name, size),
-                          sized_system(source, wish, largest->name, size + 1)};
+  if (largest == stages.model.sizes.end()) return {};
+  const auto made_by = [&](const Request& wish, long size) {
+    SmallerSystems smaller{largest->name, largest->value,
+                           sized_system(source, wish, *largest, size),
+                           sized_system(source, wish, *largest, size + 1)};
+    if (sums_over_pairs(stages.system.mechanics))
+      smaller.third = sized_system(source, wish, *largest, size + 2, false);
+    return smaller;
   };
   try {
-    SmallerSystems smaller = made_by(request);
+    const long size = least_size_in_loops(source, request, largest->name);
+    if (largest->value <= size + 2) return {};
+    SmallerSystems smaller = made_by(request, size);
     // Where Newton's matrix is too large the larger system is left without it.
     if (request.solver.empty() &&
         smaller.first.program.routines.size() > stages.program.routines.size()) {
       Request without_matrix = request;
       without_matrix.solver = "fixed-point";
-      smaller = made_by(without_matrix);
+      smaller = made_by(without_matrix, size);
     }
     const bool in_loops =
         smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
@@ -85,7 +105,7 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
   }
 }
 
-// Of a model that is a longer one of two that were read.
+// Of a model that is a longer one of those that were read.
 Finding read_at_smaller_sizes(const SmallerSystems& smaller) {
   Finding read = smaller.first.read;
   if (holds(read.verdict) && !holds(smaller.second.read.verdict)) read = smaller.second.read;
@@ -98,18 +118,25 @@ Finding read_at_smaller_sizes(const SmallerSystems& smaller) {
 
 Proof prove(const SourceText& source, const Request& request, const Stages& stages,
             const std::optional<SceneValues>& scene) {
-  Surroundings around = surroundings_of(stages.model);
-  if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
   const Mechanics& mechanics = stages.system.mechanics;
   const std::optional<SmallerSystems> smaller = smaller_systems(source, request, stages);
   // Then nothing of it need be written out.
-  const bool inherits = smaller && mechanics.invariants.empty() &&
+  const bool inherits = smaller &&
+                        (mechanics.invariants.empty() || says_nothing_of_invariants(mechanics)) &&
                         !why_not_inherited(mechanics, stages.program, *smaller);
+  Surroundings around = smaller ? smaller->first.around : surroundings_of(stages.model);
+  if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
+  const bool is_too_long = !inherits && instances_of_loops(mechanics) > kMostInstances;
   std::optional<Expression> hamiltonian;
-  if (!inherits) hamiltonian = written_out_hamiltonian(stages);
+  if (!inherits && !is_too_long) hamiltonian = written_out_hamiltonian(stages);
   Proof proof = verify(mechanics, stages.equations.scheme, stages.plan, stages.program, hamiltonian,
                        around, smaller);
-  proof.push_back(inherits ? read_at_smaller_sizes(*smaller) : prove_front_end(stages, around));
+  if (is_too_long) {
+    proof.push_back({kModelRead, Verdict::not_decided,
+                     fmt::format("more than {} summands; verify a smaller size", kMostInstances)});
+  } else {
+    proof.push_back(inherits ? read_at_smaller_sizes(*smaller) : prove_front_end(stages, around));
+  }
   if (request.scene && is_something_left_out(stages))
     proof.push_back(
         prove_specialised(stages.model, stages.folded, stages.system, *request.scene, around));

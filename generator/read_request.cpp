@@ -103,6 +103,10 @@ void add_events(Model& model) {
 
 Model read_request(const SourceText& source, const Request& request) {
   Model model = read_model(source, request.sizes);
+  for (Size& size : model.sizes) {
+    const auto other = request.numbers_of_sizes.find(size.name);
+    if (other != request.numbers_of_sizes.end()) size.number = other->second;
+  }
   add_scheme_parameters(model, request);
   fold_parameters(model, request);
   if (request.events) add_events(model);
@@ -111,9 +115,7 @@ Model read_request(const SourceText& source, const Request& request) {
 
 // Defaults of parameters are literals of the emitted code.
 void require_defaults_in_range(const Model& model, const ScalarType& scalar) {
-  Model without_scenes = model;
-  without_scenes.scenes.clear();
-  const std::vector<Rational> defaults = scene_values(without_scenes, {}).parameters;
+  const std::vector<Rational> defaults = default_parameters(model);
   std::vector<Diagnostic> mistakes;
   std::size_t i = 0;
   for (const Parameter& parameter : model.parameters) {

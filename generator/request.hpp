@@ -58,6 +58,8 @@ struct Request {
   bool plain_sums = false;            // what rounding takes from the state is not carried along
   Asked<Requirements> require;        // symplectic,symmetric,order:P,conserves:NAME,emitted-code
   std::map<std::string, long> sizes;  // other integer constants than the file's
+  // What one of them is where it is a number of a formula, unless it is itself.
+  std::map<std::string, long> numbers_of_sizes = {};
   // Terms of the modified Hamiltonian, as many for a symmetric step are even powers of h: emitted
   // as functions of h, which a plugin adds to its invariants at this step.
   int watch_modified = 0;

@@ -40,7 +40,7 @@ Specialised make_system(const Model& model, const std::optional<SceneFacts>& sce
                         const Request& request, bool keep_sums,
                         Variables variables = Variables::changed, int most = kMostWrittenOut) {
   require_few_coupled(model, request);
-  Mechanics mechanics = derive(model, keep_sums, most);
+  Mechanics mechanics = derive_for(request, model, keep_sums, most);
   if (request.observe_curvature) mechanics.invariants = energy_curvature(mechanics);
   Scheme scheme = choose_scheme(model, mechanics, request);
   return specialise(model, std::move(mechanics), std::move(scheme), scene, variables);
@@ -89,7 +89,9 @@ bool is_polynomial(const Mechanics& mechanics) {
         others, [&](const std::string& symbol) { return variables.contains(symbol); });
   };
   std::set<std::string> variables;
-  for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  if (!mechanics.keeps_sums()) {
+    for (const Quantity& variable : mechanics.variables) variables.insert(variable.name);
+  }
   for (const Kernel& kernel : mechanics.kernels) {
     for (const Slot& slot : kernel.slots) variables.insert(slot.symbol);
   }
@@ -109,7 +111,7 @@ bool fails_nowhere(const Mechanics& mechanics, const SolvePlan& plan) {
       (std::holds_alternative<Member>(method) && !plan.equations.function &&
        (plan.arrays ? array == ArrayMethod::explicit_a || array == ArrayMethod::explicit_b
                     : plan.is_explicit()));
-  return is_explicit && is_polynomial(mechanics);
+  return is_explicit && mechanics.sums.empty() && is_polynomial(mechanics);
 }
 
 Stages stages_of(Model model, const Request& request) {

@@ -25,7 +25,7 @@ std::string equations_of_motion(const Mechanics& mechanics) {
   std::string text;
   for (std::size_t i = 0; i < std::min(2 * n, kMostEquations); ++i) {
     const Expression right = i < n ? mechanics.gradient[n + i] : -mechanics.gradient[i - n];
-    text += formula_line(accented_markup(math_variable(mechanics.variables[i].name), "˙"),
+    text += formula_line(accented_markup(math_variable(mechanics.variables.name(i)), "˙"),
                          math_formula(right));
   }
   if (2 * n > kMostEquations)

@@ -8,8 +8,8 @@ namespace hamgen {
 
 namespace {
 
-const std::string& name_of(const StepEquations& equations, int i) {
-  return equations.mechanics.variables[static_cast<std::size_t>(i)].name;
+std::string name_of(const StepEquations& equations, int i) {
+  return equations.mechanics.variables.name(static_cast<std::size_t>(i));
 }
 
 Substitution state_to_stage(const StepEquations& equations) {

@@ -61,21 +61,12 @@ void add_values(Lines& lines, const std::string& array, std::size_t count, std::
 }
 
 // Elements of one array that follow each other are one entry.
-void write_quantity_list(CodeWriter& out, const std::string& name,
-                         const std::vector<Quantity>& quantities) {
+void write_quantity_list(CodeWriter& out, const std::string& name, const QuantityList& quantities) {
   out.line(fmt::format("const hamgen_quantity {}[] = {{", name));
-  for (std::size_t i = 0; i < quantities.size();) {
-    const ElementName first = split_element(quantities[i].name);
-    std::size_t count = 1;
-    for (; first.indexed && i + count < quantities.size(); ++count) {
-      const ElementName next = split_element(quantities[i + count].name);
-      const long index = first.index + static_cast<long>(count);
-      if (next.base != first.base || !next.indexed || next.index != index) break;
-    }
-    out.line(fmt::format("    {{{}, {}, {}, {}, {}, {}}},", cpp_string(first.base),
-                         cpp_string(quantities[i].unit), cpp_string(quantities[i].comment),
-                         first.indexed ? 1 : 0, first.index, count));
-    i += count;
+  for (const QuantityList::Run& run : quantities.runs()) {
+    out.line(fmt::format("    {{{}, {}, {}, {}, {}, {}}},", cpp_string(run.of.name),
+                         cpp_string(run.of.unit), cpp_string(run.of.comment), run.indexed ? 1 : 0,
+                         run.first, run.count));
   }
   out.line("    {}};");
   out.line();
@@ -110,8 +101,8 @@ class InterfaceWriter {
       out_.line();
     }
     write_quantity_list(out_, "variable_list", program_.environment.variables);
-    write_quantity_list(out_, "parameter_list", program_.environment.parameters);
-    write_quantity_list(out_, "invariant_list", program_.facts.invariants);
+    write_quantity_list(out_, "parameter_list", names_of(program_.environment.parameters));
+    write_quantity_list(out_, "invariant_list", names_of(program_.facts.invariants));
     write_table();
     out_.line("}  // namespace");
     out_.line(fmt::format("}}  // namespace {}", method_));

@@ -11,9 +11,9 @@
 namespace hamgen {
 namespace {
 
-constexpr long short_range = 12;        // ranges up to this size are checked element by element
-constexpr long most_instances = 20000;  // of bodies of sums; later ones go unchecked
-constexpr long most_terms = 1'000'000;  // of one index
+constexpr long short_range = 12;          // ranges up to this size are checked element by element
+constexpr long most_instances = 20000;    // of bodies of sums; later ones go unchecked
+constexpr long most_terms = 100'000'000;  // of one index
 constexpr long largest_bound = 1'000'000'000;
 
 class ValueCheck {

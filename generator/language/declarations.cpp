@@ -43,9 +43,9 @@ class Declarations {
     if (!check_names(node, role, symbols_)) return std::nullopt;
     const auto value = check_values(node, known_, symbols_);
     if (!value) return std::nullopt;
-    if (value->get_den() != 1 || abs(*value) > largest_array) {
+    if (value->get_den() != 1 || abs(*value) > largest_count) {
       symbols_.report(node->span, fmt::format("{} is not a usable integer", short_text(*value)),
-                      fmt::format("an integer between -{0} and {0} is needed", largest_array));
+                      fmt::format("an integer between -{0} and {0} is needed", largest_count));
       return std::nullopt;
     }
     return value->get_num().get_si();
@@ -59,8 +59,11 @@ class Declarations {
     }
     if (!value) return symbols_.spoil(size.name.text);
     known_[size.name.text] = *value;
-    model_.sizes.push_back(
-        {.name = size.name.text, .value = *value, .comment = size.comment, .span = size.name.span});
+    model_.sizes.push_back({.name = size.name.text,
+                            .value = *value,
+                            .number = *value,
+                            .comment = size.comment,
+                            .span = size.name.span});
   }
 
   std::optional<IndexRange> range_of(const Declarator& declarator) {

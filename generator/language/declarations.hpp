@@ -11,7 +11,8 @@
 
 namespace hamgen {
 
-inline constexpr long largest_array = 1'000'000;
+inline constexpr long largest_array = 10'000'000;
+inline constexpr long largest_count = 100'000'000;  // of a size, an end of a range, a subscript
 
 // Fills sizes, coordinates, momenta and parameters of the model, the symbols, and the known values.
 // `overrides` replaces the values of sizes.

@@ -43,7 +43,8 @@ struct Parameter {
 
 struct Size {
   std::string name;
-  long value = 0;
+  long value = 0;   // in ranges and subscripts
+  long number = 0;  // elsewhere: the same, unless a proof looks at fewer elements of a system
   std::string comment;
   Span span;
 };

@@ -54,11 +54,19 @@ class SceneReader {
   SceneReader(const Model& model, const SceneRequest& request)
       : model_(model), request_(request), symbols_(model.source, mistakes_) {
     declare_names(model, symbols_);
-    for (const Size& each : model.sizes) values_[each.name] = each.value;
-    known_ = values_;
+    for (const Size& each : model.sizes) known_[each.name] = each.value;
+    values_ = numbers_of_sizes(model);
   }
 
   SceneValues run() { return run(find_scene()); }
+
+  // Without a scene and without options.
+  std::vector<Rational> default_parameters() {
+    std::vector<Rational> result;
+    for (const Parameter& each : model_.parameters) read_parameter(each, result);
+    stop_if_wrong();
+    return result;
+  }
 
   SceneValues run(const Scene* scene) {
     scene_ = scene;
@@ -116,7 +124,7 @@ class SceneReader {
       const Symbol* symbol = symbols_.find(each.name);
       if (each.value) result.formulas.push_back({each.name, each.value, each.text});
       if (each.element) {
-        const Rational at = value_of(each.element, lookup_in(values_), nullptr);
+        const Rational at = value_of(each.element, lookup_in(known_), nullptr);
         result.observe.push_back(element_name(each.name, at.get_num().get_si()));
       } else if (symbol != nullptr && symbol->range) {
         for (long i = symbol->range->first; i <= symbol->range->last; ++i)
@@ -178,7 +186,7 @@ class SceneReader {
       return value_of(node, lookup_in(values_, setting.index, i), option);
     };
     if (setting.element) {
-      const Rational at = value(setting.element, 0);
+      const Rational at = value_of(setting.element, lookup_in(known_), option);
       elements.at(static_cast<std::size_t>(at.get_num().get_si() - first)) =
           value(setting.values.front(), 0);
       return;
@@ -323,6 +331,16 @@ SceneValues values_of_scene(const Model& model, const Scene& scene) {
   return SceneReader(model, request).run(&scene);
 }
 
+std::map<std::string, Rational> numbers_of_sizes(const Model& model) {
+  std::map<std::string, Rational> numbers;
+  for (const Size& size : model.sizes) numbers[size.name] = size.number;
+  return numbers;
+}
+
+std::vector<Rational> default_parameters(const Model& model) {
+  return SceneReader(model, {}).default_parameters();
+}
+
 bool observes(const SceneValues& scene, const std::string& name) {
   return scene.observe.empty() || std::ranges::find(scene.observe, name) != scene.observe.end();
 }
@@ -334,50 +352,6 @@ bool observes_parts(const Model& model, const SceneValues& scene) {
     return std::ranges::find(model.coordinates, base, &Variable::name) != model.coordinates.end() ||
            std::ranges::find(model.momenta, base, &Variable::name) != model.momenta.end();
   });
-}
-
-std::set<std::string> names_computed_from(const Model& model, const SceneRequest& request,
-                                          const std::vector<std::string>& names) {
-  std::set<std::string> found(names.begin(), names.end());
-  for (const std::string& name : names) found.insert(name.substr(0, name.find('[')));
-  std::vector<Setting> settings;
-  const auto is_chosen = [&request](const Scene& scene) {
-    return request.scene.empty() || scene.name == request.scene;
-  };
-  const auto chosen = std::ranges::find_if(model.scenes, is_chosen);
-  if (chosen != model.scenes.end()) settings = chosen->settings;
-  for (const auto* overrides : {&request.set, &request.initial}) {
-    for (const auto& [name, value] : *overrides)
-      settings.push_back(parse_setting(make_source("option", name + "=" + value)));
-  }
-  const auto add = [&found](const std::string& name, const std::vector<NodePtr>& values) {
-    for (const NodePtr& value : values) {
-      const std::set<std::string> used = names_in(value);
-      if (std::ranges::any_of(used, [&](const auto& each) { return found.contains(each); }))
-        found.insert(name);
-    }
-  };
-  // Parameters are computed in the order of their declarations, and before the state.
-  for (const Parameter& parameter : model.parameters) {
-    add(parameter.name, parameter.values);
-    for (const Setting& setting : settings) {
-      if (setting.name == parameter.name) add(setting.name, setting.values);
-    }
-  }
-  for (const Setting& setting : settings) add(setting.name, setting.values);
-  if (chosen != model.scenes.end()) {
-    if (chosen->h && !request.h) add("h", {chosen->h});
-    if (chosen->steps && !request.steps && !request.time) add("steps", {chosen->steps});
-  }
-  std::vector<std::string> parameters = element_names(model.parameters);
-  for (const Size& size : model.sizes) parameters.push_back(size.name);
-  if (request.h) add("h", {read_expression("--h", *request.h, parameters)});
-  if (request.steps) add("steps", {read_expression("--steps", *request.steps, parameters)});
-  if (request.time) {
-    add("steps", {read_expression("--time", *request.time, parameters)});
-    if (found.contains("h")) found.insert("steps");
-  }
-  return found;
 }
 
 Rational evaluate_constant(const NodePtr& node, const SourceText& source,

@@ -61,6 +61,10 @@ struct SceneValues {
 [[nodiscard]] SceneValues scene_values(const Model& model, const SceneRequest& request);
 // Of one of the model's scenes, without overrides.
 [[nodiscard]] SceneValues values_of_scene(const Model& model, const Scene& scene);
+// The model's sizes where they are numbers of formulas.
+[[nodiscard]] std::map<std::string, Rational> numbers_of_sizes(const Model& model);
+// Those of the declarations, element by element.
+[[nodiscard]] std::vector<Rational> default_parameters(const Model& model);
 
 // These names, and the parameters and variables, h and steps, whose values the run computes from
 // them.

@@ -32,11 +32,16 @@ bool vanishes(const GiNaC::ex& e) {
   return node_count(e, kSmall) < kSmall && vanishes_when_expanded(e);
 }
 
-std::vector<Quantity> quantities(const std::vector<Variable>& variables) {
-  std::vector<Quantity> result;
-  for (const Variable& variable : variables) {
-    for (const std::string& name : element_names(std::vector{variable})) {
-      result.push_back({name, variable.unit, variable.comment, 0});
+QuantityList state_of(const Model& model) {
+  QuantityList result;
+  for (const auto* group : {&model.coordinates, &model.momenta}) {
+    for (const Variable& variable : *group) {
+      const Quantity quantity{variable.name, variable.unit, variable.comment, 0};
+      if (variable.range) {
+        result.append(quantity, variable.range->first, variable.range->size());
+      } else {
+        result.push_back(quantity);
+      }
     }
   }
   return result;
@@ -45,7 +50,7 @@ std::vector<Quantity> quantities(const std::vector<Variable>& variables) {
 // Parameters that are folded, or those that are not, with their default values.
 std::vector<Quantity> parameters_of(const Model& model, bool folded) {
   std::vector<Quantity> result;
-  std::map<std::string, Rational> values;
+  std::map<std::string, Rational> values = numbers_of_sizes(model);
   for (const Parameter& parameter : model.parameters) {
     std::size_t k = 0;
     for (const std::string& name : element_names(std::vector{parameter})) {
@@ -89,7 +94,7 @@ void differentiate(const GiNaC::ex& energy, const std::map<std::string, int>& pl
   Differentiator differentiator;
   std::vector<GiNaC::ex> gradient;
   const auto symbol = [&](std::size_t i) -> const GiNaC::symbol& {
-    return table.find(mechanics.variables[i].name);
+    return table.find(mechanics.variables.name(i));
   };
   for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
     GiNaC::ex derivative = differentiator(energy, symbol(i));
@@ -114,34 +119,32 @@ void differentiate(const GiNaC::ex& energy, const std::map<std::string, int>& pl
 }
 
 Mechanics derived(const Model& model, bool keep_sums, int most) {
-  SymbolTable table;
-  TreeConverter converter(model, table);
   Mechanics mechanics;
   mechanics.name = model.name;
   mechanics.hamiltonian_text = model.hamiltonian_text;
   mechanics.has_time = std::ranges::any_of(model.coordinates, &Variable::is_time);
   mechanics.degrees_of_freedom = static_cast<int>(degrees_of_freedom(model));
-  mechanics.variables = quantities(model.coordinates);
-  for (Quantity& momentum : quantities(model.momenta)) {
-    mechanics.variables.push_back(std::move(momentum));
-  }
+  mechanics.variables = state_of(model);
   mechanics.parameters = parameters_of(model, false);
   mechanics.constants = parameters_of(model, true);
 
+  const std::vector<WrittenTerm> terms = written_terms(model);
+  for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
+  if (keep_sums && mechanics.degrees_of_freedom > most) {
+    if (auto form = derive_kernels(model)) {
+      mechanics.kernels = std::move(form->kernels);
+      mechanics.sums = std::move(form->sums);
+      mechanics.of_sums = std::move(form->of_sums);
+      return mechanics;
+    }
+  }
+  SymbolTable table;
+  TreeConverter converter(model, table);
   std::map<std::string, int> places;
   for (const Quantity& variable : mechanics.variables) {
     const int place = static_cast<int>(places.size());
     table.symbol(variable.name, kRankOfVariable + place);
     places[variable.name] = place;
-  }
-
-  const std::vector<WrittenTerm> terms = written_terms(model);
-  for (const WrittenTerm& written : terms) mechanics.terms.push_back(written.term);
-  if (keep_sums && mechanics.degrees_of_freedom > most) {
-    if (auto kernels = derive_kernels(model)) {
-      mechanics.kernels = std::move(*kernels);
-      return mechanics;
-    }
   }
   const GiNaC::ex energy = hamiltonian(model, converter, table);
   FromGinac expression(table);
@@ -189,9 +192,7 @@ Expression written_out_hamiltonian(const Model& model) {
   SymbolTable table;
   TreeConverter converter(model, table);
   int rank = kRankOfVariable;
-  for (const auto* group : {&model.coordinates, &model.momenta}) {
-    for (const Quantity& variable : quantities(*group)) table.symbol(variable.name, rank++);
-  }
+  for (const Quantity& variable : state_of(model)) table.symbol(variable.name, rank++);
   return with_place(model, model.hamiltonian->span,
                     [&] { return from_ginac(hamiltonian(model, converter, table), table); });
 }

@@ -8,6 +8,7 @@
 
 #include "generator/algebra/ginac_derivatives.hpp"
 #include "generator/language/scene.hpp"
+#include "generator/mechanics/collective_sums.hpp"
 #include "generator/mechanics/energy_terms.hpp"
 #include "generator/mechanics/mechanics.hpp"
 #include "generator/mechanics/split_sums.hpp"
@@ -30,6 +31,7 @@ struct Boundary {
   SymbolTable table;
   TreeConverter converter;
   Touch touch;
+  std::optional<std::size_t> sum = {};
   std::set<std::string> elements;
   std::set<int> terms;
   GiNaC::ex value;
@@ -47,24 +49,43 @@ class KernelBuilder {
     }
   }
 
-  std::optional<std::vector<Kernel>> build() {
+  std::optional<KernelForm> build() {
     for (const Variable& momentum : model_.momenta) {
       if (momentum.is_time) return std::nullopt;
     }
-    const std::optional<std::vector<SumTerm>> terms = split_into_sums(model_);
-    if (!terms) return std::nullopt;
-    for (const SumTerm& term : *terms) {
-      if (add(term)) continue;
-      // Together their boundaries may be too many.
-      for (const Summand& summand : term.summands) {
-        if (!add({term.ranges, term.touch, {summand}})) return std::nullopt;
+    const std::optional<SplitSums> split = split_into_sums(model_, model_.hamiltonian);
+    if (!split || !add_all(split->terms)) return std::nullopt;
+    KernelForm form;
+    if (!split->functions.empty()) {
+      std::optional<CollectiveSums> collective = collective_sums(model_, split->functions);
+      if (!collective) return std::nullopt;
+      for (std::size_t k = 0; k < collective->terms.size(); ++k) {
+        sum_ = k;
+        if (!add_all(collective->terms[k])) return std::nullopt;
       }
+      form.sums = std::move(collective->sums);
+      form.of_sums = std::move(collective->value);
     }
-    for (Boundary& boundary : boundaries_) finish(boundary);
-    return std::move(kernels_);
+    for (Boundary& boundary : boundaries_) {
+      sum_ = boundary.sum;
+      finish(boundary);
+    }
+    form.kernels = std::move(kernels_);
+    return form;
   }
 
  private:
+  bool add_all(const std::vector<SumTerm>& terms) {
+    for (const SumTerm& term : terms) {
+      if (add(term)) continue;
+      // Together their boundaries may be too many.
+      for (const Summand& summand : term.summands) {
+        if (!add({term.ranges, term.touch, {summand}})) return false;
+      }
+    }
+    return true;
+  }
+
   static long value_at(const AffineIndex& a, const Indices& indices) {
     long value = a.constant;
     for (const auto& [index, factor] : a.factors) value += factor * indices.at(index);
@@ -144,6 +165,7 @@ class KernelBuilder {
 
   bool all_regular(const std::vector<KernelRange>& ranges, std::size_t depth, Indices indices,
                    const std::vector<Reference>& references) const {
+    if (depth == 0 && stays_inside(ranges, references)) return true;
     if (depth == ranges.size()) return is_regular(references, indices);
     const long last = value_at(ranges[depth].upper, indices);
     for (long i = value_at(ranges[depth].lower, indices); i <= last; ++i) {
@@ -152,36 +174,45 @@ class KernelBuilder {
     }
     return true;
   }
+  // Known without a look at every instance.
+  static bool stays_inside(const std::vector<KernelRange>& ranges,
+                           const std::vector<Reference>& references) {
+    return std::ranges::all_of(references, [&](const Reference& r) {
+      const auto& range = r.variable ? r.variable->range : r.parameter->range;
+      return range && least_value(r.subscript, ranges) >= range->first &&
+             largest_value(r.subscript, ranges) <= range->last;
+    });
+  }
 
   // The longest run of regular instances becomes a loop, the others are written out.
   bool add_single(const SumTerm& term, const KernelRange& range,
                   const std::vector<Reference>& references) {
-    const long lower = value_at(range.lower, {});
-    const long upper = value_at(range.upper, {});
+    const long lower = range.lower.constant;
+    const long upper = range.upper.constant;
     long first = lower;
-    long best_first = lower;
-    long best_size = 0;
-    for (long i = lower; i <= upper + 1; ++i) {
-      if (i <= upper && is_regular(references, {{range.index, i}})) continue;
-      if (i - first > best_size) {
-        best_first = first;
-        best_size = i - first;
-      }
-      first = i + 1;
+    long last = upper;
+    for (const Reference& r : references) {
+      const auto& inside = r.variable ? r.variable->range : r.parameter->range;
+      if (!inside) last = lower - 1;
+      if (!inside) continue;
+      const IndexInterval fits =
+          indices_between(r.subscript, range.index, inside->first, inside->last);
+      first = std::max(first, fits.first);
+      last = std::min(last, fits.last);
     }
-    if (static_cast<std::size_t>(upper - lower + 1 - best_size) > kMostPeeled) return false;
+    if (last < first) last = first - 1;
+    if (upper - lower - (last - first) > static_cast<long>(kMostPeeled)) return false;
     for (long i = lower; i <= upper; ++i) {
-      if (i < best_first || i >= best_first + best_size) instance(term, {{range.index, i}});
+      if (i == first && first <= last) i = last + 1;
+      if (i <= upper) instance(term, {{range.index, i}});
     }
-    if (best_size > 0) {
-      KernelRange inner{range.index,
-                        {.constant = best_first, .factors = {}},
-                        {.constant = best_first + best_size - 1, .factors = {}}};
+    if (first <= last) {
+      KernelRange inner{
+          range.index, {.constant = first, .factors = {}}, {.constant = last, .factors = {}}};
       regular(term, {inner}, references);
     }
     return true;
   }
-
   static GiNaC::ex body(const SumTerm& term, TreeConverter& converter, const Indices& indices) {
     GiNaC::ex sum = 0;
     for (const Summand& summand : term.summands) {
@@ -201,8 +232,10 @@ class KernelBuilder {
     TreeConverter converter(model_, table);
     const std::set<std::string> used = symbols(from_ginac(body(term, converter, indices), table));
     if (boundaries_.empty() || boundaries_.back().touch != term.touch ||
+        boundaries_.back().sum != sum_ ||
         boundaries_.back().elements.size() + used.size() > kMostTogether) {
       boundaries_.emplace_back(model_, term.touch);
+      boundaries_.back().sum = sum_;
     }
     Boundary& boundary = boundaries_.back();
     boundary.value += body(term, boundary.converter, indices);
@@ -218,16 +251,29 @@ class KernelBuilder {
     return result;
   }
 
+  // Those of the names that are elements of the variable, in its order, and their places in it.
+  static std::vector<std::pair<std::string, long>> elements_among(
+      const std::set<std::string>& names, const Variable& variable) {
+    std::map<long, std::string> found;
+    for (const std::string& name : names) {
+      const std::size_t bracket = name.find('[');
+      if (name.substr(0, bracket) != variable.name) continue;
+      const long first = variable.range ? variable.range->first : 0;
+      found[bracket == std::string::npos ? 0 : std::stol(name.substr(bracket + 1)) - first] = name;
+    }
+    std::vector<std::pair<std::string, long>> result;
+    for (const auto& [behind, name] : found) result.emplace_back(name, behind);
+    return result;
+  }
+
   void finish(Boundary& boundary) {
     Kernel kernel{.value = from_ginac(boundary.value, boundary.table), .terms = boundary.terms};
-    std::set<std::string> names = symbols(kernel.value);
+    const std::set<std::string> names = symbols(kernel.value);
     for (const auto& [name, entry] : variables_) {
       const auto& [variable, position] = entry;
-      const std::vector<std::string> elements = element_names(std::vector{*variable});
-      for (std::size_t k = 0; k < elements.size(); ++k) {
-        if (!names.contains(elements[k])) continue;
-        kernel.slots.push_back({elements[k],
-                                {.constant = position + static_cast<long>(k), .factors = {}},
+      for (const auto& [element, behind] : elements_among(names, *variable)) {
+        kernel.slots.push_back({element,
+                                {.constant = position + behind, .factors = {}},
                                 position >= degrees_of_freedom(model_)});
       }
     }
@@ -306,6 +352,7 @@ class KernelBuilder {
         if (!entry.is_zero()) kernel.hessian.emplace(std::pair(i, j), expression(entry));
       }
     }
+    kernel.sum = sum_;
     kernels_.push_back(std::move(kernel));
   }
 
@@ -314,11 +361,12 @@ class KernelBuilder {
   std::vector<WrittenTerm> terms_;
   std::vector<Kernel> kernels_;
   std::list<Boundary> boundaries_;
+  std::optional<std::size_t> sum_;  // that is added to
 };
 
 }  // namespace
 
-std::optional<std::vector<Kernel>> derive_kernels(const Model& model) {
+std::optional<KernelForm> derive_kernels(const Model& model) {
   return KernelBuilder(model).build();
 }
 

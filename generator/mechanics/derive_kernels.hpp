@@ -9,7 +9,7 @@
 
 namespace hamgen {
 
-// H as kernels; empty if it is not a plain sum of indexed terms (a function of a sum, say).
-[[nodiscard]] std::optional<std::vector<Kernel>> derive_kernels(const Model& model);
+// H as kernels; empty if it is no sum of indexed terms and of functions of such sums.
+[[nodiscard]] std::optional<KernelForm> derive_kernels(const Model& model);
 
 }  // namespace hamgen

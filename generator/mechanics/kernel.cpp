@@ -36,6 +36,45 @@ long value_at(const AffineIndex& index, const std::vector<KernelRange>& ranges,
   return value;
 }
 
+namespace {
+
+long extreme(AffineIndex a, const std::vector<KernelRange>& ranges, bool largest) {
+  for (auto range = ranges.rbegin(); range != ranges.rend(); ++range) {
+    const auto found = a.factors.find(range->index);
+    if (found == a.factors.end()) continue;
+    const long factor = found->second;
+    a.factors.erase(found);
+    const AffineIndex& end = (factor > 0) == largest ? range->upper : range->lower;
+    a.constant += factor * end.constant;
+    for (const auto& [index, of_end] : end.factors) a.factors[index] += factor * of_end;
+  }
+  return a.constant;
+}
+
+long rounded_up(long a, long positive) { return a / positive + (a % positive > 0 ? 1 : 0); }
+long rounded_down(long a, long positive) { return -rounded_up(-a, positive); }
+
+}  // namespace
+
+long least_value(const AffineIndex& index, const std::vector<KernelRange>& ranges) {
+  return extreme(index, ranges, false);
+}
+
+long largest_value(const AffineIndex& index, const std::vector<KernelRange>& ranges) {
+  return extreme(index, ranges, true);
+}
+
+IndexInterval indices_between(const AffineIndex& place, const std::string& index, long least,
+                         long most) {
+  const auto found = place.factors.find(index);
+  const long factor = found == place.factors.end() ? 0 : found->second;
+  const long below = least - place.constant;
+  const long above = most - place.constant;
+  if (factor == 0) return below <= 0 && above >= 0 ? IndexInterval{} : IndexInterval{.first = 1, .last = 0};
+  if (factor > 0) return {rounded_up(below, factor), rounded_down(above, factor)};
+  return {rounded_up(-above, -factor), rounded_down(-below, -factor)};
+}
+
 void for_each_instance(const std::vector<KernelRange>& ranges,
                        const std::function<void(const std::vector<long>&)>& use) {
   std::vector<long> indices;

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,6 +35,7 @@ struct Slot {
   std::string symbol;    // "q[i+1]" as a symbol of the kernel's expressions
   AffineIndex position;  // in the state z: 0..2n-1
   bool is_momentum = false;
+  bool operator==(const Slot&) const = default;
 };
 
 // An element of an array parameter whose subscript depends on the indices.
@@ -40,6 +43,7 @@ struct ParameterSlot {
   std::string symbol;
   std::string parameter;  // its declared name
   AffineIndex position;   // from 0
+  bool operator==(const ParameterSlot&) const = default;
 };
 
 struct Kernel {
@@ -49,7 +53,22 @@ struct Kernel {
   Expression value;
   std::vector<Expression> gradient;                                   // by slot
   std::map<std::pair<std::size_t, std::size_t>, Expression> hessian;  // slots i <= j, nonzero
-  std::set<int> terms = {};  // of H that it is made of, by number
+  std::set<int> terms = {};             // of H that it is made of, by number
+  std::optional<std::size_t> sum = {};  // which of the sums that H is a function of it adds to
+};
+
+// A sum over elements that H is a function of, as C in C^2.
+struct CollectiveSum {
+  std::string name;        // its symbol
+  std::string slope;       // the symbol of dH/dC
+  Expression slope_value;  // in the symbols of all of them
+};
+// What H is made of where its sums are kept: the kernels that are of no sum, and a function of the
+// sums.
+struct KernelForm {
+  std::vector<Kernel> kernels;
+  std::vector<CollectiveSum> sums;
+  Expression of_sums;
 };
 
 // Which part of the state the kernel's slots lie in.
@@ -61,6 +80,16 @@ struct Kernel {
 // Its value where the indices of the ranges, in their order, are these.
 [[nodiscard]] long value_at(const AffineIndex& index, const std::vector<KernelRange>& ranges,
                             const std::vector<long>& indices);
+// The least and the largest value over the ranges, or one beyond it where a range may be empty.
+[[nodiscard]] long least_value(const AffineIndex& index, const std::vector<KernelRange>& ranges);
+[[nodiscard]] long largest_value(const AffineIndex& index, const std::vector<KernelRange>& ranges);
+// The values of the one index for which `place` lies between `least` and `most`.
+struct IndexInterval {
+  long first = std::numeric_limits<long>::min();
+  long last = std::numeric_limits<long>::max();
+};
+[[nodiscard]] IndexInterval indices_between(const AffineIndex& place, const std::string& index,
+                                            long least, long most);
 // The indices of every instance: one empty list if there are no ranges.
 void for_each_instance(const std::vector<KernelRange>& ranges,
                        const std::function<void(const std::vector<long>&)>& use);

@@ -22,7 +22,7 @@ bool Mechanics::is_separable() const {
 }
 
 Expression Mechanics::variable(int i) const {
-  return Expression::symbol(variables[static_cast<std::size_t>(i)].name, kRankOfVariable + i);
+  return Expression::symbol(variables.name(static_cast<std::size_t>(i)), kRankOfVariable + i);
 }
 
 namespace {
@@ -35,8 +35,10 @@ std::string kernels_text(const Mechanics& mechanics) {
       text +=
           fmt::format("sum {} = {}..{}: ", range.index, to_text(range.lower), to_text(range.upper));
     }
+    if (kernel.sum) text += "to " + mechanics.sums[*kernel.sum].name + ": ";
     text += to_text(kernel.value) + "\n";
   }
+  if (!mechanics.sums.empty()) text += "  " + to_text(mechanics.of_sums) + "\n";
   return text;
 }
 
@@ -52,12 +54,12 @@ std::string to_text(const Mechanics& mechanics) {
   for (int i = 0; i < 2 * n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     text +=
-        fmt::format("dH/d{} = {}\n", mechanics.variables[k].name, to_text(mechanics.gradient[k]));
+        fmt::format("dH/d{} = {}\n", mechanics.variables.name(k), to_text(mechanics.gradient[k]));
   }
   for (const auto& [place, value] : mechanics.hessian) {
     text += fmt::format(
-        "d2H/d{} d{} = {}\n", mechanics.variables[static_cast<std::size_t>(place.first)].name,
-        mechanics.variables[static_cast<std::size_t>(place.second)].name, to_text(value));
+        "d2H/d{} d{} = {}\n", mechanics.variables.name(static_cast<std::size_t>(place.first)),
+        mechanics.variables.name(static_cast<std::size_t>(place.second)), to_text(value));
   }
   for (const NamedExpression& invariant : mechanics.invariants) {
     text += fmt::format("{} {} = {}\n", invariant.is_event() ? "event" : "invariant",

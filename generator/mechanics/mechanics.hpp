@@ -12,16 +12,9 @@
 
 #include "generator/algebra/expression.hpp"
 #include "generator/mechanics/kernel.hpp"
+#include "generator/mechanics/quantity_list.hpp"
 
 namespace hamgen {
-
-// A name of the user's with what is said of it in the emitted code.
-struct Quantity {
-  std::string name;  // "eps", "m[2]"
-  std::string unit;
-  std::string comment;
-  Rational value;  // default of a parameter
-};
 
 struct NamedExpression {
   std::string name;
@@ -46,13 +39,15 @@ struct Mechanics {
   std::string hamiltonian_text;      // as the user wrote it
   int degrees_of_freedom = 0;        // n
   bool has_time = false;             // the last one is t with its momentum p_t, and H contains p_t
-  std::vector<Quantity> variables;   // 2n: q1..qn, p1..pn
+  QuantityList variables;            // 2n: q1..qn, p1..pn
   std::vector<EnergyTerm> terms;     // of H, numbered from 0
   std::vector<Quantity> parameters;  // run-time parameters, in declaration order
   std::vector<Quantity> constants;   // parameters whose values have been put in
   // Large systems keep their sums as loops: then the kernels hold H and its derivatives, and the
   // written-out expressions below are empty.
   std::vector<Kernel> kernels;
+  std::vector<CollectiveSum> sums;  // of which H has a function besides
+  Expression of_sums;
   Expression energy;                                  // H(z), sums written out
   std::vector<Expression> gradient;                   // 2n
   std::map<std::pair<int, int>, Expression> hessian;  // nonzero entries, i <= j
@@ -71,7 +66,7 @@ struct Mechanics {
 inline constexpr int kRankOfStep = -2;          // h
 inline constexpr int kRankOfParameter = 0;      // + position
 inline constexpr int kRankOfVariable = 100000;  // + position in z
-inline constexpr int kRankOfTemporary = 1000000;
+inline constexpr int kRankOfTemporary = 500'000'000;
 
 [[nodiscard]] std::string to_text(const Mechanics& mechanics);
 

@@ -22,13 +22,29 @@ class SumSplitter {
  public:
   explicit SumSplitter(const Model& model) : model_(model) {}
 
-  std::optional<std::vector<SumTerm>> terms() {
-    if (!split(model_.hamiltonian, {}, {})) return std::nullopt;
-    return std::move(terms_);
+  std::optional<SplitSums> run(const NodePtr& formula) {
+    if (!split(formula, {}, {})) return std::nullopt;
+    return SplitSums{std::move(terms_), std::move(functions_)};
+  }
+
+  // Does a sum stand there, or in a definition that is named there?
+  [[nodiscard]] bool contains_sum(const NodePtr& node) const {
+    if (std::holds_alternative<SumNode>(node->value)) return true;
+    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
+      const Definition* definition = find_definition(model_, name->name);
+      if (definition == nullptr) return false;
+      if (const auto known = has_sum_.find(name->name); known != has_sum_.end())
+        return known->second;
+      return has_sum_[name->name] = contains_sum(definition->value);
+    }
+    bool found = false;
+    for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
+    return found;
   }
 
  private:
-  // Splits H at plus and minus and at sums.  False if a sum stands where it cannot be split.
+  // Splits at plus and minus and at sums.  False if a sum stands inside one where it cannot be
+  // split.
   bool split(const NodePtr& node, std::vector<SumRange> ranges, Summand summand) {
     if (const auto* negate = std::get_if<NegateNode>(&node->value)) {
       summand.negative = !summand.negative;
@@ -43,7 +59,11 @@ class SumSplitter {
       }
       if (contains_sum(node)) {
         const bool left_sum = contains_sum(binary->left);
-        if (left_sum && contains_sum(binary->right)) return false;
+        const bool right_sum = contains_sum(binary->right);
+        const bool divides = binary->operation == BinaryOperator::divide;
+        const bool has_factor =
+            divides ? !right_sum : binary->operation == BinaryOperator::multiply;
+        if (!has_factor || (left_sum && right_sum)) return is_function(node, ranges, summand);
         return split_factor(*binary, left_sum, ranges, summand);
       }
       // (T + V)*c is T*c + V*c: what is separable becomes separate loops.
@@ -55,7 +75,7 @@ class SumSplitter {
       }
     }
     if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
-      if (const Definition* definition = find_definition(name->name)) {
+      if (const Definition* definition = find_definition(model_, name->name)) {
         return split(definition->value, ranges, summand);
       }
     }
@@ -67,9 +87,16 @@ class SumSplitter {
       ranges.insert(ranges.end(), sum->ranges.begin(), sum->ranges.end());
       return split(sum->body, ranges, summand);
     }
-    if (contains_sum(node)) return false;
+    if (contains_sum(node)) return is_function(node, ranges, summand);
     summand.body = node;
     return place(ranges, summand);
+  }
+
+  bool is_function(const NodePtr& node, const std::vector<SumRange>& ranges, Summand summand) {
+    if (!ranges.empty()) return false;
+    summand.body = node;
+    functions_.push_back(std::move(summand));
+    return true;
   }
 
   // A product or quotient, of which one side is split and the other a factor.
@@ -109,26 +136,6 @@ class SumSplitter {
     return true;
   }
 
-  // Does a sum stand there, or in a definition that is named there?
-  [[nodiscard]] bool contains_sum(const NodePtr& node) const {
-    if (std::holds_alternative<SumNode>(node->value)) return true;
-    if (const auto* name = std::get_if<NameNode>(&node->value); name && !name->subscript) {
-      const Definition* definition = find_definition(name->name);
-      if (definition == nullptr) return false;
-      if (const auto known = has_sum_.find(name->name); known != has_sum_.end())
-        return known->second;
-      return has_sum_[name->name] = contains_sum(definition->value);
-    }
-    bool found = false;
-    for_children(node, [&](const NodePtr& child) { found = found || contains_sum(child); });
-    return found;
-  }
-
-  [[nodiscard]] const Definition* find_definition(const std::string& name) const {
-    const auto it = std::ranges::find(model_.definitions, name, &Definition::name);
-    return it == model_.definitions.end() ? nullptr : &*it;
-  }
-
   [[nodiscard]] Touch touch(const NodePtr& node) const {
     Touch result;
     auto also = [&](const Touch& more) {
@@ -139,7 +146,7 @@ class SumSplitter {
       const bool coordinate = std::ranges::any_of(model_.coordinates, is_named);
       if (coordinate || std::ranges::any_of(model_.momenta, is_named)) {
         also({coordinate, !coordinate});
-      } else if (const Definition* definition = find_definition(name->name)) {
+      } else if (const Definition* definition = find_definition(model_, name->name)) {
         also(touch(definition->value));
       }
       return result;
@@ -150,6 +157,7 @@ class SumSplitter {
 
   const Model& model_;
   std::vector<SumTerm> terms_;
+  std::vector<Summand> functions_;
   mutable std::map<std::string, bool> has_sum_;  // of definitions
 };
 
@@ -173,8 +181,17 @@ std::optional<AffineIndex> affine(const Model& model, const NodePtr& node,
   return result;
 }
 
-std::optional<std::vector<SumTerm>> split_into_sums(const Model& model) {
-  return SumSplitter(model).terms();
+std::optional<SplitSums> split_into_sums(const Model& model, const NodePtr& formula) {
+  return SumSplitter(model).run(formula);
+}
+
+bool contains_sum(const Model& model, const NodePtr& node) {
+  return SumSplitter(model).contains_sum(node);
+}
+
+const Definition* find_definition(const Model& model, const std::string& name) {
+  const auto it = std::ranges::find(model.definitions, name, &Definition::name);
+  return it == model.definitions.end() ? nullptr : &*it;
 }
 
 }  // namespace hamgen

@@ -51,9 +51,17 @@ struct SumTerm {
   std::vector<Summand> summands;
 };
 
-// H, split at plus and minus and at its sums; definitions that hold sums are followed.  Empty if a
-// sum stands where it cannot be split off, as in sin(sum(...)).
-[[nodiscard]] std::optional<std::vector<SumTerm>> split_into_sums(const Model& model);
+struct SplitSums {
+  std::vector<SumTerm> terms;
+  std::vector<Summand> functions;  // of sums, which stand in them: C^2
+};
+
+// The formula, split at plus and minus and at its sums; definitions that hold sums are followed.
+// Empty if a sum stands inside another one where it cannot be split off.
+[[nodiscard]] std::optional<SplitSums> split_into_sums(const Model& model, const NodePtr& formula);
+// Does a sum stand there, or in a definition that is named there?
+[[nodiscard]] bool contains_sum(const Model& model, const NodePtr& node);
+[[nodiscard]] const Definition* find_definition(const Model& model, const std::string& name);
 
 // The integer expression as an affine function of the indices; empty if it is none.
 [[nodiscard]] std::optional<AffineIndex> affine(const Model& model, const NodePtr& node,

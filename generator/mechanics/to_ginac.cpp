@@ -40,12 +40,14 @@ TreeConverter::TreeConverter(const Model& model, SymbolTable& table)
     }
   }
   rank = kRankOfParameter;
-  std::map<std::string, Rational> values;  // of all parameters so far, for the folded ones
+  // Of all parameters so far, for the folded ones.
+  std::map<std::string, Rational> values = numbers_of_sizes(model);
+  const bool is_any_folded = std::ranges::any_of(model.parameters, &Parameter::folded);
   for (const Parameter& parameter : model.parameters) {
     parameters_[parameter.name] = {&parameter, rank};
     const long count = parameter.range ? parameter.range->size() : 1;
     rank += static_cast<int>(count);
-    for (long k = 0; k < count; ++k) {
+    for (long k = 0; is_any_folded && k < count; ++k) {
       const std::string name = parameter.range
                                    ? element_name(parameter.name, parameter.range->first + k)
                                    : parameter.name;
@@ -95,7 +97,11 @@ GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
       });
       return ginac_function(call->function, arguments);
     }
-    return convert_sum(std::get<SumNode>(node->value), 0, indices);
+    const auto& sum = std::get<SumNode>(node->value);
+    if (sum_) {
+      if (const auto value = sum_(sum)) return *value;
+    }
+    return convert_sum(sum, 0, indices);
   } catch (const ModelError&) {
     throw;
   } catch (const OverBudget&) {
@@ -136,7 +142,7 @@ GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
     return table_.symbol(element, place);
   }
   for (const Size& size : model_.sizes) {
-    if (size.name == name.name) return size.value;
+    if (size.name == name.name) return size.number;
   }
   for (const Definition& definition : model_.definitions) {
     if (definition.name != name.name) continue;

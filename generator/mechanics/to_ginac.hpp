@@ -30,6 +30,9 @@ class TreeConverter {
   // For loops that stay loops: what a subscripted name stands for, and indices that stay symbols.
   using Element = std::function<std::optional<GiNaC::ex>(const NameNode&)>;
   void set_element(Element element) { element_ = std::move(element); }
+  // What an indexed sum stands for, where it stays a loop.
+  using Sum = std::function<std::optional<GiNaC::ex>(const SumNode&)>;
+  void set_sum(Sum sum) { sum_ = std::move(sum); }
   void set_symbolic_index(const std::string& index) { symbolic_indices_.insert(index); }
 
  private:
@@ -58,6 +61,7 @@ class TreeConverter {
   std::map<std::string, std::pair<const Parameter*, int>> parameters_;
   std::map<std::string, Rational> folded_;
   Element element_;
+  Sum sum_;
   std::set<std::string> symbolic_indices_;
 };
 

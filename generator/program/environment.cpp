@@ -18,8 +18,8 @@ Environment environment_of(const StepEquations& equations, bool arrays) {
     result.parameters.push_back({"E0", "", "energy of the initial state: set it before use", 0});
   }
   result.parameter_layout = layout("Parameters", result.parameters, Defaults::values);
-  result.state_layout =
-      arrays ? array_state(result.variables) : layout("State", result.variables, Defaults::none);
+  result.state_layout = arrays ? array_state(result.variables)
+                               : layout("State", result.variables.elements(), Defaults::none);
   return result;
 }
 
@@ -43,7 +43,7 @@ void Environment::bind_parameters(Routine& routine) const {
 void Environment::load_state(Routine& routine, Body& body,
                              const std::set<std::string>& used) const {
   for (int i = 0; i < 2 * degrees_of_freedom; ++i) {
-    const std::string& name = variables[static_cast<std::size_t>(i)].name;
+    const std::string& name = variables.name(static_cast<std::size_t>(i));
     if (used.contains(name)) body.push_back({Let{name, bind_state(routine, "z", i)}});
   }
 }

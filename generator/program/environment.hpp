@@ -16,7 +16,7 @@ struct Environment {
   int degrees_of_freedom = 0;
   bool arrays = false;               // q and p are two arrays
   std::vector<Quantity> parameters;  // E0 last, if the step uses it
-  std::vector<Quantity> variables;   // 2n
+  QuantityList variables;            // 2n
   Layout parameter_layout;           // of record Parameters
   Layout state_layout;               // of record State
 

@@ -22,7 +22,7 @@ Routine begin(const Environment& environment, std::string name, const Evaluation
     environment.load_state(routine, routine.body, used);
   } else {
     for (int i = 0; i < size; ++i) {
-      const std::string& variable = environment.variables[static_cast<std::size_t>(i)].name;
+      const std::string& variable = environment.variables.name(static_cast<std::size_t>(i));
       if (!used.contains(variable)) continue;
       routine.body.push_back({Let{variable, bind_element(routine, "z", {i})}});
     }

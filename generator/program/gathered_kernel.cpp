@@ -157,7 +157,7 @@ class Gathering {
     return array_of(symbol) + "[" + index_ + text + "]";
   }
   static int rank(const AffineIndex& position) {
-    return kRankOfVariable + static_cast<int>(position.constant % 1000000);
+    return kRankOfVariable + static_cast<int>(position.constant);
   }
 
   const Kernel& kernel_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "generator/program/collective_loops.hpp"
 #include "generator/program/first_loop.hpp"
 #include "generator/program/gathered_kernel.hpp"
 #include "generator/program/lower.hpp"
@@ -46,12 +47,17 @@ class KernelRoutine {
     p_ = {"z", "p"};
     const std::string sum = "(sum)";
     routine_.body.push_back({Let{sum, Expression(0), true}});
+    add_sums();
     add_kernels([&](const Kernel& kernel, Body& body) {
+      if (kernel.sum) return;
       for (const Expression& value : load(kernel, {kernel.value}, body)) {
         body.push_back({Accumulate{sum, value}});
       }
     });
-    routine_.body.push_back({Return{.value = Expression::symbol(sum, kRankOfTemporary)}});
+    const Evaluation rest = evaluate_apart({mechanics_.of_sums}, "part");
+    append(routine_.body, rest.statements);
+    const Expression total = Expression::symbol(sum, kRankOfTemporary) + rest.results.front();
+    routine_.body.push_back({Return{.value = total}});
     return std::move(routine_);
   }
 
@@ -61,7 +67,8 @@ class KernelRoutine {
                        : part_ == Part::kinetic ? "dp[i] = dH/dp_i."
                                                 : "dq[i] = dH/dq_i, dp[i] = dH/dp_i."};
     add_state();
-    for (const Kernel& kernel : mechanics_.kernels) {
+    add_slopes_of_sums();
+    for (const Kernel& kernel : weighted_kernels(mechanics_)) {
       for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
     }
     const std::array begins = {first_loop(kernels_, false, n_), first_loop(kernels_, true, n_)};
@@ -141,6 +148,46 @@ class KernelRoutine {
   }
 
  private:
+  // What H is a function of, as far as it belongs to the part: which of the sums that are.
+  std::set<std::size_t> add_sums() {
+    std::set<std::size_t> used;
+    for (const Kernel& kernel : mechanics_.kernels) {
+      if (!kernel.sum || !belongs(kernel)) continue;
+      used.insert(*kernel.sum);
+      const auto beside = [&](const Kernel& other) { return run_beside(kernel, other); };
+      if (std::ranges::none_of(kernels_, beside)) kernels_.push_back(kernel);
+    }
+    for (const std::size_t k : used)
+      routine_.body.push_back({Let{mechanics_.sums[k].name, Expression(0), true}});
+    if (!used.empty())
+      add_kernels([&](const Kernel& kernel, Body& body) { sum_beside(kernel, body); });
+    kernels_.clear();
+    return used;
+  }
+  void sum_beside(const Kernel& kernel, Body& body) {
+    std::vector<Expression> values;
+    std::vector<std::string> sums;
+    for (const Kernel& each : mechanics_.kernels) {
+      if (!run_beside(each, kernel)) continue;
+      values.push_back(each.value);
+      sums.push_back(mechanics_.sums[*each.sum].name);
+    }
+    const std::vector<Expression> results = load(kernel, values, body);
+    for (std::size_t i = 0; i < results.size(); ++i)
+      body.push_back({Accumulate{sums[i], results[i]}});
+  }
+  // They are factors in all loops.
+  void add_slopes_of_sums() {
+    const std::set<std::size_t> used = add_sums();
+    std::vector<Expression> slopes;
+    for (const std::size_t k : used) slopes.push_back(mechanics_.sums[k].slope_value);
+    const Evaluation evaluation = evaluate_apart(slopes, "part");
+    append(routine_.body, evaluation.statements);
+    auto value = evaluation.results.begin();
+    for (const std::size_t k : used)
+      routine_.body.push_back({Let{mechanics_.sums[k].slope, *value++}});
+  }
+
   // The arrays of the state that the part reads.
   void add_state() {
     if (part_ != Part::kinetic) {
@@ -323,38 +370,6 @@ Routine kernel_gradient(const Environment& environment, const Mechanics& mechani
   return KernelRoutine(environment, mechanics, part).gradient(std::move(name));
 }
 
-Routine both_gradients(const Environment& environment) {
-  const int n = environment.degrees_of_freedom;
-  Routine routine{.name = "gradient", .remark = {"dq[i] = dH/dq_i, dp[i] = dH/dp_i."}};
-  routine.arguments = {parameters_argument()};
-  for (const char* name : {"q", "p", "dq", "dp"}) {
-    routine.arguments.push_back(
-        {.name = name, .sizes = {n}, .changes = name[0] == 'd', .decays = true});
-  }
-  routine.body.push_back(
-      {Call{.routine = "potential_gradient", .arguments = {{"par"}, {"q"}, {"dq"}}}});
-  routine.body.push_back(
-      {Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"p"}, {"dp"}}}});
-  return routine;
-}
-
-Routine array_vector_field(const Environment& environment) {
-  const int n = environment.degrees_of_freedom;
-  Routine routine{.name = "vector_field",
-                  .remark = {"J grad H at a state (q, p)."},
-                  .arguments = {parameters_argument(),
-                                {.name = "x", .sizes = {2 * n}, .decays = true},
-                                {.name = "f", .sizes = {2 * n}, .changes = true, .decays = true}}};
-  const Place second_x{.object = "x", .indices = {{n, {}}}};
-  const Place second_f{.object = "f", .indices = {{n, {}}}};
-  routine.body.push_back(
-      {Call{.routine = "gradient", .arguments = {{"par"}, {"x"}, second_x, second_f, {"f"}}}});
-  routine.places["f(n+i)"] = {.object = "f", .indices = {{n, {{"i", 1}}}}};
-  Body turn{{Assign{"f(n+i)", -Expression::symbol("f(n+i)")}}};
-  routine.body.push_back({For{{"i", {0, {}}, {n - 1, {}}}, std::move(turn)}});
-  return routine;
-}
-
 Routine kernel_masses(const Environment& environment, const Mechanics& mechanics) {
   return KernelRoutine(environment, mechanics, Part::kinetic).masses();
 }
@@ -362,26 +377,6 @@ Routine kernel_masses(const Environment& environment, const Mechanics& mechanics
 Routine kernel_entries(const Environment& environment, const Mechanics& mechanics, Part part,
                        Routine begun, const Place& q, const Place& p, const UseEntry& use) {
   return KernelRoutine(environment, mechanics, part, std::move(begun), q, p).entries(use);
-}
-
-Routine array_hessian(const Environment& environment, const Mechanics& mechanics) {
-  const int n = environment.degrees_of_freedom;
-  Routine begun{.name = "hessian",
-                .remark = {"The second derivatives of H at a state (q, p), added to values."},
-                .arguments = {parameters_argument(),
-                              {.name = "x", .sizes = {2 * n}, .decays = true},
-                              {.name = "values", .sizes = {2 * n, 2 * n}, .changes = true}}};
-  const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
-    Place place{.object = "values"};
-    for (const StateElement* element : {&entry.row, &entry.column}) {
-      place.indices.push_back(element->index);
-      if (element->is_momentum) place.indices.back().constant += n;
-    }
-    routine.places.insert_or_assign(to_text(place), place);
-    body.push_back({Accumulate{to_text(place), entry.value}});
-  };
-  return kernel_entries(environment, mechanics, Part::all, std::move(begun), {"x"},
-                        {"x", {}, {{n, {}}}}, use);
 }
 
 }  // namespace hamgen

@@ -62,8 +62,8 @@ class Lineariser {
     std::vector<std::string> solution;
   };
 
-  [[nodiscard]] const std::string& name(int i) const {
-    return equations_.mechanics.variables[static_cast<std::size_t>(i)].name;
+  [[nodiscard]] std::string name(int i) const {
+    return equations_.mechanics.variables.name(static_cast<std::size_t>(i));
   }
   [[nodiscard]] Expression displacement(int i) const {
     return Expression::symbol("u(" + name(i) + ")", kRankOfVariable + i);

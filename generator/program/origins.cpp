@@ -124,8 +124,8 @@ class TermTracer {
     const std::vector<EnergyTerm>& all = equations_.mechanics.terms;
     const auto& variables = equations_.mechanics.variables;
     for (std::size_t t = 0; t < all.size(); ++t) {
-      if (all[t].variables.contains(variables[static_cast<std::size_t>(i)].name) &&
-          all[t].variables.contains(variables[static_cast<std::size_t>(j)].name)) {
+      if (all[t].variables.contains(variables.name(static_cast<std::size_t>(i))) &&
+          all[t].variables.contains(variables.name(static_cast<std::size_t>(j)))) {
         terms.insert(static_cast<int>(t));
       }
     }

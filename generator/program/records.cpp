@@ -1,10 +1,11 @@
 #include "generator/program/records.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <set>
-#include <span>
 #include <string>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/program/names.hpp"
 
 namespace hamgen {
@@ -20,19 +21,33 @@ std::string remark(const Quantity& quantity) {
 }  // namespace
 
 Place Layout::in(const std::string& object, std::size_t component) const {
-  Place place = places.at(component);
-  place.object = object;
-  return place;
+  for (const Field& field : record.fields) {
+    const auto count = field.sizes.empty() ? 1 : static_cast<std::size_t>(field.sizes.front());
+    if (component >= count) {
+      component -= count;
+      continue;
+    }
+    Place place{.object = object, .field = field.name};
+    if (!field.sizes.empty())
+      place.indices.push_back({.constant = static_cast<long>(component), .factors = {}});
+    return place;
+  }
+  internal_error("a component of no field");
 }
 
 std::vector<std::string> place_texts(const Layout& layout) {
   std::vector<std::string> texts;
-  for (const Place& place : layout.places) texts.push_back(to_text(place).substr(1));
+  if (layout.in_loops) return texts;
+  for (const Field& field : layout.record.fields) {
+    if (field.sizes.empty()) texts.push_back(field.name);
+    for (int i = 0; !field.sizes.empty() && i < field.sizes.front(); ++i)
+      texts.push_back(fmt::format("{}[{}]", field.name, i));
+  }
   return texts;
 }
 
 Layout layout(const std::string& name, const std::vector<Quantity>& quantities, Defaults defaults) {
-  Layout result{.record = {.name = name, .fields = {}}, .places = {}};
+  Layout result{.record = {.name = name, .fields = {}}};
   std::vector<Field>& fields = result.record.fields;
   std::set<std::string> taken;
   std::string last;  // the array whose elements come one after the other
@@ -45,56 +60,41 @@ Layout layout(const std::string& name, const std::vector<Quantity>& quantities, 
       last = element.indexed ? element.base : "";
     }
     Field& field = fields.back();
-    Place place{.object = {}, .field = field.name};
     if (element.indexed) {
       if (field.sizes.empty()) field.sizes.push_back(0);
-      place.indices.push_back({.constant = field.sizes.front()++, .factors = {}});
+      ++field.sizes.front();
     }
     if (defaults == Defaults::values) field.values.push_back(quantity.value);
-    result.places.push_back(std::move(place));
   }
   return result;
 }
 
 namespace {
 
-// "x[0..5], y[0..5]": the arrays that the variables are, one after the other.
-std::string arrays_of(std::span<const Quantity> variables) {
+// "x[0..5], y[0..5]": the arrays that these of the variables are, one after the other.
+std::string arrays_of(const QuantityList& variables, std::size_t first, std::size_t count) {
   std::string text;
-  std::string last;
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const ElementName element = split_element(variables[i].name);
-    if (i > 0 && element.indexed && element.base == last) continue;
-    last = element.base;
-    text += (text.empty() ? "" : ", ") + variables[i].name;
-    if (!element.indexed) continue;
-    const auto end =
-        std::find_if(variables.begin() + static_cast<std::ptrdiff_t>(i), variables.end(),
-                     [&](const Quantity& other) { return split_element(other.name).base != last; });
-    const std::string& name = std::prev(end)->name;
-    text.pop_back();
-    text += ".." + name.substr(name.find('[') + 1);
+  for (const QuantityList::Run& run : variables.runs()) {
+    if (run.begin < first || run.begin >= first + count) continue;
+    text += (text.empty() ? "" : ", ") + run.of.name;
+    if (!run.indexed) continue;
+    text += fmt::format("[{}..{}]", run.first, run.first + static_cast<long>(run.count) - 1);
   }
   return text;
 }
 
 }  // namespace
 
-Layout array_state(const std::vector<Quantity>& variables) {
-  Layout result{.record = {.name = "State", .fields = {}}, .places = {}};
+Layout array_state(const QuantityList& variables) {
+  Layout result{.record = {.name = "State", .fields = {}}, .in_loops = true};
   const std::size_t n = variables.size() / 2;
   for (const char* name : {"q", "p"}) {
-    const std::span<const Quantity> own = std::span(variables).subspan(*name == 'q' ? 0 : n, n);
-    const bool says_itself =
-        split_element(own.front().name).base == name && split_element(own.back().name).base == name;
+    const std::size_t first = *name == 'q' ? 0 : n;
+    const bool says_itself = split_element(variables.name(first)).base == name &&
+                             split_element(variables.name(first + n - 1)).base == name;
     result.record.fields.push_back({.name = name,
                                     .sizes = {static_cast<int>(n)},
-                                    .remark = says_itself ? "" : arrays_of(own)});
-    for (std::size_t i = 0; i < n; ++i) {
-      result.places.push_back({.object = {},
-                               .field = name,
-                               .indices = {{.constant = static_cast<long>(i), .factors = {}}}});
-    }
+                                    .remark = says_itself ? "" : arrays_of(variables, first, n)});
   }
   return result;
 }

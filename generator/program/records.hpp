@@ -13,11 +13,11 @@ namespace hamgen {
 // one field.
 struct Layout {
   Record record;
-  std::vector<Place> places;  // of the components, of no object yet
+  bool in_loops = false;  // its components are met in loops only
   [[nodiscard]] Place in(const std::string& object, std::size_t component) const;
 };
 
-// "q", "q[2]": how they stand in their record.
+// "q", "q[2]": how they stand in their record, unless they are met in loops only.
 [[nodiscard]] std::vector<std::string> place_texts(const Layout& layout);
 
 // Whether the values of the quantities are what the fields begin with.
@@ -26,6 +26,6 @@ enum class Defaults { none, values };
                             Defaults defaults);
 
 // q and p as two arrays, whatever the model calls their parts.
-[[nodiscard]] Layout array_state(const std::vector<Quantity>& variables);
+[[nodiscard]] Layout array_state(const QuantityList& variables);
 
 }  // namespace hamgen

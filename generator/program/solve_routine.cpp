@@ -43,8 +43,8 @@ class SolveRoutine {
 
  private:
   [[nodiscard]] int size() const { return 2 * environment_.degrees_of_freedom; }
-  [[nodiscard]] const std::string& variable(int i) const {
-    return environment_.variables[static_cast<std::size_t>(i)].name;
+  [[nodiscard]] std::string variable(int i) const {
+    return environment_.variables.name(static_cast<std::size_t>(i));
   }
 
   void add_arguments(const SolveParts& parts) {

@@ -44,7 +44,7 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   lowering_.declare("h", kCoefficients);
   lowering_.declare("E0", kCoefficients);
   for (int i = 0; i < 2 * n_; ++i) {
-    lowering_.declare(equations_.mechanics.variables[index(i)].name, before(0));
+    lowering_.declare(equations_.mechanics.variables.name(index(i)), before(0));
     lowering_.declare("carry(" + name_of(i) + ")", before(0));
     stage_value_.push_back(equations_.stage(i));
     gradient_.push_back(equations_.gradient_symbol(i));
@@ -101,8 +101,8 @@ Expression StepBuilder::carry_symbol(int i) const {
   return Expression::symbol("carry(" + name_of(i) + ")", kRankOfTemporary);
 }
 
-const std::string& StepBuilder::name_of(int i) const {
-  return equations_.mechanics.variables[index(i)].name;
+std::string StepBuilder::name_of(int i) const {
+  return equations_.mechanics.variables.name(index(i));
 }
 
 std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
@@ -277,7 +277,7 @@ void StepBuilder::add_quadratic(int i) {
     c1 += -(w * slope_at(z));
     c2 += -(w * Expression(Rational(1, 2)) * (slope_at(Expression(1)) - slope_at(Expression(0))));
   }
-  const std::string& name = equations_.mechanics.variables[index(i)].name;
+  const std::string& name = equations_.mechanics.variables.name(index(i));
   auto named = [&](const std::string& what, const Expression& value) {
     const Expression symbol = Expression::symbol(what + "(" + name + ")", kRankOfTemporary + i);
     define(symbol, value, straight());

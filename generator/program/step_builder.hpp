@@ -58,7 +58,7 @@ class StepBuilder {
   // Opens a stage for the next solve.
   void open_solve();
   void define(const Expression& symbol, const Expression& value, int section);
-  [[nodiscard]] const std::string& name_of(int i) const;
+  [[nodiscard]] std::string name_of(int i) const;
 
   // Note [rounding without bias]
   // What is small is summed first, and what rounding took from z comes with it: the step starts

@@ -35,7 +35,7 @@ Routine tangent_routine(const Environment& environment, std::string name,
     return symbol;
   };
   for (int i = 0; i < size; ++i) {
-    const std::string& variable = environment.variables[static_cast<std::size_t>(i)].name;
+    const std::string& variable = environment.variables.name(static_cast<std::size_t>(i));
     bind("dz(" + variable + ")", environment.place("dz", i));
     bind("u(" + variable + ")", {"u", "", {{i, {}}}});
   }

@@ -43,8 +43,8 @@ class InterfaceText {
           {std::string(tested_text("shells/plugin_tangent"))});
     }
     add("the list of the variables", list("variable", program_.environment.variables));
-    add("the list of the parameters", list("parameter", program_.environment.parameters));
-    add("the list of the invariants", list("invariant", program_.facts.invariants));
+    add("the list of the parameters", list("parameter", names_of(program_.environment.parameters)));
+    add("the list of the invariants", list("invariant", names_of(program_.facts.invariants)));
     add("the table of the interface", table());
     add("the entry of the plugin",
         {fmt::format("extern \"C\" const hamgen_plugin* hamgen_plugin_entry() {{"
@@ -112,22 +112,12 @@ class InterfaceText {
   }
 
   // Elements of an array that follow each other are one entry.
-  [[nodiscard]] static Pattern list(const std::string& of, const std::vector<Quantity>& all) {
+  [[nodiscard]] static Pattern list(const std::string& of, const QuantityList& all) {
     std::string text = fmt::format("const hamgen_quantity {}_list[] = {{", of);
-    for (std::size_t i = 0; i < all.size();) {
-      const auto bracket = all[i].name.find('[');
-      const std::string base = all[i].name.substr(0, bracket);
-      const long first =
-          bracket == std::string::npos ? 0 : std::stol(all[i].name.substr(bracket + 1));
-      std::size_t end = i + 1;
-      while (bracket != std::string::npos && end < all.size() &&
-             all[end].name == fmt::format("{}[{}]", base, first + static_cast<long>(end - i)))
-        ++end;
-      text += fmt::format("{{{}, {}, {}, {}, {}, {}}},", cpp_string(base), cpp_string(all[i].unit),
-                          cpp_string(all[i].comment), bracket == std::string::npos ? 0 : 1, first,
-                          end - i);
-      i = end;
-    }
+    for (const QuantityList::Run& run : all.runs())
+      text += fmt::format("{{{}, {}, {}, {}, {}, {}}},", cpp_string(run.of.name),
+                          cpp_string(run.of.unit), cpp_string(run.of.comment), run.indexed ? 1 : 0,
+                          run.first, run.count);
     return {text + "{}};"};
   }
 

@@ -34,6 +34,9 @@ struct SchemeWish {
 // A composition's coefficients used with the Stormer-Verlet step instead of a member's.
 [[nodiscard]] Scheme with_verlet(const Scheme& composition);
 
+// For how many degrees of freedom a member of the system has entries of C: in loops all share those
+// of one.
+[[nodiscard]] int entries_for(const Mechanics& mechanics);
 // The scheme for one system: a member gets its degrees of freedom.  Throws UsageError, with an
 // alternative, if the scheme needs what the system does not have.
 [[nodiscard]] Scheme for_system(const Scheme& scheme, const Mechanics& mechanics);

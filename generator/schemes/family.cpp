@@ -248,6 +248,18 @@ std::optional<FamilyParameters> uniform_parameters(const Member& member) {
   return first;
 }
 
+Member of_all(const Member& member, int n) {
+  if (member.degrees_of_freedom != 1) return member;
+  Member all = member;
+  all.degrees_of_freedom = n;
+  all.c.clear();
+  for (const auto& [place, entry] : member.c) {
+    for (int i = 0; i < n; ++i)
+      all.c.emplace(std::pair(place.first * n + i, place.second * n + i), entry);
+  }
+  return all;
+}
+
 bool has_beta(const Member& member) {
   const int n = member.degrees_of_freedom;
   for (const auto& [place, value] : member.c) {

@@ -29,6 +29,7 @@ bool is_quadratic_in_momenta(const Mechanics& mechanics) {
   }
   for (const Kernel& kernel : mechanics.kernels) {
     if (!uses_momenta(kernel)) continue;
+    if (kernel.sum) return false;
     const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
     for (const Slot& slot : kernel.slots) {
       if (beyond.contains(slot.symbol)) return false;
@@ -53,10 +54,14 @@ std::string alternative(const Scheme& scheme) {
 
 }  // namespace
 
+int entries_for(const Mechanics& mechanics) {
+  return mechanics.keeps_sums() ? 1 : mechanics.degrees_of_freedom;
+}
+
 Scheme for_system(const Scheme& scheme, const Mechanics& mechanics) {
   if (const auto* member = std::get_if<Member>(&scheme.method)) {
     const auto [alpha, beta, gamma] = uniform_parameters(*member).value();
-    return family_member(mechanics.degrees_of_freedom, {{alpha}}, {{beta}}, {{gamma}});
+    return family_member(entries_for(mechanics), {{alpha}}, {{beta}}, {{gamma}});
   }
   if (std::holds_alternative<Splitting>(scheme.method)) {
     if (!mechanics.is_separable()) {

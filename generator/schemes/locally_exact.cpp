@@ -44,7 +44,7 @@ std::string other_point(const Mechanics& mechanics, const Values& reference) {
     Values point = reference;
     std::string text;
     for (std::size_t i = 0; i < mechanics.variables.size(); ++i) {
-      const std::string& name = mechanics.variables[i].name;
+      const std::string& name = mechanics.variables.name(i);
       point[name] = i < moved ? static_cast<long>(i + 1) : 0L;
       if (i < moved) text += fmt::format("{}{}={}", i == 0 ? "" : ",", name, i + 1);
     }
@@ -67,8 +67,8 @@ RationalMatrix linear_part(const Mechanics& mechanics, const Values& reference) 
       throw UsageError(fmt::format(
           "--gauge locally-exact: the second derivative of H by {} and {} is not defined {}\n"
           "help: choose another point{}",
-          mechanics.variables[static_cast<std::size_t>(first)].name,
-          mechanics.variables[static_cast<std::size_t>(second)].name,
+          mechanics.variables.name(static_cast<std::size_t>(first)),
+          mechanics.variables.name(static_cast<std::size_t>(second)),
           place_text(mechanics, reference), other_point(mechanics, reference)));
     }
     for (const auto& [i, j] : {std::pair(first, second), std::pair(second, first)}) {

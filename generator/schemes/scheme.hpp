@@ -96,6 +96,8 @@ struct FamilyParameters {
   Expression alpha, beta, gamma;
 };
 [[nodiscard]] std::optional<FamilyParameters> uniform_parameters(const Member& member);
+// C of n degrees of freedom, if the member has the entries of one that all of them share.
+[[nodiscard]] Member of_all(const Member& member, int n);
 [[nodiscard]] bool has_beta(const Member& member);
 [[nodiscard]] bool has_gamma(const Member& member);
 

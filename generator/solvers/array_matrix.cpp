@@ -30,12 +30,12 @@ int place(const ArrayMatrix& order, int i) {
 int equal_arrays(const Mechanics& mechanics, int size) {
   std::vector<int> lengths;
   std::string last;
-  for (int i = 0; i < size; ++i) {
-    const std::string& name = mechanics.variables[static_cast<std::size_t>(i)].name;
-    const std::string base = name.substr(0, name.find('['));
-    if (i == 0 || base != last) lengths.push_back(0);
-    ++lengths.back();
-    last = base;
+  for (const QuantityList::Run& run : mechanics.variables.runs()) {
+    const int left = size - static_cast<int>(run.begin);
+    if (left <= 0) break;
+    if (run.begin == 0 || run.of.name != last) lengths.push_back(0);
+    lengths.back() += std::min(left, static_cast<int>(run.count));
+    last = run.of.name;
   }
   const bool equal = std::ranges::all_of(lengths, [&](int l) { return l == lengths.front(); });
   return equal ? static_cast<int>(lengths.size()) : 1;

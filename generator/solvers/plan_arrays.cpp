@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "generator/base/diagnostic.hpp"
 #include "generator/solvers/array_matrix.hpp"
 #include "generator/solvers/cost.hpp"
 #include "generator/solvers/solve_plan.hpp"
@@ -36,7 +37,8 @@ bool has_diagonal_hessian(const Kernel& kernel) {
 
 bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
   return std::ranges::all_of(mechanics.kernels, [](const Kernel& kernel) {
-    return !uses_momenta(kernel) || (has_constant_hessian(kernel) && has_diagonal_hessian(kernel));
+    return !uses_momenta(kernel) ||
+           (!kernel.sum && has_constant_hessian(kernel) && has_diagonal_hessian(kernel));
   });
 }
 
@@ -147,7 +149,12 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
   } else {
     arrays.reduced = separable && has_diagonal_kinetic_energy(mechanics);
     if (arrays.reduced) arrays.mass = uniform_mass(mechanics);
-    if (wish.kind == Kind::fixed_point) {
+    const bool of_sums = !mechanics.sums.empty();
+    if (of_sums && wish.kind == Kind::newton)
+      throw UsageError(
+          "--solver newton: H is a function of sums over all elements, whose second derivatives "
+          "are not made\nhelp: --solver fixed-point");
+    if (wish.kind == Kind::fixed_point || of_sums) {
       arrays.method = ArrayMethod::fixed_point;
     } else {
       arrays.constant_matrix = std::ranges::all_of(mechanics.kernels, has_constant_hessian);
@@ -163,6 +170,8 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
   if (member.gamma.is_zero()) plan.left_out.emplace_back("gamma terms: gamma = 0");
   plan.left_out.push_back(
       fmt::format("expansion of the sums: {} degrees of freedom stay loops", n));
+  if (!mechanics.sums.empty() && arrays.method == ArrayMethod::fixed_point)
+    plan.left_out.emplace_back("Newton's matrix: H is a function of sums over all elements");
   if (arrays.matrix && !uses_eigen(arrays)) {
     plan.left_out.push_back(without_eigen(*arrays.matrix));
   }

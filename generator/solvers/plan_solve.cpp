@@ -9,8 +9,8 @@ namespace hamgen {
 
 namespace {
 
-const std::string& name_of(const StepEquations& equations, int i) {
-  return equations.mechanics.variables[static_cast<std::size_t>(i)].name;
+std::string name_of(const StepEquations& equations, int i) {
+  return equations.mechanics.variables.name(static_cast<std::size_t>(i));
 }
 
 // "q, x[1..8], p[2]": runs of array elements in short.
@@ -44,7 +44,7 @@ std::string names_of(const StepEquations& equations, std::vector<int> variables)
 std::vector<int> needed_stages(const StepEquations& equations) {
   std::vector<bool> needed(equations.mechanics.variables.size(), false);
   std::map<std::string, std::size_t> place;
-  for (std::size_t i = 0; i < needed.size(); ++i) place[equations.mechanics.variables[i].name] = i;
+  for (std::size_t i = 0; i < needed.size(); ++i) place[equations.mechanics.variables.name(i)] = i;
   std::set<std::string> names;
   for (const Expression& component : equations.mechanics.gradient) {
     collect_symbols(component, names);

@@ -35,7 +35,12 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const SolverWish& w
   const std::size_t size =
       2 * stages * static_cast<std::size_t>(plan.equations.mechanics.degrees_of_freedom);
   using Kind = SolverWish::Kind;
-  const bool newton = size <= kLargestElimination;
+  const bool of_sums = !plan.equations.mechanics.sums.empty();
+  const bool newton = size <= kLargestElimination && !of_sums;
+  if (wish.kind == Kind::newton && of_sums)
+    throw UsageError(
+        "--solver newton: H is a function of sums over all elements, whose second derivatives are "
+        "not made\nhelp: --solver fixed-point");
   if (wish.kind == Kind::newton && !newton) {
     throw UsageError(
         fmt::format("--solver newton: its system has size {}, and dense elimination is "
@@ -43,7 +48,9 @@ void plan_stages(SolvePlan& plan, const RungeKutta& tableau, const SolverWish& w
                     "fewer stages",
                     size, kLargestElimination));
   }
-  if (!newton) {
+  if (of_sums) {
+    plan.left_out.emplace_back("Newton's matrix: H is a function of sums over all elements");
+  } else if (!newton) {
     plan.left_out.push_back(fmt::format("Newton: the system of size {} is too large", size));
   }
   plan.stage_solver = wish.kind == Kind::newton                   ? StageSolver::newton

@@ -39,17 +39,6 @@ const Expression* find_symbol(const Expression& e, const std::string& name) {
   return nullptr;
 }
 
-// C by the same entries for all degrees of freedom, written out.
-SparseMatrix full_matrix(const Member& member, int n) {
-  if (member.degrees_of_freedom == n) return member.c;
-  SparseMatrix c;
-  for (const auto& [place, entry] : member.c) {
-    for (int i = 0; i < n; ++i)
-      c.emplace(std::pair(place.first * n + i, place.second * n + i), entry);
-  }
-  return c;
-}
-
 SparseMatrix times(const SparseMatrix& c, const SparseRationalMatrix& l) {
   SparseMatrix result;
   for (const auto& [place, entry] : c) {
@@ -87,7 +76,7 @@ std::optional<SparseMatrix> in_new_variables(const LinearChange& change, const S
 }
 
 bool change_member(const LinearChange& change, Member& member) {
-  std::optional<SparseMatrix> c = in_new_variables(change, full_matrix(member, change.from));
+  std::optional<SparseMatrix> c = in_new_variables(change, of_all(member, change.from).c);
   if (!c) return false;
   member.c = std::move(*c);
   member.degrees_of_freedom = change.to;
@@ -128,7 +117,7 @@ Substitution new_variables(const LinearChange& change, const Mechanics& mechanic
     sums[place.first].push_back(Expression(entry) * new_variable(change, place.second));
   Substitution result;
   for (int i = 0; i < 2 * change.from; ++i)
-    result.emplace(mechanics.variables[at_place(i)].name, Expression::sum(sums[i]));
+    result.emplace(mechanics.variables.name(at_place(i)), Expression::sum(sums[i]));
   result.merge(united_parameters(change.united, mechanics.energy));
   return result;
 }
@@ -137,7 +126,7 @@ Mechanics in_new_variables(const LinearChange& change, const Mechanics& mechanic
   const Substitution replacements = new_variables(change, mechanics);
   Mechanics result = mechanics;
   result.degrees_of_freedom = change.to;
-  result.variables = change.variables;
+  result.variables = QuantityList(change.variables);
   result.energy = substitute(mechanics.energy, replacements);
   result.gradient.clear();
   result.hessian.clear();

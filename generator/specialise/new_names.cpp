@@ -5,7 +5,8 @@
 namespace hamgen {
 
 NewNames::NewNames(const Mechanics& mechanics) {
-  for (const auto* list : {&mechanics.variables, &mechanics.parameters, &mechanics.constants}) {
+  for (const QuantityList::Run& run : mechanics.variables.runs()) taken_.insert(run.of.name);
+  for (const auto* list : {&mechanics.parameters, &mechanics.constants}) {
     for (const Quantity& each : *list) taken_.insert(each.name.substr(0, each.name.find('[')));
   }
   for (const NamedExpression& each : mechanics.invariants) taken_.insert(each.name);

@@ -73,7 +73,7 @@ Pairs starting_at_zero(const Mechanics& mechanics, const SceneFacts& scene) {
   for (int i = 0; i < n; ++i) {
     if (mechanics.has_time && i == n - 1) continue;
     if (scene.values.q[at(i)] != 0 || scene.values.p[at(i)] != 0) continue;
-    if (is_kept(mechanics.variables[at(i)].name) || is_kept(mechanics.variables[at(n + i)].name))
+    if (is_kept(mechanics.variables.name(at(i))) || is_kept(mechanics.variables.name(at(n + i))))
       continue;
     pairs.insert(i);
   }
@@ -89,13 +89,13 @@ void keep_whole_arrays(const Mechanics& mechanics, Pairs& pairs) {
   std::set<std::string> broken;
   for (int i = 0; i < n; ++i) {
     if (!pairs.contains(i)) {
-      broken.insert(base_of(mechanics.variables[at(i)].name));
-      broken.insert(base_of(mechanics.variables[at(n + i)].name));
+      broken.insert(base_of(mechanics.variables.name(at(i))));
+      broken.insert(base_of(mechanics.variables.name(at(n + i))));
     }
   }
   std::erase_if(pairs, [&](int i) {
-    return broken.contains(base_of(mechanics.variables[at(i)].name)) ||
-           broken.contains(base_of(mechanics.variables[at(n + i)].name));
+    return broken.contains(base_of(mechanics.variables.name(at(i)))) ||
+           broken.contains(base_of(mechanics.variables.name(at(n + i))));
   });
 }
 
@@ -119,8 +119,8 @@ Substitution zeros_of(const Mechanics& mechanics, const Pairs& pairs) {
   const int n = mechanics.degrees_of_freedom;
   Substitution zeros;
   for (const int i : pairs) {
-    zeros.emplace(mechanics.variables[at(i)].name, Expression(0));
-    zeros.emplace(mechanics.variables[at(n + i)].name, Expression(0));
+    zeros.emplace(mechanics.variables.name(at(i)), Expression(0));
+    zeros.emplace(mechanics.variables.name(at(n + i)), Expression(0));
   }
   return zeros;
 }
@@ -151,7 +151,7 @@ Pairs driven(const Mechanics& mechanics, const Pairs& pairs) {
 // Members that a row of C moves.
 Pairs driven(const Member& member, const Pairs& pairs, int n) {
   Pairs result;
-  for (const auto& [place, entry] : member.c) {
+  for (const auto& [place, entry] : of_all(member, n).c) {
     const int row = place.first % n;
     if (pairs.contains(row) && !pairs.contains(place.second % n) && !vanishes(entry))
       result.insert(row);
@@ -165,6 +165,7 @@ std::vector<int> resting(const Mechanics& mechanics, const Scheme& scheme,
                          const SceneFacts& scene) {
   const Member* member = member_of(scheme);
   if (member != nullptr && !gauge_defect(*member).empty()) return {};
+  if (!mechanics.sums.empty()) return {};  // to which also what rests adds
   Pairs pairs = starting_at_zero(mechanics, scene);
   while (!pairs.empty()) {
     if (mechanics.keeps_sums()) keep_whole_arrays(mechanics, pairs);
@@ -187,13 +188,13 @@ std::string to_text(const std::vector<int>& resting, const Mechanics& mechanics)
   for (const bool momenta : {false, true}) {
     std::map<std::string, std::pair<int, int>> arrays;  // elements that rest, all elements
     for (int i = 0; i < n; ++i) {
-      auto& [rest, all] = arrays[base_of(mechanics.variables[at(momenta ? n + i : i)].name)];
+      auto& [rest, all] = arrays[base_of(mechanics.variables.name(at(momenta ? n + i : i)))];
       rest += pairs.contains(i) ? 1 : 0;
       ++all;
     }
     std::set<std::string> said;
     for (const int i : resting) {
-      const std::string& name = mechanics.variables[at(momenta ? n + i : i)].name;
+      const std::string& name = mechanics.variables.name(at(momenta ? n + i : i));
       const auto& [rest, all] = arrays[base_of(name)];
       const std::string text = rest == all && all > 1 ? base_of(name) : name;
       if (said.insert(text).second) names.push_back(text);

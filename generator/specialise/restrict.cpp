@@ -25,7 +25,7 @@ std::vector<int> new_places(int n, const std::vector<int>& kept) {
 // A momentum that has become a parameter.
 Expression constant_momentum(const Mechanics& whole, int i) {
   const auto place = place_at(whole.degrees_of_freedom + i);
-  return Expression::symbol(whole.variables[place].name, kRankOfParameter + 50'000 + i);
+  return Expression::symbol(whole.variables.name(place), kRankOfParameter + 50'000 + i);
 }
 
 // H without the terms of variables nobody looks at, which stand in no other term.
@@ -47,7 +47,7 @@ Expression without(const Expression& energy, const std::set<std::string>& names)
 Substitution renumbered(const Mechanics& whole, const std::vector<int>& places) {
   Substitution replacements;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::string& name = whole.variables[i].name;
+    const std::string& name = whole.variables.name(i);
     replacements.emplace(name, places[i] < 0
                                    ? Expression(0)
                                    : Expression::symbol(name, kRankOfVariable + places[i]));
@@ -74,7 +74,7 @@ Kernel restricted(const Kernel& kernel, const std::vector<int>& places, const Me
     const int place = places[static_cast<std::size_t>(position)];
     if (place < 0) {
       zeros.emplace(kernel.slots[s].symbol, Expression(0));
-      if (unknown.contains(whole.variables[place_at(static_cast<int>(position))].name))
+      if (unknown.contains(whole.variables.name(place_at(static_cast<int>(position)))))
         unknown_slots.insert(kernel.slots[s].symbol);
       continue;
     }
@@ -117,8 +117,8 @@ Expression restrict_to(const Expression& e, const Mechanics& whole, const std::v
                        const Unobserved& left) {
   std::set<std::string> unknown;
   for (const int i : left.dropped) {
-    unknown.insert(whole.variables[place_at(i)].name);
-    unknown.insert(whole.variables[place_at(whole.degrees_of_freedom + i)].name);
+    unknown.insert(whole.variables.name(place_at(i)));
+    unknown.insert(whole.variables.name(place_at(whole.degrees_of_freedom + i)));
   }
   return substitute(without(e, unknown),
                     renumbered(whole, new_places(whole.degrees_of_freedom, kept)));
@@ -131,12 +131,12 @@ Mechanics restrict_to(const Mechanics& mechanics, const std::vector<int>& kept,
   const std::vector<int> places = new_places(n, kept);
   Substitution replacements = renumbered(mechanics, places);
   for (const int i : left.cyclic)
-    replacements.insert_or_assign(mechanics.variables[place_at(n + i)].name,
+    replacements.insert_or_assign(mechanics.variables.name(place_at(n + i)),
                                   constant_momentum(mechanics, i));
   std::set<std::string> unknown;
   for (const int i : left.dropped) {
-    unknown.insert(mechanics.variables[place_at(i)].name);
-    unknown.insert(mechanics.variables[place_at(n + i)].name);
+    unknown.insert(mechanics.variables.name(place_at(i)));
+    unknown.insert(mechanics.variables.name(place_at(n + i)));
   }
   const auto here = [&replacements](const Expression& e) { return substitute(e, replacements); };
   Mechanics result = mechanics;

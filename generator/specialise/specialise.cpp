@@ -77,6 +77,7 @@ void drop_resting(const SceneFacts& facts, Specialised& system) {
 }
 
 void drop_unobserved(const std::set<std::string>& named, Specialised& system) {
+  if (!system.mechanics.sums.empty()) return;  // which move all of their elements
   const Mechanics before = system.mechanics;
   const Unobserved left =
       unobserved(before, system.scheme, observed_names(before, system.scheme, named));

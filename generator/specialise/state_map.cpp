@@ -48,7 +48,7 @@ StateMap state_map(const Specialised& system) {
   for (const int i : system.left.dropped) part(i).known = part(w + i).known = false;
   for (const int i : system.left.cyclic) {
     part(i).known = false;
-    map.constants.emplace(system.whole.variables[static_cast<std::size_t>(w + i)].name,
+    map.constants.emplace(system.whole.variables.name(static_cast<std::size_t>(w + i)),
                           part(w + i));
   }
   const auto m = static_cast<int>(system.kept.size());
@@ -56,7 +56,7 @@ StateMap state_map(const Specialised& system) {
     for (int k = 0; k < m; ++k) {
       const int v = half * w + system.kept[static_cast<std::size_t>(k)];
       map.step.push_back(part(v));
-      map.step_names.push_back(system.whole.variables[static_cast<std::size_t>(v)].name);
+      map.step_names.push_back(system.whole.variables.name(static_cast<std::size_t>(v)));
       part(v) = {.known = true, .of = {{half * m + k, Rational(1)}}, .at_start = {}};
     }
   }

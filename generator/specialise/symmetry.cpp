@@ -88,7 +88,7 @@ class SymmetrySearch {
   // A symmetry is found at the first or second try of nearly every degree of freedom.
   [[nodiscard]] int most_tries() const { return 20 * n_; }
 
-  [[nodiscard]] const std::string& name(int i) const { return mechanics_.variables[spot(i)].name; }
+  [[nodiscard]] std::string name(int i) const { return mechanics_.variables.name(spot(i)); }
 
   // Every degree of freedom, those of common terms one after the other.
   [[nodiscard]] std::vector<int> near_first(int from) const {
@@ -239,8 +239,8 @@ class BySymmetry {
     const auto named = [this](const std::string& name) {
       return scene_.kept.contains(name) || scene_.kept.contains(name.substr(0, name.find('[')));
     };
-    return named(mechanics_.variables[spot(i)].name) ||
-           named(mechanics_.variables[spot(n_ + i)].name);
+    return named(mechanics_.variables.name(spot(i))) ||
+           named(mechanics_.variables.name(spot(n_ + i)));
   }
   [[nodiscard]] bool begins_alike(int i, int j, int sign) const {
     if (i == j && sign == 1) return true;
@@ -286,7 +286,7 @@ class BySymmetry {
     return equal;
   }
 
-  [[nodiscard]] const std::string& name(int i) const { return mechanics_.variables[spot(i)].name; }
+  [[nodiscard]] std::string name(int i) const { return mechanics_.variables.name(spot(i)); }
 
   // False if nothing is left.
   bool fill() {

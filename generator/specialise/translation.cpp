@@ -32,8 +32,8 @@ class ByTranslation {
 
  private:
   [[nodiscard]] int coordinates() const { return mechanics_.has_time ? n_ - 1 : n_; }
-  [[nodiscard]] const std::string& name(int i) const {
-    return mechanics_.variables[static_cast<std::size_t>(i)].name;
+  [[nodiscard]] std::string name(int i) const {
+    return mechanics_.variables.name(static_cast<std::size_t>(i));
   }
   // Does H depend on the coordinate?
   [[nodiscard]] bool mechanics_moves(int i) const { return depends_on(mechanics_.energy, name(i)); }
@@ -91,7 +91,8 @@ class ByTranslation {
 
   // q_i = Q_i + Q_last and q_last = Q_last, so that P_i = p_i and P_last is their sum.
   LinearChange change() const {
-    LinearChange result{.from = n_, .to = n_, .a = {}, .b = {}, .variables = mechanics_.variables};
+    LinearChange result{
+        .from = n_, .to = n_, .a = {}, .b = {}, .variables = mechanics_.variables.elements()};
     for (int i = 0; i < n_; ++i) {
       result.a[{i, i}] = 1;
       result.b[{i, i}] = 1;

@@ -16,7 +16,7 @@ class Reachability {
   Reachability(const Mechanics& mechanics, const Scheme& scheme)
       : mechanics_(mechanics), n_(mechanics.degrees_of_freedom) {
     if (scheme.has_member()) {
-      for (const auto& [place, entry] : scheme.member().c) {
+      for (const auto& [place, entry] : of_all(scheme.member(), n_).c) {
         if (!vanishes(entry)) c_[place.first].insert(place.second);
       }
     }
@@ -54,9 +54,7 @@ class Reachability {
   }
 
  private:
-  const std::string& name(int i) const {
-    return mechanics_.variables[static_cast<std::size_t>(i)].name;
-  }
+  std::string name(int i) const { return mechanics_.variables.name(static_cast<std::size_t>(i)); }
   // The component of the gradient that moves z_i.
   const Expression& mover(int i) const {
     return mechanics_.gradient[static_cast<std::size_t>(i < n_ ? i + n_ : i - n_)];
@@ -116,7 +114,7 @@ class ArrayReachability {
   // By the name of a coordinate or of a momentum, or of an element.
   void need(const std::string& name) {
     for (int v = 0; v < 2 * n_; ++v) {
-      const std::string& each = mechanics_.variables[static_cast<std::size_t>(v)].name;
+      const std::string& each = mechanics_.variables.name(static_cast<std::size_t>(v));
       if (each == name || array_of(each) == name) need_array(coordinates_of(v));
     }
   }
@@ -132,7 +130,7 @@ class ArrayReachability {
  private:
   // The array of the coordinate that z_v belongs to.
   [[nodiscard]] std::string coordinates_of(int v) const {
-    return array_of(mechanics_.variables[static_cast<std::size_t>(v % n_)].name);
+    return array_of(mechanics_.variables.name(static_cast<std::size_t>(v % n_)));
   }
   [[nodiscard]] std::string array_of_slot(const Slot& slot, const Kernel& kernel) const {
     std::vector<long> first;
@@ -154,7 +152,7 @@ class ArrayReachability {
 std::string names_of(const std::vector<int>& pairs, int first, const Mechanics& mechanics) {
   std::vector<std::string> names;
   for (const int i : pairs) {
-    const std::string& name = mechanics.variables[static_cast<std::size_t>(first + i)].name;
+    const std::string& name = mechanics.variables.name(static_cast<std::size_t>(first + i));
     const std::string text = mechanics.keeps_sums() ? array_of(name) : name;
     if (std::ranges::find(names, text) == names.end()) names.push_back(text);
   }

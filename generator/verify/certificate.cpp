@@ -126,7 +126,7 @@ class CertificateWriter {
     certificate_.symmetric = symmetric;
     const auto n = static_cast<std::size_t>(mechanics_.degrees_of_freedom);
     for (std::size_t i = 0; i < 2 * n; ++i) {
-      const std::string& name = mechanics_.variables[i].name;
+      const std::string& name = mechanics_.variables.name(i);
       (i < n ? certificate_.coordinates : certificate_.momenta).push_back(name);
     }
     for (const Quantity& parameter : mechanics_.parameters)

@@ -60,11 +60,11 @@ class Outline {
     events_.push_back({.kind = Event::local, .text = local(let.symbol)});
   }
   void operator()(const Assign& assign) {
-    read(assign.value);
+    read_multiple(assign.value);
     use(Event::set, assign.symbol);
   }
   void operator()(const Accumulate& sum) {
-    read(sum.value);
+    read_multiple(sum.value);
     use(Event::add, sum.symbol);
   }
   void operator()(const Collect& sum) {
@@ -190,6 +190,7 @@ class Outline {
     CodeEvent event{.kind = Event::loop, .text = range.index};
     for (const AffineIndex* bound : {&range.lower, &range.upper}) {
       event.numbers.push_back(bound->constant);
+      if (bound == &range.upper) event.names.emplace_back(kUpTo);
       for (const auto& [name, factor] : bound->factors) {
         event.names.push_back(name);
         event.numbers.push_back(factor);
@@ -242,6 +243,18 @@ class Outline {
   }
   void read(const std::vector<Expression>& values) {
     for (const Expression& value : values) read(value);
+  }
+  // A symbol that is there by itself, or a multiple of it, is marked.
+  void read_multiple(const Expression& value) {
+    const Expression* symbol = &value;
+    if (value.kind() == Kind::product && value.operands().size() == 2 &&
+        value.operands()[0].kind() == Kind::number) {
+      read(value.operands()[0]);
+      symbol = &value.operands()[1];
+    }
+    if (symbol->kind() != Kind::symbol) return read(value);
+    word(kAlone);
+    read(*symbol);
   }
   // A number in a value is no place: it has to be the same.
   void read(const Expression& e) {

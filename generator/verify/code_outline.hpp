@@ -11,13 +11,18 @@
 
 namespace hamgen {
 
+// Among the names of a loop: those of its upper end follow.
+inline constexpr const char* kUpTo = "to";
+// The word before a symbol of which a multiple is added or assigned, and nothing else.
+inline constexpr const char* kAlone = "alone";
+
 struct CodeEvent {
   enum class Kind {
     word,     // anything that has to be the same
     routine,  // begins: its name
     call,     // of a routine: its name
     shared,   // its arguments: one that it changes is a part of one that it reads
-    loop,     // begins: its index; numbers of its two ends
+    loop,     // begins: its index; names and numbers of its two ends
     end,      // of a loop
     local,    // is declared
     get,      // an object or a local is read, and elements of it follow

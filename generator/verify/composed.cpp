@@ -195,8 +195,9 @@ Proof prove_splitting(const Splitting& splitting, int order, bool nystrom) {
                         nystrom ? "A drift, B kick, [B,[B,[B,A]]] = 0" : "A drift, B kick")};
 }
 
-Proof prove_composition(const Composition& composition, int order, const Surroundings& around) {
-  const Finding base = prove_step_symplectic(composition.base, around);
+Proof prove_composition(const Composition& composition, int degrees_of_freedom, int order,
+                        const Surroundings& around) {
+  const Finding base = prove_step_symplectic(composition.base, degrees_of_freedom, around);
   Finding symplectic = base;
   if (holds(base.verdict)) {
     symplectic.detail =

@@ -116,6 +116,7 @@ std::vector<Corner> corners_of_hamiltonian(const Mechanics& mechanics) {
   if (!mechanics.keeps_sums()) return corners(mechanics.energy);
   std::vector<Expression> summands;
   for (const Kernel& kernel : mechanics.kernels) summands.push_back(kernel.value);
+  summands.push_back(mechanics.of_sums);
   return corners(summands);
 }
 

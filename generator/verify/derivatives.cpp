@@ -23,7 +23,7 @@ Derivatives::Derivatives(const Mechanics& mechanics, const Expression& hamiltoni
   SymbolTable table;
   std::vector<GiNaC::symbol> variables;
   for (std::size_t i = 0; i < size; ++i) {
-    const std::string& name = mechanics.variables[i].name;
+    const std::string& name = mechanics.variables.name(i);
     places.emplace(name, i);
     variables.push_back(
         GiNaC::ex_to<GiNaC::symbol>(table.symbol(name, kRankOfVariable + static_cast<int>(i))));

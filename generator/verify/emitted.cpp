@@ -259,16 +259,49 @@ Decision decide_all(const std::vector<Identities>& parts, const Surroundings& ar
 
 std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const Program& code,
                                              const SmallerSystems& smaller) {
-  const auto& [constant, size, first, second] = smaller;
-  std::optional<std::string> why =
-      why_not_longer({{{first.size, outline(first.mechanics.kernels)},
-                       {second.size, outline(second.mechanics.kernels)},
-                       {size, outline(mechanics.kernels)}}});
-  if (why) return why;
+  const auto& [constant, size, first, second, third] = smaller;
   const std::set<std::string> whole = {"invariants", "events"};
-  return why_not_longer({{{first.size, outline(first.program, whole)},
-                          {second.size, outline(second.program, whole)},
-                          {size, outline(code, whole)}}});
+  const auto why_not = [&](long longer, const Mechanics& of, const Program& by) {
+    std::optional<std::string> why =
+        why_not_longer({{{first.size, outline(first.mechanics.kernels)},
+                         {second.size, outline(second.mechanics.kernels)},
+                         {longer, outline(of.kernels)}}});
+    if (why) return why;
+    return why_not_longer({{{first.size, outline(first.program, whole)},
+                            {second.size, outline(second.program, whole)},
+                            {longer, outline(by, whole)}}});
+  };
+  if (!third && sums_over_pairs(mechanics)) return "its pairs are looked at in two sizes only";
+  std::optional<std::string> why = why_not(size, mechanics, code);
+  return why || !third ? why : why_not(third->size, third->mechanics, third->program);
+}
+
+long instances_of_loops(const Mechanics& mechanics) {
+  double total = 0;
+  for (const Kernel& kernel : mechanics.kernels) {
+    double count = 1;
+    for (const KernelRange& range : kernel.ranges) {
+      const AffineIndex& end = range.upper.factors.empty() ? range.upper : range.lower;
+      const AffineIndex& begin = range.lower.factors.empty() ? range.lower : range.upper;
+      count *= std::max(1.0, std::abs(static_cast<double>(end.constant - begin.constant)));
+    }
+    total += kernel.ranges.size() > 1 ? count / 2 : count;
+  }
+  return static_cast<long>(std::min(total, 1e18));
+}
+
+std::string sizes_text(const SmallerSystems& smaller) {
+  const std::string& name = smaller.constant;
+  const long first = smaller.first.size;
+  const long second = smaller.second.size;
+  if (!smaller.third) return fmt::format("{0} = {1} and {0} = {2}", name, first, second);
+  return fmt::format("{0} = {1}, {0} = {2} and {0} = {3}", name, first, second,
+                     smaller.third->size);
+}
+
+bool sums_over_pairs(const Mechanics& mechanics) {
+  return std::ranges::any_of(mechanics.kernels,
+                             [](const Kernel& kernel) { return kernel.ranges.size() > 1; });
 }
 
 namespace {
@@ -287,19 +320,21 @@ Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>
                 ": the summands of all loops and their derivatives, that they sum up to H; the "
                 "routines are not looked at, with so many elements and no size to make smaller"};
   }
-  for (const SizedSystem* system : {&smaller->first, &smaller->second}) {
+  std::vector<const SizedSystem*> systems = {&smaller->first, &smaller->second};
+  if (smaller->third) systems.push_back(&*smaller->third);
+  for (const SizedSystem* system : systems) {
     const StepUnderProof small(system->mechanics, system->scheme, system->program);
     const Derivatives derivatives(system->mechanics, system->hamiltonian);
     const Decision decision =
-        decide_all(all_identities(small, system->plan, derivatives, system->hamiltonian), around);
+        decide_all(all_identities(small, system->plan, derivatives, system->hamiltonian),
+                   system->around.centres.empty() ? around : system->around);
     if (!holds(decision.verdict)) {
       return {property, decision.verdict,
               fmt::format("at {} = {}: {}", smaller->constant, system->size, decision.witness)};
     }
     add(decision, total);
   }
-  const std::string sizes = fmt::format("{0} = {1} and {0} = {2}", smaller->constant,
-                                        smaller->first.size, smaller->second.size);
+  const std::string sizes = sizes_text(*smaller);
   const auto why = why_not_inherited(step.mechanics, step.code, *smaller);
   const std::string rest =
       why ? "here only the summands, their derivatives and that they sum up to H: " + *why

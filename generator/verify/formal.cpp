@@ -31,7 +31,7 @@ std::vector<PowerSeries> FormalPoint::values(const std::vector<Expression>& expr
                                              const std::vector<PowerSeries>& state,
                                              std::size_t length) const {
   std::map<std::string, PowerSeries> symbols = symbols_;
-  for (std::size_t i = 0; i < state.size(); ++i) symbols[mechanics_.variables[i].name] = state[i];
+  for (std::size_t i = 0; i < state.size(); ++i) symbols[mechanics_.variables.name(i)] = state[i];
   SeriesValues evaluate(std::move(symbols), length);
   std::vector<PowerSeries> result;
   for (const Expression& e : expressions) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace hamgen {
 
@@ -56,6 +57,15 @@ std::vector<GrowingEvent> affine_events(const std::array<SizedOutline, 3>& sizes
   return merged;
 }
 
+// How far values reach, and whether there are sums over pairs.
+struct Reach {
+  long elements = 0;
+  bool pairs = false;
+  // Two ends and what lies between; with pairs, two elements that are at no end and next to each
+  // other, and on either side of them one that is far from both.
+  [[nodiscard]] long least_size() const { return pairs ? 4 * elements + 4 : 2 * elements + 1; }
+};
+
 // How far a value reaches: through one loop from its lowest to its highest neighbour, and through
 // one routine all its loops and what it calls.
 class Locality {
@@ -63,12 +73,12 @@ class Locality {
   explicit Locality(const std::vector<GrowingEvent>& events) : events_(events) {}
 
   // Elements at either end that places without an index name, and what is around them.
-  long reach() {
+  Reach reach() {
     while (at_ < events_.size()) step();
     check_sums();
     long most = 0;
     for (const auto& [routine, loops] : radius_) most = std::max(most, loops);
-    return boundary_ + radius_["prepare"] + most;
+    return {boundary_ + radius_["prepare"] + most, !with_pairs_.empty()};
   }
 
  private:
@@ -86,13 +96,18 @@ class Locality {
     return std::ranges::any_of(loops_,
                                [&](const Loop& loop) { return loop.grows && loop.index == index; });
   }
-  [[nodiscard]] bool in_growing() const { return std::ranges::any_of(loops_, &Loop::grows); }
+  [[nodiscard]] long growing_loops() const { return std::ranges::count_if(loops_, &Loop::grows); }
+  [[nodiscard]] bool in_growing() const { return growing_loops() > 0; }
+  [[nodiscard]] bool in_pairs() const { return growing_loops() == 2; }
 
   // The claims about all others take these for functions of which nothing is known.
-  [[nodiscard]] bool is_opaque(const std::string& called) const {
+  static bool is_function(const std::string& routine) {
     static const std::set<std::string> functions = {"vector_field", "hessian", "gradient",
                                                     "potential_gradient"};
-    return functions.contains(called) && !functions.contains(routine_);
+    return functions.contains(routine);
+  }
+  [[nodiscard]] bool is_opaque(const std::string& called) const {
+    return is_function(called) && !is_function(routine_);
   }
   // How often the loops around it run what stands here.
   [[nodiscard]] long times() const {
@@ -104,17 +119,18 @@ class Locality {
   void step() {
     const GrowingEvent& event = next();
     const CodeEvent& of = event.of;
+    const bool alone = std::exchange(alone_, false);
     switch (of.kind) {
       case Event::routine:
         // The sums and locals of another are others.
         check_sums();
+        summed_over_pairs_.clear();
+        passes_on_ = false;
         routine_ = of.text;
         radius_[routine_];
         return;
       case Event::call:
-        if (in_growing()) throw NotLonger{"a routine is called for every element"};
-        if (!is_opaque(of.text)) radius_[routine_] += times() * radius_[of.text];
-        return;
+        return call(of.text);
       case Event::shared:
         throw NotLonger{"a routine reads what it changes by another name"};
       case Event::loop:
@@ -122,18 +138,19 @@ class Locality {
       case Event::end:
         return end();
       case Event::local:
-        if (in_growing()) inner_locals_.insert(of.text);
+        if (in_growing()) inner_locals_[of.text] = growing_loops();
         return;
       case Event::index:
         return index();
       case Event::get:
       case Event::set:
       case Event::add:
-        return access(of);
+        return access(of, alone);
       case Event::element:
         static_cast<void>(element(event));
         return;
       case Event::word:
+        alone_ = of.text == kAlone;
         return;
     }
   }
@@ -146,22 +163,45 @@ class Locality {
     std::erase_if(read_, [](const std::string& name) { return name.starts_with("local"); });
   }
 
+  void call(const std::string& called) {
+    if (in_growing()) throw NotLonger{"a routine is called for every element"};
+    if (is_opaque(called)) return;
+    if (with_pairs_.contains(called) && called != "differentiate") {
+      if (!is_function(routine_)) throw NotLonger{"a sum over pairs is looked into"};
+      with_pairs_.insert(routine_);
+      passes_on_ = true;
+    }
+    radius_[routine_] += times() * radius_[called];
+  }
+
   void begin(const GrowingEvent& event) {
-    if (!event.of.names.empty())
-      throw NotLonger{"the ends of a loop move with another one's index"};
     if (!in_growing()) start_nest();
-    Loop loop{.index = event.of.text};
+    const bool moves = event.of.names.size() > 1;
+    if (moves && !is_triangle(event))
+      throw NotLonger{"the ends of a loop move with another one's index"};
+    Loop loop{.index = event.of.text, .grows = moves};
     for (const AffineNumber& bound : event.numbers) {
       loop.grows |= bound.slope != 0;
       boundary_ = std::max(boundary_, std::abs(bound.near));
     }
     loop.last = std::abs(event.numbers.back().near);
     if (!loop.grows) loop.times = std::max(1L, loop.last - event.numbers.front().near + 1);
+    if (loop.grows && in_pairs()) throw NotLonger{"a sum runs over more than pairs"};
     loops_.push_back(std::move(loop));
   }
+  // One end moves with the loop around it, element by element: the other one is fixed.
+  [[nodiscard]] bool is_triangle(const GrowingEvent& event) const {
+    const std::vector<std::string>& names = event.of.names;
+    if (names.size() != 2 || growing_loops() != 1) return false;
+    const bool lower = names.front() != kUpTo;
+    const AffineNumber& factor = event.numbers[lower ? 1 : 2];
+    const AffineNumber& moving = event.numbers[lower ? 0 : 1];
+    return grows(lower ? names.front() : names.back()) && factor.near == 1 && factor.slope == 0 &&
+           moving.slope == 0;
+  }
   void start_nest() {
-    lowest_ = 0;
-    highest_ = 0;
+    lowest_.reset();
+    highest_.reset();
     written_.clear();
     gets_.clear();
     inner_locals_.clear();
@@ -176,7 +216,10 @@ class Locality {
       if (places.size() != 1 || read->second != places)
         throw NotLonger{"an instance of a loop reads what another one writes"};
     }
-    radius_[routine_] += times() * (highest_ - lowest_);
+    for (const std::string& name : summed_over_pairs_) {
+      if (gets_.contains(name)) throw NotLonger{"a sum over pairs is looked into"};
+    }
+    radius_[routine_] += times() * (highest_.value_or(0) - lowest_.value_or(0));
     start_nest();
   }
 
@@ -211,8 +254,8 @@ class Locality {
     }
     if (furthest != std::abs(result.second))
       throw NotLonger{"neighbours in its loops do not have neighbouring places"};
-    lowest_ = std::min(lowest_, result.second);
-    highest_ = std::max(highest_, result.second);
+    lowest_ = std::min(lowest_.value_or(result.second), result.second);
+    highest_ = std::max(highest_.value_or(result.second), result.second);
     return result;
   }
   [[nodiscard]] long last_of(const std::string& index) const {
@@ -220,7 +263,7 @@ class Locality {
     return loop == loops_.end() ? 0 : loop->last;
   }
 
-  void access(const CodeEvent& of) {
+  void access(const CodeEvent& of, bool alone) {
     Offsets offsets;
     std::set<std::string> indices;
     std::string blocks;  // which part of the array
@@ -235,16 +278,41 @@ class Locality {
     if (of.kind == Event::get) {
       read_.insert(of.text);
       if (in_growing() && !indices.empty()) gets_[of.text].insert({blocks, offsets});
-      return;
+      return get(of.text, alone);
     }
-    if (!in_growing() || inner_locals_.contains(of.text)) return;
-    const auto growing = std::ranges::count_if(loops_, &Loop::grows);
-    if (std::ssize(indices) == growing) {
+    const bool adds_pairs = std::exchange(adds_pairs_, false);
+    if (!in_growing()) return;
+    if (adds_pairs) summed_over_pairs_.insert(of.text);
+    if (const auto local = inner_locals_.find(of.text); local != inner_locals_.end())
+      return change_local(of, local->second);
+    if (in_pairs() && of.kind == Event::add && !indices.empty()) return sum_over_pairs(of.text);
+    if (std::ssize(indices) == growing_loops()) {
       if (of.kind == Event::set || !offsets.empty()) written_[of.text].insert({blocks, offsets});
       return;
     }
     if (of.kind != Event::add || !offsets.empty()) throw NotLonger{"all elements meet in one"};
+    if (in_pairs()) with_pairs_.insert(routine_);
     sums_.insert(of.text);
+  }
+  // A value that is a sum over pairs may be added to another one, and enter nothing else.  What a
+  // routine has from another one may be turned.
+  void get(const std::string& name, bool alone) {
+    if (passes_on_ && !alone) throw NotLonger{"a sum over pairs is looked into"};
+    if (!summed_over_pairs_.contains(name)) return;
+    if (in_pairs() || !alone || !inner_locals_.contains(name))
+      throw NotLonger{"a sum over pairs is looked into"};
+    adds_pairs_ = true;
+  }
+  // One of the innermost loop is an instance's own.
+  void change_local(const CodeEvent& of, long declared) {
+    if (!in_pairs() || declared == growing_loops()) return;
+    if (of.kind != Event::add)
+      throw NotLonger{"an instance of a loop reads what another one writes"};
+    sum_over_pairs(of.text);
+  }
+  void sum_over_pairs(const std::string& name) {
+    with_pairs_.insert(routine_);
+    summed_over_pairs_.insert(name);
   }
 
   const std::vector<GrowingEvent>& events_;
@@ -254,11 +322,16 @@ class Locality {
   long boundary_ = 0;
   // Of the nest of loops.
   std::vector<Loop> loops_;
-  long lowest_ = 0;
-  long highest_ = 0;
-  std::set<std::string> inner_locals_;
+  std::optional<long> lowest_, highest_;
+  std::map<std::string, long> inner_locals_;  // in how many of them that grow
   std::map<std::string, std::set<std::pair<std::string, Offsets>>> written_, gets_;
   std::set<std::string> sums_, read_;
+  // Of the routine: arrays and locals that are sums over the other one of a pair.
+  std::set<std::string> summed_over_pairs_;
+  std::set<std::string> with_pairs_;  // routines
+  bool passes_on_ = false;            // what the routine has called has given it some of them
+  bool alone_ = false;                // of the value that follows a multiple is taken
+  bool adds_pairs_ = false;           // ... such a sum
 };
 
 }  // namespace
@@ -266,9 +339,9 @@ class Locality {
 std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes) {
   try {
     const std::vector<GrowingEvent> events = affine_events(sizes);
-    // Two ends and what lies between.
-    const long reach = Locality(events).reach();
-    if (2 * reach + 1 > sizes[0].size) return fmt::format("its loops reach {} elements far", reach);
+    const Reach reach = Locality(events).reach();
+    if (reach.least_size() > sizes[0].size)
+      return fmt::format("its loops reach {} elements far", reach.elements);
     return {};
   } catch (const NotLonger& not_longer) {
     return not_longer.why;

@@ -10,8 +10,6 @@ namespace hamgen {
 
 namespace {
 
-constexpr int kMostFreedom = 64;  // degrees of freedom of a bracket that is expanded
-
 // An invariant and H with their derivatives.
 class Bracket {
  public:
@@ -22,7 +20,7 @@ class Bracket {
         around_(around) {
     std::vector<GiNaC::symbol> variables;
     for (std::size_t i = 0; i < 2 * n_; ++i) {
-      const std::string& name = mechanics.variables[i].name;
+      const std::string& name = mechanics.variables.name(i);
       (void)table_.symbol(name, kRankOfVariable + static_cast<int>(i));
       variables.push_back(table_.find(name));
     }
@@ -198,6 +196,10 @@ Finding conserved(const Bracket& bracket, const Scheme& scheme, bool solved, Ver
 
 }  // namespace
 
+bool says_nothing_of_invariants(const Mechanics& mechanics) {
+  return mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostBracketed;
+}
+
 Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
                        const Scheme& scheme, bool solved, Verdict symplectic,
                        const Surroundings& around) {
@@ -205,10 +207,10 @@ Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian
   for (const NamedExpression& invariant : mechanics.invariants) {
     if (invariant.only_observed) continue;
     const std::string name = invariant.name + " invariant";
-    if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostFreedom) {
+    if (says_nothing_of_invariants(mechanics)) {
       proof.push_back({name, Verdict::not_decided,
                        fmt::format("{} degrees of freedom, more than {}; verify a smaller size",
-                                   mechanics.degrees_of_freedom, kMostFreedom)});
+                                   mechanics.degrees_of_freedom, kMostBracketed)});
       continue;
     }
     const Bracket bracket(mechanics, hamiltonian, invariant.value, around);

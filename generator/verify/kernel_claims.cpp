@@ -13,6 +13,7 @@ namespace {
 // The sum over all instances, in the symbols of the state and of the parameters.
 Expression written_out(const Mechanics& mechanics) {
   std::vector<Expression> terms;
+  std::vector<std::vector<Expression>> of_sums(mechanics.sums.size());
   std::map<std::string, std::vector<Expression>> parameters;  // elements by array
   for (std::size_t i = 0; i < mechanics.parameters.size(); ++i) {
     const std::string& name = mechanics.parameters[i].name;
@@ -33,9 +34,13 @@ Expression written_out(const Mechanics& mechanics) {
       }
       for (std::size_t i = 0; i < now.size(); ++i)
         element.emplace(kernel.ranges[i].index, Expression(now[i]));
-      terms.push_back(substitute(kernel.value, element));
+      (kernel.sum ? of_sums[*kernel.sum] : terms).push_back(substitute(kernel.value, element));
     });
   }
+  Substitution sums;
+  for (std::size_t k = 0; k < of_sums.size(); ++k)
+    sums.emplace(mechanics.sums[k].name, Expression::sum(std::move(of_sums[k])));
+  terms.push_back(substitute(mechanics.of_sums, sums));
   return Expression::sum(std::move(terms));
 }
 
@@ -72,12 +77,25 @@ void add_kernel(const Kernel& kernel, std::vector<Identities>& parts) {
   add("second derivative of a summand", hessian, expected_hessian);
 }
 
+// Of the function of the sums.
+void add_slopes(const Mechanics& mechanics, std::vector<Identities>& parts) {
+  SymbolTable table;
+  for (const CollectiveSum& sum : mechanics.sums) (void)table.symbol(sum.name, kRankOfTemporary);
+  const GiNaC::ex value = to_ginac(mechanics.of_sums, table);
+  Identities identities;
+  for (const CollectiveSum& sum : mechanics.sums)
+    identities.claims.push_back({"slope of H by " + sum.name, sum.slope_value,
+                                 from_ginac(value.diff(table.find(sum.name)), table)});
+  parts.push_back(std::move(identities));
+}
+
 }  // namespace
 
 std::vector<Identities> kernel_identities(const Mechanics& mechanics,
                                           const std::optional<Expression>& hamiltonian) {
   std::vector<Identities> parts;
   for (const Kernel& kernel : mechanics.kernels) add_kernel(kernel, parts);
+  if (!mechanics.sums.empty()) add_slopes(mechanics, parts);
   if (hamiltonian)
     parts.push_back({{}, {}, {{"the sum of the loops", written_out(mechanics), *hamiltonian}}});
   return parts;

@@ -35,7 +35,7 @@ class MemberPoints {
   };
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] const std::string& name(int i) const { return step_.name(i); }
+  [[nodiscard]] std::string name(int i) const { return step_.name(i); }
   [[nodiscard]] const IterationTrace& iteration(int b) const {
     return machine_.iterations[static_cast<std::size_t>(b)];
   }

@@ -104,7 +104,7 @@ class Reading {
     const Precise tolerance = precise(Rational(Integer(1), mpz_class("1" + std::string(20, '0'))));
     const Precise small = precise(Rational(Integer(1), mpz_class("1" + std::string(16, '0'))));
     for (std::size_t i = 0; i < derived_.gradient.size(); ++i) {
-      const std::string& name = mechanics_.variables[i].name;
+      const std::string& name = mechanics_.variables.name(i);
       const Precise middle = point_.at(name);
       const Precise size = cln::abs(middle) + small;
       const Precise distance = small * size;

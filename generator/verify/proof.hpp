@@ -22,17 +22,24 @@ struct SizedSystem {
   Scheme scheme;
   SolvePlan plan;
   Program program;
-  Expression hamiltonian;  // written out
-  Finding read = {};       // what is known of the model's text at this size
+  Expression hamiltonian;    // written out
+  Finding read = {};         // what is known of the model's text at this size
+  Surroundings around = {};  // of its scenes
 };
 // Of a large system, what it is a longer one of.
 struct SmallerSystems {
   std::string constant;  // "N"
   long size = 0;         // of the large one
   SizedSystem first, second;
+  std::optional<SizedSystem> third = {};  // where there are sums over pairs
 };
 // Up to so many degrees of freedom every element of a system in loops is looked at.
 inline constexpr int kMostLookedAt = 32;
+// Beyond, nothing is said of the invariants of a system in loops.
+inline constexpr int kMostBracketed = 64;
+// With more instances of its loops a system is not written out to be looked at.
+inline constexpr long kMostInstances = 30'000;
+[[nodiscard]] long instances_of_loops(const Mechanics& mechanics);
 
 // Everything that can be decided by algebra about the scheme's step for this system, and about the
 // program that computes it.  `hamiltonian` is H with its sums written out; it may be left out where
@@ -42,6 +49,10 @@ inline constexpr int kMostLookedAt = 32;
                            const Program& program, const std::optional<Expression>& hamiltonian,
                            const Surroundings& around = {},
                            const std::optional<SmallerSystems>& smaller = {});
+// "N = 25 and N = 26"
+[[nodiscard]] std::string sizes_text(const SmallerSystems& smaller);
+// Do two indices of a sum run over elements?
+[[nodiscard]] bool sums_over_pairs(const Mechanics& mechanics);
 // Why the claims about the smaller systems are not those about this one; empty if they are.
 [[nodiscard]] std::optional<std::string> why_not_inherited(const Mechanics& mechanics,
                                                            const Program& program,
@@ -57,7 +68,8 @@ inline constexpr const char* kPlugin = "plugin";
 [[nodiscard]] Finding prove_gauge(const Member& member, const Surroundings& around = {});
 // A+ J A+^T = A- J A-^T with a generic symmetric S of symbols, entry by entry, on the first
 // min(n, 3) degrees of freedom; beyond, by the factorisation of the difference.
-[[nodiscard]] Finding prove_step_symplectic(const Member& member, const Surroundings& around = {});
+[[nodiscard]] Finding prove_step_symplectic(const Member& member, int degrees_of_freedom,
+                                            const Surroundings& around = {});
 [[nodiscard]] Finding prove_symmetric(const Member& member, const Surroundings& around = {});
 [[nodiscard]] Finding prove_order(const Member& member, const Surroundings& around = {});
 // The order of a K is what its flow shows: no better known than by points.
@@ -70,14 +82,15 @@ inline constexpr const char* kPlugin = "plugin";
 // series, which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
 [[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);
 [[nodiscard]] Finding prove_shears(const Splitting& splitting);
-[[nodiscard]] Proof prove_composition(const Composition& composition, int order,
-                                      const Surroundings& around = {});
+[[nodiscard]] Proof prove_composition(const Composition& composition, int degrees_of_freedom,
+                                      int order, const Surroundings& around = {});
 [[nodiscard]] Proof prove_tableau(const RungeKutta& tableau, int order);
 // {I, H} = 0, and whether the scheme conserves I exactly, which is known no better.  `hamiltonian`
 // is H written out; `solved`: no equations are left over by sweeps; `symplectic` is the verdict.
 [[nodiscard]] Proof prove_invariants(const Mechanics& mechanics, const Expression& hamiltonian,
                                      const Scheme& scheme, bool solved, Verdict symplectic,
                                      const Surroundings& around = {});
+[[nodiscard]] bool says_nothing_of_invariants(const Mechanics& mechanics);
 // The routines of the program, as they are printed and interpreted, are the step's equations, their
 // derivatives, their solution and H.  `of_k` is what `decide_function` says of the K that
 // stands in for H, which is asked here if it is left out.  Of a system in loops of more than

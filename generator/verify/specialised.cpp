@@ -97,9 +97,7 @@ class SpecialisedClaims {
   }
 
  private:
-  [[nodiscard]] const std::string& name(int i) const {
-    return system_.whole.variables[position(i)].name;
-  }
+  [[nodiscard]] std::string name(int i) const { return system_.whole.variables.name(position(i)); }
   void claim(std::string what, const Expression& is, const Expression& should_be) {
     identities_.claims.push_back({std::move(what), is, should_be});
   }
@@ -149,7 +147,7 @@ class SpecialisedClaims {
   [[nodiscard]] std::string old_name(const Mechanics& given, const LinearChange& change,
                                      int i) const {
     const LinearChange* first = system_.changes.data();
-    return &change == first ? given.variables[position(i)].name
+    return &change == first ? given.variables.name(position(i))
                             : (&change - 1)->variables[position(i)].name;
   }
 
@@ -229,14 +227,14 @@ class SpecialisedClaims {
           difference[{place.first, other.second}].push_back(entry * Expression(factor));
       }
     }
-    for (const auto& [place, entry] : system_.whole_scheme.member().c) {
+    for (const auto& [place, entry] : full(system_.whole_scheme.member(), n_)) {
       for (const auto& [other, factor] : l) {
         if (other.second == place.first)
           difference[{other.first, place.second}].push_back(-(entry * Expression(factor)));
       }
     }
     for (const auto& [place, terms] : difference)
-      claim(fmt::format("C moves {} by {}", system_.given.variables[position(place.first)].name,
+      claim(fmt::format("C moves {} by {}", system_.given.variables.name(position(place.first)),
                         name(place.second)),
             Expression::sum(terms), Expression(0));
   }
@@ -282,7 +280,7 @@ class SpecialisedClaims {
   }
 
   void claim_matrix() {
-    const SparseMatrix& c = system_.whole_scheme.member().c;
+    const SparseMatrix c = full(system_.whole_scheme.member(), n_);
     const std::set<int> kept(system_.kept.begin(), system_.kept.end());
     const std::set<int> resting(system_.resting.begin(), system_.resting.end());
     const std::set<int> cyclic(system_.left.cyclic.begin(), system_.left.cyclic.end());
@@ -304,7 +302,7 @@ class SpecialisedClaims {
   // The C that is left is the block of the whole one.
   void claim_block(const SparseMatrix& block) {
     const int m = static_cast<int>(system_.kept.size());
-    const SparseMatrix& c = system_.scheme.member().c;
+    const SparseMatrix c = full(system_.scheme.member(), m);
     const auto entry = [](const SparseMatrix& matrix, int row, int column) {
       const auto it = matrix.find({row, column});
       return it == matrix.end() ? Expression(0) : it->second;

@@ -7,7 +7,7 @@ namespace hamgen {
 SymbolicMachine StepUnderProof::machine(std::set<std::string> opaque) const {
   SymbolicMachine machine(code, std::move(opaque));
   for (int i = 0; i < size(); ++i) {
-    machine.reserve(mechanics.variables[static_cast<std::size_t>(i)].name);
+    machine.reserve(mechanics.variables.name(static_cast<std::size_t>(i)));
     machine.set(environment.place("z", i), mechanics.variable(i));
     machine.set(environment.place("carry", i), carry(i));
     machine.set(environment.place("dz", i), Expression(0));

@@ -17,8 +17,8 @@ struct StepUnderProof {
   const Environment& environment;
 
   [[nodiscard]] int size() const { return 2 * mechanics.degrees_of_freedom; }
-  [[nodiscard]] const std::string& name(int i) const {
-    return mechanics.variables[static_cast<std::size_t>(i)].name;
+  [[nodiscard]] std::string name(int i) const {
+    return mechanics.variables.name(static_cast<std::size_t>(i));
   }
   // 0 where sums are plain.
   [[nodiscard]] Expression carry(int i) const {

@@ -91,7 +91,7 @@ class Substituted {
   }
   [[nodiscard]] std::vector<Expression> gradient_at(const std::vector<Expression>& x) const {
     Substitution at;
-    for (std::size_t i = 0; i < x.size(); ++i) at.emplace(mechanics_.variables[i].name, x[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) at.emplace(mechanics_.variables.name(i), x[i]);
     return substitute(derivatives_.gradient(), at);
   }
   [[nodiscard]] std::vector<Expression> swept(const std::vector<Expression>& x) const {

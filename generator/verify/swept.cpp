@@ -229,7 +229,8 @@ Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
   const Derivatives derivatives(mechanics);
   if (!sweeps_solve(mechanics, derivatives, member, sweeps))
     return prove_unsolved(mechanics, derivatives, member, sweeps, around);
-  Proof proof{prove_step_symplectic(member, around), prove_symmetric(member, around)};
+  Proof proof{prove_step_symplectic(member, mechanics.degrees_of_freedom, around),
+              prove_symmetric(member, around)};
   for (Finding& finding : proof) {
     finding.detail = fmt::format(
         "{} sweep{} solve{} these equations: zbar does not depend on "

@@ -43,9 +43,9 @@ Finding prove_gauge(const Member& member, const Surroundings& around) {
   return {kGauge, Verdict::proved, "`C J + J C^T = 0`, entry by entry"};
 }
 
-Finding prove_step_symplectic(const Member& member, const Surroundings& around) {
-  const int n = member.degrees_of_freedom;
+Finding prove_step_symplectic(const Member& of, int n, const Surroundings& around) {
   const int m = std::min(n, 3);
+  const Member member = of_all(of, m);
   const auto size = static_cast<unsigned>(2 * m);
   SymbolTable table;
   const GiNaC::ex h = table.symbol("h", 0);
@@ -54,7 +54,8 @@ Finding prove_step_symplectic(const Member& member, const Surroundings& around) 
   GiNaC::matrix c(size, size);
   const GiNaC::ex half = GiNaC::numeric(1, 2);
   auto place = [&](unsigned i) {
-    return static_cast<int>(i) < m ? static_cast<int>(i) : n - m + static_cast<int>(i);
+    const int k = static_cast<int>(i);
+    return k < m ? k : member.degrees_of_freedom - m + k;
   };
   for (unsigned i = 0; i < size; ++i) {
     for (unsigned j = 0; j < size; ++j) {

@@ -166,7 +166,7 @@ class TextValue {
     // A subscript stands directly after the name.
     if (at_ < text_.size() && text_[at_] == '[') {
       ++at_;
-      const long subscript = to_long(sum());
+      const long subscript = integer();
       expect(']');
       return element(name, subscript);
     }
@@ -188,7 +188,7 @@ class TextValue {
     if (const auto index = indices_.find(name); index != indices_.end())
       return precise(index->second);
     for (const Size& size : model_.sizes) {
-      if (size.name == name) return precise(size.value);
+      if (size.name == name) return precise(counts_ ? size.value : size.number);
     }
     for (const Definition& definition : model_.definitions) {
       if (definition.name == name) return TextValue(model_, definition.text, point_).run().value;
@@ -220,6 +220,14 @@ class TextValue {
     return at_point(fmt::format("{}[{}]", name, subscript));
   }
 
+  // Of a subscript or an end of a range.
+  long integer() {
+    counts_ = true;
+    const long value = to_long(sum());
+    counts_ = false;
+    return value;
+  }
+
   // sum(i = 1..N, j = i+1..N, body)
   Precise indexed_sum() {
     expect('(');
@@ -246,10 +254,10 @@ class TextValue {
       return;
     }
     expect('=');
-    const long first = to_long(sum());
+    const long first = integer();
     expect('.');
     expect('.');
-    const long last = to_long(sum());
+    const long last = integer();
     expect(',');
     const std::size_t inside = at_;
     for (long i = first; i <= last; ++i) {
@@ -264,6 +272,7 @@ class TextValue {
   const std::string& text_;
   const PointValues& point_;
   std::map<std::string, long> indices_;
+  bool counts_ = false;  // inside a subscript or an end of a range
   std::size_t at_ = 0;
   Precise largest_ = precise(0);
 };

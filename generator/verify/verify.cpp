@@ -39,7 +39,7 @@ Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const Solve
                       std::back_inserter(proof));
     return proof;
   }
-  proof.push_back(prove_step_symplectic(member, around));
+  proof.push_back(prove_step_symplectic(member, mechanics.degrees_of_freedom, around));
   Finding symmetric = prove_symmetric(member, around);
   const GeneratingFunction* function = raised_function(scheme, plan);
   if (function == nullptr) {
@@ -70,7 +70,7 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Solve
     return prove_tableau(*tableau, scheme.order);
   }
   if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
-    return prove_composition(*composition, scheme.order, around);
+    return prove_composition(*composition, mechanics.degrees_of_freedom, scheme.order, around);
   }
   return prove_member(mechanics, scheme, plan, around, of_k);
 }
@@ -103,11 +103,11 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& 
         finding = resting_on(Verdict::tested, off_the(corners_of_h), std::move(finding));
     }
   }
-  if (hamiltonian) {
-    std::ranges::move(
-        prove_invariants(mechanics, *hamiltonian, scheme, is_solved(mechanics, scheme, plan),
-                         verdict_of(proof, "symplectic"), around),
-        std::back_inserter(proof));
+  if (hamiltonian || says_nothing_of_invariants(mechanics)) {
+    std::ranges::move(prove_invariants(mechanics, hamiltonian.value_or(Expression(0)), scheme,
+                                       is_solved(mechanics, scheme, plan),
+                                       verdict_of(proof, "symplectic"), around),
+                      std::back_inserter(proof));
   }
   proof.push_back(
       prove_emitted(mechanics, scheme, plan, program, hamiltonian, around, of_k, smaller));

@@ -40,7 +40,7 @@ Equations equations_of(const Member& of, int n, Evaluator& value) {
   const auto size = 2 * static_cast<std::size_t>(n);
   Matrix c(size, Vector(size));
   for (std::size_t k = 0; k < size; ++k) c[k][k] = Quad(0.5);
-  for (const auto& [place, entry] : of.c) {
+  for (const auto& [place, entry] : of_all(of, n).c) {
     c[static_cast<std::size_t>(place.first)][static_cast<std::size_t>(place.second)] +=
         value(entry);
   }

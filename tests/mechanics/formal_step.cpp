@@ -93,8 +93,10 @@ FormalStep::FormalStep(const Mechanics& mechanics, const Member& member,
     : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)),
       parameters_(defaults(mechanics)),
       slopes_(slopes, names(mechanics)),
-      matrix_(values(stage_matrix(member)), names(mechanics)) {
-  for (const auto& [place, value] : stage_matrix(member)) places_.push_back(place);
+      matrix_(values(stage_matrix(of_all(member, mechanics.degrees_of_freedom))),
+              names(mechanics)) {
+  for (const auto& [place, value] : stage_matrix(of_all(member, mechanics.degrees_of_freedom)))
+    places_.push_back(place);
 }
 
 Vector FormalStep::after(int steps, const Vector& start, long double h) const {

@@ -200,6 +200,11 @@ const std::string kCoupledRing =
     "size N = 25\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + p[i]*q[i]*q[i+1] + (q[i+1] - q[i])^4/4)\n";
 
+const std::string kRotators =
+    "size N = 25\ncoordinate q[1..N]\nmomentum p[1..N]\nparameter K = 1\n"
+    "let C = sum(i = 1..N, cos(q[i]))\nlet S = sum(i = 1..N, sin(q[i]))\n"
+    "H = sum(i = 1..N, p[i]^2/2) - K*(C^2 + S^2)/(2*N) + sqrt(1 + sum(i = 1..N, p[i])^2)\n";
+
 Scheme uniform(int n, const Expression& alpha, const Expression& beta, const Expression& gamma) {
   return family_member(n, {{alpha}}, {{beta}}, {{gamma}});
 }
@@ -235,22 +240,23 @@ LoopsUnderTest loops_of(const std::string& text) {
 }
 
 TEST(EmittedLoops, AreTheMathematics) {
-  for (const std::string& text : {kChain, kCoupledRing}) {
+  for (const std::string& text : {kChain, kCoupledRing, kRotators}) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     ASSERT_TRUE(mechanics.keeps_sums());
     for (const Loops& c : loops(mechanics)) {
       const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
       const Finding finding =
           prove_emitted(mechanics, *c.scheme, lowered.plan, build_program(lowered), hamiltonian);
-      EXPECT_EQ(finding.verdict, Verdict::proved) << c.name << ": " << finding.detail;
+      EXPECT_TRUE(holds(finding.verdict)) << c.name << ": " << finding.detail;
+      EXPECT_TRUE(finding.verdict == Verdict::proved || !mechanics.sums.empty()) << c.name;
     }
   }
 }
 
-TEST(EmittedLoops, EveryMutationIsRefuted) {
+int refuted_mutants(const std::vector<std::string>& texts) {
   int mutants = 0;
   std::size_t first = 0;
-  for (const std::string& text : {kChain, kCoupledRing}) {
+  for (const std::string& text : texts) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     for (const Loops& c : loops(mechanics)) {
       const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
@@ -270,7 +276,15 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
     }
   }
   fmt::print("{} mutants of loops\n", mutants);
-  EXPECT_GE(mutants, 20);
+  return mutants;
+}
+
+TEST(EmittedLoops, EveryMutationIsRefuted) {
+  EXPECT_GE(refuted_mutants({kChain, kCoupledRing}), 20);
+}
+
+TEST(EmittedLoops, EveryMutationOfAFunctionOfSumsIsRefuted) {
+  EXPECT_GE(refuted_mutants({kRotators}), 5);
 }
 
 // Of a separable system the step calls the two halves: the whole is for who uses the header.

@@ -55,10 +55,25 @@ const std::string kGrowingChain =
     "coordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\nparameter m[1..N] = 2\n"
     "H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, (q[i+1] - q[i])^4/4)\n";
 
+const std::string kBodies =
+    "coordinate x[1..N], y[1..N]\nmomentum px[1..N], py[1..N]\nparameter m[1..N] = 2\n"
+    "H = (sum(i = 1..N, (px[i]^2 + py[i]^2)/(2*m[i]))"
+    " - sum(i = 1..N, j = i+1..N, m[i]*m[j]/sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2)))\n";
+
 TEST(Growth, ContinuesChainsAndRings) {
   EXPECT_EQ(why_not(kGrowingChain), "");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, (q[i+1] - q[i])^4/4)\n"), "");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, q[i]*q[i+2] + q[i]^4/4)\n"), "");
+}
+
+TEST(Growth, ContinuesSumsOverPairs) {
+  for (const char* range : {"j = 1..i - 1", "j = i+1..N", "j = 1..N"}) {
+    EXPECT_EQ(why_not(kVariables + kKinetic +
+                      fmt::format("sum(i = 1..N, sum({}, (q[i] - q[j])^4))\n", range)),
+              "")
+        << range;
+  }
+  EXPECT_EQ(why_not(kBodies), "");
 }
 
 TEST(Growth, DoesNotReachBeyondNeighbours) {
@@ -68,12 +83,20 @@ TEST(Growth, DoesNotReachBeyondNeighbours) {
             "its routines have other instructions");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 2..N, (q[i] - q[1])^2)\n"),
             "all elements meet in one");
-  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, sum(j = 1..i - 1, (q[i] - q[j])^4))\n"),
-            "the ends of a loop move with another one's index");
-  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, sum(j = 1..N, (q[i] - q[j])^4))\n"),
+  EXPECT_EQ(why_not(kVariables + kKinetic +
+                    "sum(i = 1..N, sum(j = i+1..N, (q[i] - q[j])^4*(q[1] - q[j])^2))\n"),
             "all elements meet in one");
+  EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..N, sum(j = i+1..N, (j - i)*q[i]*q[j]))\n"),
+            "its instances depend on their index");
+  EXPECT_EQ(why_not(kVariables + kKinetic +
+                    "sum(i = 1..N, sum(j = i+1..N, sum(k = j+1..N, q[i]*q[j]*q[k])))\n"),
+            "the ends of a loop move with another one's index");
+  EXPECT_EQ(why_not(kVariables + kKinetic +
+                    "sum(i = 1..N, sum(j = 1..N, sum(k = 1..N, "
+                    "q[i]*q[j]*q[k])))\n"),
+            "a sum runs over more than pairs");
   EXPECT_EQ(why_not(kVariables + kKinetic + "sum(i = 1..12, q[2*i]^4) + sum(i = 1..N, q[i]^2)\n"),
-            "its loops reach 27 elements far");
+            "its loops reach 25 elements far");
 }
 
 // The large system has the claims of the small ones; a mutant of it is not what they continue.
@@ -101,6 +124,61 @@ TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
     refuse(verify_test::mutants_of_structure(c.program));
     EXPECT_GE(mutants, 20) << scheme;
   }
+}
+
+// So have bodies that all know each other: three sizes, as constants may grow with their pairs.
+TEST(Growth, ProvesManyBodiesAndNoMutantOfThem) {
+  for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-2"}) {
+    const SizedSystem a = system_of(kBodies, 13, scheme);
+    const SizedSystem b = system_of(kBodies, 14, scheme);
+    const SizedSystem c = system_of(kBodies, 15, scheme);
+    const SizedSystem large = system_of(kBodies, 40, scheme);
+    const auto proved_by = [&](const SmallerSystems& smaller) {
+      return prove_emitted(large.mechanics, large.scheme, large.plan, large.program, {}, {}, {},
+                           smaller);
+    };
+    EXPECT_EQ(proved_by({"N", 40, a, b, c}).verdict, Verdict::proved) << scheme;
+    EXPECT_EQ(proved_by({"N", 40, a, b}).verdict, Verdict::tested) << scheme;
+    if (scheme != "stormer-verlet") continue;
+    const SizedOutline first = routines(a);
+    const SizedOutline second = routines(b);
+    int mutants = 0;
+    const auto refuse = [&](const std::vector<verify_test::Mutant>& list) {
+      for (const verify_test::Mutant& mutant : list) {
+        const auto why =
+            why_not_longer({{first, second, {40, outline(mutant.code, {"invariants"})}}});
+        EXPECT_TRUE(why || computes_the_same(large.program, mutant.code))
+            << scheme << ", " << mutant.kind << ": " << mutant.description;
+        ++mutants;
+      }
+    };
+    refuse(verify_test::mutants_of(large.program));
+    refuse(verify_test::mutants_of_structure(large.program));
+    EXPECT_GE(mutants, 20) << scheme;
+  }
+}
+
+// A sum over the others may be added up; what is made of it is no sum over pairs.
+TEST(Growth, AFunctionOfASumOverPairsIsNoSumOverPairs) {
+  const auto squared = [](SizedSystem system) {
+    for (Routine& routine : system.program.routines) {
+      if (routine.name != "potential_gradient") continue;
+      for (Instruction& outer : routine.body) {
+        auto* loop = std::get_if<For>(&outer.value);
+        if (loop == nullptr) continue;
+        for (Instruction& inner : loop->body) {
+          auto* sum = std::get_if<Accumulate>(&inner.value);
+          if (sum != nullptr) sum->value = sum->value * sum->value;
+        }
+      }
+    }
+    return system;
+  };
+  const SizedSystem a = squared(system_of(kBodies, 13, "stormer-verlet"));
+  const SizedSystem b = squared(system_of(kBodies, 14, "stormer-verlet"));
+  const SizedSystem c = squared(system_of(kBodies, 40, "stormer-verlet"));
+  EXPECT_EQ(why_not_longer({{routines(a), routines(b), routines(c)}}),
+            "a sum over pairs is looked into");
 }
 
 // A mistake that all sizes share is found at the small ones.

@@ -83,7 +83,7 @@ TEST(Composition, TheTripleJumpHasOrderFourAndItsLeadingError) {
   const Expression c = Expression(1) / (Expression(2) - Expression::power(Expression(2), q(1, 3)));
   const Scheme midpoint = family_member(1, {{q(1, 2)}}, {{Expression(0)}}, {{Expression(0)}});
   const Composition jump{midpoint.member(), {c, Expression(1) - Expression(2) * c, c}};
-  const Proof proof = prove_composition(jump, 4);
+  const Proof proof = prove_composition(jump, 1, 4);
   EXPECT_EQ(find(proof, "symplectic").verdict, Verdict::proved);
   EXPECT_EQ(find(proof, "symmetric").verdict, Verdict::proved);
   EXPECT_EQ(find(proof, "order").property, "order 4");
@@ -91,7 +91,7 @@ TEST(Composition, TheTripleJumpHasOrderFourAndItsLeadingError) {
   EXPECT_NE(find(proof, "order").detail.find("-5.29"), std::string::npos)
       << find(proof, "order").detail;
   const Composition wrong{midpoint.member(), {q(1, 3), q(1, 3), q(1, 3)}};
-  EXPECT_EQ(find(prove_composition(wrong, 4), "order").property, "order 2");
+  EXPECT_EQ(find(prove_composition(wrong, 1, 4), "order").property, "order 2");
 }
 
 // To 34 digits of the coefficients; order and symmetry are found from them alone.
@@ -107,7 +107,7 @@ TEST(TheList, OfSplittingsAndCompositionsClaimsWhatIsProved) {
   for (const Scheme& scheme : compositions()) {
     auto composition = std::get<Composition>(scheme.method);
     composition.base = midpoint.member();
-    expect_claims(scheme, prove_composition(composition, scheme.order));
+    expect_claims(scheme, prove_composition(composition, 1, scheme.order));
   }
   for (const Scheme& scheme : splittings()) {
     const bool nystrom = scheme.needs.find("quadratic") != std::string::npos;
@@ -128,7 +128,7 @@ TEST(Member, AMatrixOutsideTheAlgebraIsRefutedWithTheEntry) {
     }
   }
   const Finding gauge = prove_gauge(member);
-  const Finding step = prove_step_symplectic(member);
+  const Finding step = prove_step_symplectic(member, 2);
   EXPECT_EQ(gauge.verdict, Verdict::refuted);
   EXPECT_EQ(step.verdict, Verdict::refuted);
   EXPECT_TRUE(gauge.detail.starts_with("entry (")) << gauge.detail;

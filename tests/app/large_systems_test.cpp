@@ -1,0 +1,92 @@
+// Large systems in loops: their headers are as long as those of small ones, and as well proved.
+#include <gtest/gtest.h>
+
+#include "tests/app/hamgen_command.hpp"
+#include "tests/app/models.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+const std::string kChain =
+    "system chain\nsize N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+    "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^3/12)\n"
+    "scene s {\n  q[i] = sin(pi*i/(N+1))\n  h = 0.1\n  steps = 10\n}\n";
+const std::string kBodies =
+    "system bodies\nsize N = 15\ncoordinate x[1..N], y[1..N], z[1..N]\n"
+    "momentum px[1..N], py[1..N], pz[1..N]\nparameter m[1..N] = 1/N\n"
+    "H = (sum(i = 1..N, (px[i]^2 + py[i]^2 + pz[i]^2)/(2*m[i]))\n"
+    "     - sum(i = 1..N, j = i+1..N, m[i]*m[j]/N/sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2\n"
+    "                                                  + (z[i] - z[j])^2 + 1/100)))\n"
+    "scene s {\n  x[i] = sin(i)\n  y[i] = cos(i)\n  h = 0.01\n  steps = 10\n}\n";
+const std::string kRotators =
+    "system rotators\nsize N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+    "let C = sum(i = 1..N, cos(q[i]))\nlet S = sum(i = 1..N, sin(q[i]))\n"
+    "H = sum(i = 1..N, p[i]^2/2) - (C^2 + S^2)/(2*N)\n"
+    "scene s {\n  q[i] = i/N\n  h = 0.1\n  steps = 10\n}\n";
+
+// The header, and whether it is proved to be the step.
+void expect_proved(const std::string& model, const std::string& size, const std::string& scheme) {
+  const Scratch scratch;
+  const std::string path = scratch.write("model.ham", model);
+  const Result result =
+      hamgen({"generate", path, "--set", "N=" + size, "--scheme", scheme, "--require", "program"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::size_t proved = result.out.find("//   proved ");
+  ASSERT_NE(proved, std::string::npos);
+  const std::string line =
+      result.out.substr(proved, result.out.find("//   solve", proved) - proved);
+  EXPECT_TRUE(contains(line, "emitted code")) << line;
+  EXPECT_LT(result.out.size(), 60'000u);
+}
+
+TEST(LargeSystems, AreProvedAtSmallSizes) {
+  expect_proved(kChain, "20000", "stormer-verlet");
+  expect_proved(kChain, "20000", "implicit-midpoint");
+  expect_proved(kBodies, "40", "stormer-verlet");
+}
+
+TEST(LargeSystems, OfAMillionElements) {
+  expect_proved(kChain, "1000000", "stormer-verlet");
+  expect_proved(kChain, "1000000", "implicit-midpoint");
+  expect_proved(kChain, "1000000", "gauss-4");
+}
+
+TEST(LargeSystems, OfManyBodies) {
+  expect_proved(kBodies, "200", "implicit-midpoint");
+  expect_proved(kBodies, "1000", "stormer-verlet");
+}
+
+// A function of sums is no longer than they are, and what it is written out is the same.
+TEST(LargeSystems, OfAMeanField) {
+  const Scratch scratch;
+  const std::string path = scratch.write("model.ham", kRotators);
+  EXPECT_EQ(hamgen({"check", path, "--set", "N=1000"}).status, 0);
+  const Result header = hamgen({"generate", path, "--set", "N=100"});
+  ASSERT_EQ(header.status, 0) << header.err;
+  EXPECT_TRUE(contains(header.out, "const Real H_C = -0.01 * C;")) << header.out;
+  EXPECT_LT(header.out.size(), 40'000u);
+}
+
+TEST(LargeSystems, AFunctionOfSumsMovesAsItDoesWrittenOut) {
+  const Scratch scratch;
+  const std::string path = scratch.write("model.ham", kRotators);
+  const auto last = [&](const std::string& solver) {
+    const Result result = hamgen(
+        {"run", path, "--set", "N=26", "--solver", solver, "--quiet", "--every", "10", "-o", "-"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::size_t row = result.out.find("\n10,");
+    return result.out.substr(row, 60);
+  };
+  const auto number = [](const std::string& row, int column) {
+    std::size_t at = 0;
+    for (int k = 0; k < column; ++k) at = row.find(',', at) + 1;
+    return std::stod(row.substr(at));
+  };
+  const std::string loops = last("fixed-point");
+  const std::string written_out = last("newton");
+  for (const int column : {1, 2, 3})
+    EXPECT_NEAR(number(loops, column), number(written_out, column), 1e-13);
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
