@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "generator/program/stage_coordinates.hpp"
+#include "generator/program/stage_matrix.hpp"
 #include "generator/program/stage_numbers.hpp"
 
 namespace hamgen {
@@ -16,7 +17,8 @@ class StageRoutines : StageParts {
         code_(code),
         environment_(environment),
         lowered_(lowered),
-        solver_(*lowered.plan.stage_solver) {
+        solver_(*lowered.plan.stage_solver),
+        matrix_(lowered) {
     if (lowered.second_order) coordinates_.emplace(environment, lowered);
   }
 
@@ -30,7 +32,7 @@ class StageRoutines : StageParts {
       for (Routine& routine : coordinates_->routines())
         code_.routines.push_back(std::move(routine));
     }
-    if (has_newton()) code_.routines.push_back(differentiate());
+    if (has_newton()) code_.routines.push_back(matrix_.differentiate());
     if (solver_ == StageSolver::both) {
       code_.routines.push_back(fixed_point());
       code_.routines.push_back(newton());
@@ -68,7 +70,9 @@ class StageRoutines : StageParts {
     record.fields.push_back(
         {.name = "known", .remark = "L_i are of the step before", .values = {0}, .type = "bool"});
     array("lack", unknowns(), "of the equations at Y_i, then the increment");
-    if (has_newton() && has_spare_room()) array("packed", stages_ * dimension_, "lack, of stages");
+    if (has_newton()) {
+      for (Field& field : matrix_.fields()) record.fields.push_back(std::move(field));
+    }
     if (has_fixed_point()) {
       const bool impatient = solver_ == StageSolver::both;
       record.fields.push_back(
@@ -126,67 +130,6 @@ class StageRoutines : StageParts {
     b.body().push_back(for_each(all_stages(), std::move(stage)));
   }
 
-  // I - coupling h b J H'' with the Hessian at the mean of the stages.
-  [[nodiscard]] Routine differentiate() const {
-    RoutineBuilder b(
-        {.name = "differentiate",
-         .remark = {"1 - coupling h b J H'', the derivative of what the stages lack, with the "
-                    "Hessian at their mean."},
-         .arguments = with_start(false)});
-    b.body().push_back({Array{"mean", {dimension_}}});
-    Expression sum(0);
-    for (int m = 0; m < stages_; ++m) sum += of_start(b, "value", row_of(m));
-    Body mean{
-        {Assign{b.at("mean", "", {affine("j")}).name(), sum * Expression(Rational(1, stages_))}}};
-    b.body().push_back(for_each(all_components(), std::move(mean)));
-    b.body().push_back({Array{"values", {dimension_, dimension_}}});
-    b.body().push_back({Call{.routine = "hessian", .arguments = {{"par"}, {"mean"}, {"values"}}}});
-    const Place matrix{"start", "matrix"};
-    b.body().push_back({Clear{matrix}});
-    Body one{{Put{matrix, affine("j"), affine("j"), Expression(1)}}};
-    b.body().push_back(for_each(counting("j", stages_ * dimension_), std::move(one)));
-    // Rows of coordinates have J H'' = H_p.., those of momenta -H_q...
-    Body entries;
-    const Expression coupling = entry(b, "coupling", affine("m"));
-    const Expression scaled = b.at("k", "scaled", {affine("m")});
-    const Expression weight = b.let(entries, "weight", coupling * scaled);
-    const StageLayout packed = layout_.without_room();
-    const AffineIndex column = packed.index("m", 0, "c", 0);
-    Body each;
-    each.push_back({Put{matrix, packed.index("i", 0, "j", 0), column,
-                        -weight * b.at("values", "", {affine("j", n_), affine("c")})}});
-    each.push_back({Put{matrix, packed.index("i", 0, "j", n_), column,
-                        weight * b.at("values", "", {affine("j"), affine("c")})}});
-    Body columns;
-    columns.push_back(for_each(counting("c", dimension_), std::move(each)));
-    entries.push_back(for_each(counting("j", n_), std::move(columns)));
-    Body pairs;
-    pairs.push_back(for_each(counting("m", stages_), std::move(entries)));
-    b.body().push_back(for_each(counting("i", stages_), std::move(pairs)));
-    return b.take();
-  }
-
-  // start.lack becomes the increment of Newton's iteration.
-  void add_elimination(RoutineBuilder& b, Body& body) const {
-    const Place matrix{"start", "matrix"};
-    if (!by_component() || !has_spare_room()) {
-      body.push_back({SolveFactorised{matrix, {"start", "lack"}}});
-      return;
-    }
-    const StageLayout packed = layout_.without_room();
-    const std::string here = of_start(b, "packed", packed.index("i", 0, "j", 0)).name();
-    const std::string there = of_start(b, "lack", row()).name();
-    const auto copy = [&](const std::string& to, const std::string& from) {
-      Body each{{Assign{to, b.local(from)}}};
-      Body stages;
-      stages.push_back(for_each(counting("i", stages_), std::move(each)));
-      body.push_back(for_each(all_components(), std::move(stages)));
-    };
-    copy(here, there);
-    body.push_back({SolveFactorised{matrix, {"start", "packed"}}});
-    copy(there, here);
-  }
-
   [[nodiscard]] IterateArray iteration(RoutineBuilder& b, Rule rule, Body body) const {
     IterateArray iterate{.rule = rule,
                          .name = rule == Rule::fixed_point ? "rule" : "newton",
@@ -229,7 +172,7 @@ class StageRoutines : StageParts {
     Body size{{Accumulate{residual.name(),
                           Expression::apply("abs", {of_start(b, "lack", affine("j"))})}}};
     body.push_back(for_each(counting("j", unknowns()), std::move(size)));
-    add_elimination(b, body);
+    matrix_.add_elimination(b, body);
     b.body().push_back({iteration(b, Rule::simplified_newton, std::move(body))});
   }
 
@@ -274,6 +217,14 @@ class StageRoutines : StageParts {
   }
   void add_state_at_stages(RoutineBuilder& b) const {
     Body each;
+    if (is_array()) {
+      for (const char* half : {"q", "p"}) {
+        const Expression target = state(b, half[0] == 'q' ? 0 : n_);
+        each.push_back({Assign{target.name(), b.at("z", half, {affine("j")})}});
+      }
+      b.body().push_back(for_all(std::move(each), n_));
+      return;
+    }
     for (int c = 0; c < dimension_; ++c) {
       const Expression target = of_start(b, "state", layout_.index("i", 0, "", c));
       each.push_back({Assign{target.name(), b.at(environment_.place("z", c))}});
@@ -326,7 +277,7 @@ class StageRoutines : StageParts {
     const Place factorised{"start", "factorised"};
     if (has_newton()) {
       Body contract;
-      add_elimination(b, contract);
+      matrix_.add_elimination(b, contract);
       again.push_back({If{factorised, true, std::move(contract)}});
     }
     if (coordinates_) {
@@ -394,6 +345,7 @@ class StageRoutines : StageParts {
   const Environment& environment_;
   const LoweredStep& lowered_;
   StageSolver solver_;
+  StageMatrix matrix_;
   std::optional<StageCoordinates> coordinates_;
 };
 

@@ -1,0 +1,101 @@
+// What stages in lanes have of their own: the distance of arrays and the refinement, bit for bit as
+// one number after the other.
+#include <gtest/gtest.h>
+
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+
+namespace stage_packs {
+#include "generator/interpreter/lanes.inc"
+#include "generator/numerics/lane_distance.hpp"
+#include "generator/numerics/lane_refinement.hpp"
+}  // namespace stage_packs
+
+namespace {
+
+template <int W>
+using Lanes = stage_packs::Pack<W>;
+
+template <int W, int Count>
+void expect_the_distance() {
+  Numbers numbers;
+  for (int k = 0; k < 20; ++k) {
+    double moved[Count];
+    double value[Count];
+    double beside[Count];
+    for (int j = 0; j < Count; ++j) {
+      value[j] = numbers.next();
+      beside[j] = numbers.next();
+      moved[j] = numbers.next() * (k % 2 == 0 ? 0x1p-50 : 1);
+    }
+    of_double::Distance one;
+    of_double::Distance all;
+    one.add(moved, value, beside, Count);
+    stage_packs::add_lanes(Lanes<W>(0), all, moved, value, beside, Count);
+    EXPECT_EQ(one.size, all.size) << W << " of " << Count;
+    EXPECT_EQ(one.scale, all.scale);
+    EXPECT_EQ(one.close, all.close);
+  }
+}
+
+TEST(StageLanes, HaveTheDistanceOfArrays) {
+  expect_the_distance<2, 4>();
+  expect_the_distance<2, 12>();
+  expect_the_distance<4, 8>();
+  expect_the_distance<4, 12>();
+  expect_the_distance<8, 16>();
+  expect_the_distance<8, 40>();
+}
+
+// Rounds of a refinement whose map contracts by a fifth.
+template <int W, int Size>
+void expect_the_refinement() {
+  Numbers numbers;
+  of_double::Refinement<Size, Size> one;
+  stage_packs::RefinementInLanes<Lanes<W>, of_double::Refinement<Size, Size>> all;
+  int rounds = 0;
+  for (int k = 0; k < 5; ++k) {
+    double point[Size];
+    double same[Size];
+    for (int j = 0; j < Size; ++j) point[j] = same[j] = numbers.next();
+    double end[Size];
+    for (int j = 0; j < Size; ++j) end[j] = point[j] * (1 + numbers.next() * 0x1p-51);
+    for (bool more = true; more; ++rounds) {
+      double lack[Size];
+      double gradient[Size];
+      for (int j = 0; j < Size; ++j) {
+        ASSERT_EQ(point[j], same[j]);
+        lack[j] = end[j] - point[j] + (point[(j + 1) % Size] - end[(j + 1) % Size]) / 5;
+        gradient[j] = 3 * point[j];
+      }
+      more = one(point, lack, gradient);
+      ASSERT_EQ(all(same, lack, gradient), more);
+      EXPECT_EQ(one.last, all.last);
+    }
+    for (int j = 0; j < Size; ++j) {
+      EXPECT_EQ(one.change[j], all.change[j]);
+      EXPECT_EQ(one.slope[j], all.slope[j]);
+    }
+  }
+  EXPECT_GT(rounds, 15);  // and not one each
+}
+
+TEST(StageLanes, AreRefinedAsOneNumberAfterTheOther) {
+  expect_the_refinement<2, 4>();
+  expect_the_refinement<4, 8>();
+  expect_the_refinement<4, 12>();
+  expect_the_refinement<8, 16>();
+}
+
+TEST(StageLanes, GoInAndOutOfArraysInTheirOrder) {
+  double from[16];
+  double to[16] = {};
+  for (int j = 0; j < 16; ++j) from[j] = j;
+  Lanes<16>::put(to, Lanes<16>::at(from));
+  Lanes<8>::add(to + 8, Lanes<8>::at(from));
+  for (int j = 0; j < 16; ++j) EXPECT_EQ(to[j], j < 8 ? j : 2 * j - 8);
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
