@@ -98,13 +98,17 @@ void RoutinePrinter::print(const written::Body& body) {
     }
     std::visit(
         [this](const auto& node) {
-          if constexpr (requires { node.lanes; }) set_lanes(node.lanes > 0 ? node.range.index : "");
+          if constexpr (requires { node.lanes; }) {
+            if (node.lanes > 0) set_lanes(node.range.index);
+          }
           if constexpr (requires { node.shape; }) {
             print_inside(head(node), node.body, node.shape);
           } else if constexpr (requires { node.body; }) {
             print_inside(head(node), node.body, written::Shape::braces);
           }
-          if constexpr (requires { node.lanes; }) set_lanes("");
+          if constexpr (requires { node.lanes; }) {
+            if (node.lanes > 0) set_lanes("");
+          }
         },
         statement.value);
   }
