@@ -358,7 +358,8 @@ TEST(BatchHeader, IsRefusedWithAWayOutWhereThereAreNoLanes) {
   request.format = "cmake-package";
   EXPECT_EQ(refusal(request), "accepted");
   request.batch = 0;
-  EXPECT_TRUE(refusal(request).starts_with("--math: is of the elementary functions of a batch\n"));
+  EXPECT_TRUE(refusal(request).starts_with(
+      "--math: is of the elementary functions of a batch, and of stages"));
 }
 
 // Its namespaces meet those of the header of one trajectory in one program.
