@@ -52,7 +52,7 @@ class SumCollector {
       std::optional<SplitSums> split = split_into_sums(model_, node);
       if (!split || !split->functions.empty()) return false;
       nodes_.push_back(&sum);
-      const std::string symbol = name.empty() ? fmt::format("sum_{}", nodes_.size()) : name;
+      const std::string symbol = name.empty() ? fmt::format("sum({})", nodes_.size()) : name;
       result_.sums.push_back({symbol, "H(" + symbol + ")", {}});
       result_.terms.push_back(std::move(split->terms));
     }

@@ -108,8 +108,8 @@ struct SetFlag {
 struct For {
   KernelRange range;  // both ends are taken
   Body body;
-  // So many at once, of a range from 0 on: the body is without loops, what has the index has it as
-  // it is and last, and functions are those of lanes.  0: one after the other.
+  // So many at once, of a range from 0 on: what has the index has it once, in its last index, and
+  // functions are those of lanes.  0: one after the other.
   int lanes = 0;
 };
 // Locals that end with it.

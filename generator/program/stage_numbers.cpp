@@ -113,7 +113,7 @@ class StageNumbers {
   void add_scaled() {
     const std::size_t remark = b_.body().size();
     Expression half = step_size() * Expression(Rational(1, 2));
-    if (stages_ > 1) half = b_.let(b_.body(), "half", half);
+    if (stages_ > 1) half = b_.let(b_.body(), "half(0)", half);
     for (int i = 0; i < stages_ / 2; ++i) {
       const bool last = stages_ % 2 == 0 && i == stages_ / 2 - 1;
       const Expression weight(numeric_value(table_.weight[static_cast<std::size_t>(i)]));

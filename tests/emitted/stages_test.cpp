@@ -61,6 +61,28 @@ TEST(StagesInLanes, HaveTheSameBitsWithAnyInstructions) {
   }
 }
 
+// Names of the user's that the routines might have had, and a function that C++ calls otherwise.
+TEST(StagesInLanes, AreThoseOfModelsWhateverTheirNames) {
+  const auto proved = [](const std::string& text, const std::string& scheme) {
+    Request request = gauss(scheme);
+    request.require = "emitted-code";
+    return generate(make_source("one.ham", "system one\n" + text), request).front().text;
+  };
+  const std::string masses =
+      "coordinate q\nmomentum p\nparameter half = 2\nH = p^2/(2*half) - cos(q)\n";
+  EXPECT_NE(proved(masses, "gauss-6").find("k.mobility[0] = 1.0 / par.half;"), std::string::npos);
+  EXPECT_NE(proved("coordinate q\nmomentum p\nH = p^2/2 + sqrt(1 + abs(q))\n", "gauss-4")
+                .find("lane_abs"),
+            std::string::npos);
+  const std::string sums =
+      "size N = 30\ncoordinate q[1..N]\nmomentum p[1..N]\nparameter sum_1 = 2\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum_1*sum(i = 1..N, cos(q[i]))^2/(2*N)\n";
+  const std::string header =
+      generate(make_source("one.ham", "system one\n" + sums), gauss("gauss-4")).front().text;
+  EXPECT_EQ(messages("g++", without_pragma(header)), "");
+  EXPECT_NE(header.find("par.sum_1 * "), std::string::npos);
+}
+
 TEST(StagesInLanes, TakeTheFunctionsOfTheLibraryIfAsked) {
   Request request = gauss("gauss-8");
   request.math = "libm";
