@@ -22,7 +22,7 @@ TEST(CollectiveSums, AreKeptWithTheSlopesOfTheirFunction) {
   ASSERT_EQ(mechanics.sums.size(), 2u);
   EXPECT_EQ(mechanics.sums[0].name, "C");
   EXPECT_EQ(to_text(mechanics.sums[0].slope_value), "-K*C/30");
-  EXPECT_EQ(to_text(mechanics.sums[1].slope_value), "-K*sum_2/30");
+  EXPECT_EQ(to_text(mechanics.sums[1].slope_value), "-K*sum(2)/30");
   // The energy of motion, C by itself, and what the two sums are made of.
   EXPECT_EQ(mechanics.kernels.size(), 4u);
   EXPECT_TRUE(mechanics.is_separable());
