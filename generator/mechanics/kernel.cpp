@@ -65,12 +65,13 @@ long largest_value(const AffineIndex& index, const std::vector<KernelRange>& ran
 }
 
 IndexInterval indices_between(const AffineIndex& place, const std::string& index, long least,
-                         long most) {
+                              long most) {
   const auto found = place.factors.find(index);
   const long factor = found == place.factors.end() ? 0 : found->second;
   const long below = least - place.constant;
   const long above = most - place.constant;
-  if (factor == 0) return below <= 0 && above >= 0 ? IndexInterval{} : IndexInterval{.first = 1, .last = 0};
+  if (factor == 0)
+    return below <= 0 && above >= 0 ? IndexInterval{} : IndexInterval{.first = 1, .last = 0};
   if (factor > 0) return {rounded_up(below, factor), rounded_down(above, factor)};
   return {rounded_up(-above, -factor), rounded_down(-below, -factor)};
 }

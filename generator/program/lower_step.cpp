@@ -61,6 +61,11 @@ std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
     if (!has_diagonal_kinetic_energy(mechanics)) return {};
     return SecondOrder{.unit_mobility = uniform_mass(mechanics) == Expression(1)};
   }
+  // abs(p)'' is 0 too, and its velocity jumps.
+  const std::set<std::string> beyond = non_polynomial_symbols(mechanics.energy);
+  for (int i = n; i < 2 * n; ++i) {
+    if (beyond.contains(mechanics.variable(i).name())) return {};
+  }
   SecondOrder result;
   std::set<std::string> state;
   for (int i = 0; i < 2 * n; ++i) state.insert(mechanics.variable(i).name());

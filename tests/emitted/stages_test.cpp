@@ -105,6 +105,12 @@ std::pair<double, double> end_of(const std::string& lines) {
   return {q, p};
 }
 
+// Its second derivative vanishes, and its velocity is no multiple of p.
+TEST(StagesInLanes, OfAMomentumsMagnitudeKeepTheirMomenta) {
+  const std::string header = header_of("p^2/2 + abs(p)/3 + cos(q)", gauss("gauss-4"));
+  EXPECT_EQ(header.find("evaluate_coordinates"), std::string::npos);
+}
+
 // The same H with a kinetic energy that is a sum of squares, and that is not seen to be one.
 TEST(StagesInLanes, OfCoordinatesAloneEndWhereThoseOfAllDo) {
   const Request request = gauss("gauss-8");
