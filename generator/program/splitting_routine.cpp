@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/function_routines.hpp"
+#include "generator/program/local_velocity.hpp"
 
 namespace hamgen {
 
@@ -24,6 +26,7 @@ Routine half_gradient(const Environment& environment, const Coefficients& coeffi
 struct HalfStep {
   bool kick = true;
   Place gradient = {};  // where it stands
+  bool once = false;    // is it one substep of the step?
   [[nodiscard]] const char* routine() const {
     return kick ? "potential_gradient" : "kinetic_gradient";
   }
@@ -34,13 +37,15 @@ struct HalfStep {
 // What is small is summed first, the carry with it, and nothing of it is lost.  The kicks of a step
 // are rounded multiples of one force where h and the coefficients are simple fractions, and then
 // what their rounded sum loses is a pattern, the same at every step, and not chance: for h = 1/5,
-// w = 1.3 the form of an oscillator drifts by 1e-3 units of rounding a step with sbab-3.
+// w = 1.3 the form of an oscillator drifts by 1e-3 units of rounding a step with sbab-3.  Of what
+// changes once there is no sum: the change is the increment, and the carry the rest.
 class SplittingRoutine {
  public:
   SplittingRoutine(const Environment& environment, const LoweredStep& lowered)
       : environment_(environment),
         lowered_(lowered),
         n_(environment.degrees_of_freedom),
+        pairs_(static_cast<int>(lowered.sequence.substeps.size() / 2)),
         arrays_(lowered.plan.arrays.has_value()),
         closed_(is_closed(lowered.sequence)) {
     const std::vector<Substep>& substeps = lowered.sequence.substeps;
@@ -52,6 +57,13 @@ class SplittingRoutine {
     first_.gradient = closed_ ? Place{"start", "value"} : Place{"first"};
     second_.kick = !first_.kick;
     second_.gradient = {"second"};
+    for (HalfStep* kind : {&first_, &second_}) {
+      const auto is_of_kind = [&](const Substep& substep) {
+        return (substep.kind == SubstepKind::kick) == kind->kick;
+      };
+      kind->once = std::ranges::count_if(substeps, is_of_kind) == 1;
+    }
+    if (arrays_ && first_.kick) velocity_ = local_velocity(lowered.plan.equations.mechanics);
   }
 
   Routine build() {
@@ -67,17 +79,16 @@ class SplittingRoutine {
     }
     routine_.arguments.push_back(state_argument("dz", true));
     routine_.arguments.push_back(state_argument("rest", true));
-    Body& body = routine_.body;
-    body.push_back({Copy{"State", "now", "z", true}});
-    body.push_back({Copy{"State", "dz", "carry"}});
-    body.push_back({Copy{"State", "rest", ""}});
-    for (const HalfStep& kind : {first_, second_}) {
-      if (kind.gradient.field.empty()) body.push_back({Array{kind.gradient.object, {n_}}});
+    if (velocity_) {
+      environment_.bind_parameters(routine_);
+      for (const auto& [symbol, place] : velocity_->places) routine_.places[symbol] = place;
     }
+    Body& body = routine_.body;
+    add_places(body);
     const Place known{"start", "known"};
     if (closed_) {
       Body unknown;
-      add_call(unknown, first_);
+      add_call(unknown, first_, velocity_ ? "z" : "now");
       body.push_back({If{known, false, std::move(unknown)}});
     }
     add_pairs(body);
@@ -89,34 +100,62 @@ class SplittingRoutine {
   }
 
  private:
+  // What the step works on.  Where velocities are local nobody looks at the momenta on the way, and
+  // a step of one pair of substeps begins its sums where it has the components.
+  [[nodiscard]] bool begins_in_loops() const { return velocity_ && pairs_ == 1; }
+  void add_places(Body& body) {
+    if (!begins_in_loops()) {
+      body.push_back({Copy{"State", "now", "z", true}});
+      body.push_back({Copy{"State", "dz", "carry"}});
+      body.push_back({Copy{"State", "rest", ""}});
+    } else if (closed_) {
+      body.push_back({Array{"q", {n_}}});
+    }
+    for (const HalfStep& kind : {first_, second_}) {
+      const bool local = velocity_ && !kind.kick;
+      if (kind.gradient.field.empty() && !local)
+        body.push_back({Array{kind.gradient.object, {n_}}});
+    }
+  }
+
   void add_pairs(Body& body) {
-    const auto substeps = static_cast<int>(lowered_.sequence.substeps.size());
-    const int pairs = substeps / 2;
-    if (pairs == 1) {
+    if (pairs_ == 1) {
       add_pair(body, {0, {}});
     } else {
       Body loop;
       add_pair(loop, {0, {{"i", 1}}});
-      body.push_back({For{{"i", {0, {}}, {pairs - 1, {}}}, std::move(loop)}});
+      body.push_back({For{{"i", {0, {}}, {pairs_ - 1, {}}}, std::move(loop)}});
     }
-    if (closed_) add_change(body, first_, {pairs, {}}, true);
+    if (closed_) {
+      Body change;
+      add_change(change, first_, {pairs_, {}}, Look::nobody);
+      add_loop(body, std::move(change));
+    }
   }
 
   void add_pair(Body& body, const AffineIndex& substep) {
-    if (!closed_) add_call(body, first_);
-    add_change(body, first_, substep, false);
-    add_call(body, second_);
-    add_change(body, second_, substep, false);
-    if (closed_) add_call(body, first_);
+    const bool ends = pairs_ == 1 && !closed_;  // nobody looks at what the pair leaves
+    if (!closed_) add_call(body, first_, begins_in_loops() ? "z" : "now");
+    Body change;
+    add_change(change, first_, substep, velocity_ ? Look::velocity : Look::state);
+    if (!velocity_) {
+      add_loop(body, std::exchange(change, {}));
+      add_call(body, second_, "now");
+    }
+    add_change(change, second_, substep, velocity_ && ends ? Look::nobody : Look::state);
+    add_loop(body, std::move(change));
+    if (closed_) add_call(body, first_, "now");
   }
 
-  void add_call(Body& body, const HalfStep& kind) const {
-    if (arrays_) {
-      body.push_back(
-          {Call{kind.routine(), {{"par"}, {"now", kind.kick ? "q" : "p"}, kind.gradient}}});
-    } else {
+  // dV/dq or dT/dp at a state.
+  void add_call(Body& body, const HalfStep& kind, const std::string& state) const {
+    if (!arrays_) {
       body.push_back({Call{kind.routine(), {{"par"}, {"k"}, {"now"}, kind.gradient}}});
+      return;
     }
+    Place point{state, kind.kick ? "q" : "p"};
+    if (begins_in_loops() && state == "now") point = {"q"};
+    body.push_back({Call{kind.routine(), {{"par"}, std::move(point), kind.gradient}}});
   }
 
   Expression bind(const std::string& symbol, const Place& place) {
@@ -132,6 +171,7 @@ class SplittingRoutine {
   }
   // Component `index` of the coordinates or momenta of a state.
   Expression component(const std::string& state, bool momentum, const AffineIndex& index) {
+    if (begins_in_loops() && state == "now") return element({"q"}, index);
     if (arrays_) return element({state, momentum ? "p" : "q"}, index);
     const Place place =
         environment_.place(state, static_cast<int>(index.constant) + (momentum ? n_ : 0));
@@ -149,21 +189,49 @@ class SplittingRoutine {
     return result;
   }
 
-  // dz -= kick dV/dq or dz += drift dT/dp, and the state there, unless nobody looks at it.
-  void add_change(Body& body, const HalfStep& kind, const AffineIndex& substep, bool last) {
-    Body inner;
-    Body& target = arrays_ ? inner : body;
+  // Who looks at what a substep has changed: the rest of the step at the state, the velocity in the
+  // same loop, or nobody.
+  enum class Look { state, velocity, nobody };
+
+  // dz -= kick dV/dq or dz += drift dT/dp, and what somebody looks at.
+  void add_change(Body& body, const HalfStep& kind, const AffineIndex& substep, Look look) {
     for (const AffineIndex& i : components(kind.kick)) {
       const Expression length = element({"k", kind.lengths()}, substep);
-      const Expression slope = element(kind.gradient, i);
+      const Expression slope = velocity_ && !kind.kick ? velocity(body) : element(kind.gradient, i);
+      const Expression change = (kind.kick ? -length : length) * slope;
       const Expression dz = component("dz", kind.kick, i);
       const Expression rest = component("rest", kind.kick, i);
-      target.push_back({Collect{dz.name(), rest.name(), (kind.kick ? -length : length) * slope}});
-      if (last) continue;
-      target.push_back(
-          {Assign{component("now", kind.kick, i).name(), component("z", kind.kick, i) + dz}});
+      const Expression carry = component("carry", kind.kick, i);
+      const Expression z = component("z", kind.kick, i);
+      if (kind.once) {
+        body.push_back({Assign{dz.name(), change}});
+        body.push_back({Assign{rest.name(), carry}});
+      } else {
+        const bool begins = begins_in_loops() && &kind == &first_ && look != Look::nobody;
+        if (begins) {
+          body.push_back({Assign{dz.name(), carry}});
+          body.push_back({Assign{rest.name(), Expression(0)}});
+        }
+        body.push_back({Collect{dz.name(), rest.name(), change}});
+      }
+      const Expression anew = kind.once ? z + (dz + carry) : z + dz;
+      if (look == Look::velocity) body.push_back({Let{velocity_->momentum, anew}});
+      if (look == Look::state)
+        body.push_back({Assign{component("now", kind.kick, i).name(), anew}});
     }
-    if (arrays_) body.push_back({For{{"j", {0, {}}, {n_ - 1, {}}}, std::move(inner)}});
+  }
+  // dT/dp_j, in a loop that has p_j.
+  Expression velocity(Body& body) const {
+    append(body, velocity_->evaluation.statements);
+    return velocity_->evaluation.results.front();
+  }
+  // The changes, of every element if they are those of arrays.
+  void add_loop(Body& body, Body changes) const {
+    if (arrays_) {
+      body.push_back({For{{"j", {0, {}}, {n_ - 1, {}}}, std::move(changes)}});
+    } else {
+      for (Instruction& change : changes) body.push_back(std::move(change));
+    }
   }
 
   void add_finite(Return& end) {
@@ -177,9 +245,10 @@ class SplittingRoutine {
 
   const Environment& environment_;
   const LoweredStep& lowered_;
-  int n_;
+  int n_, pairs_;
   bool arrays_, closed_;
-  HalfStep first_, second_;  // that comes first, and the other
+  HalfStep first_, second_;                // that comes first, and the other
+  std::optional<LocalVelocity> velocity_;  // where a kick comes first
   Routine routine_;
 };
 

@@ -50,10 +50,19 @@ Identities lengths_identities(const StepUnderProof& step,
   return claims.take();
 }
 
+// The state with these values in it.
+Substitution at_state(const StepUnderProof& step, const std::vector<Expression>& values) {
+  Substitution result;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    result.emplace(step.mechanics.variable(static_cast<int>(i)).name(), values[i]);
+  return result;
+}
+
 // Kicks p -= b h dV/dq and drifts q += a h dT/dp in their order.  `known`: the first gradient is
-// remembered of the step before, and is that at z.
-Identities splitting_identities(const StepUnderProof& step, const Derivatives* derivatives,
-                                const std::vector<ExactSubstep>& substeps, bool known) {
+// remembered of the step before, and is that at z.  Where solve calls nothing for dT/dp, it has to
+// have taken the function itself.  `zeros`: what vanishes is left out.
+Identities splitting_identities(const StepUnderProof& step, const Derivatives& derivatives,
+                                bool zeros, const std::vector<ExactSubstep>& substeps, bool known) {
   Claims claims(step, {"potential_gradient", "kinetic_gradient"});
   SymbolicMachine& machine = claims.machine();
   const int n = step.mechanics.degrees_of_freedom;
@@ -73,8 +82,12 @@ Identities splitting_identities(const StepUnderProof& step, const Derivatives* d
     at.push_back(step.mechanics.variable(i));
     sum.push_back(step.carry(i));
   }
-  claims.add_count("the number of evaluations", machine.calls.size(),
-                   substeps.size() - (known ? 1 : 0));
+  const bool local =
+      !called_routines(step.code.routine("solve")->body).contains("kinetic_gradient");
+  const auto is_called = [local](const ExactSubstep& each) { return each.kick || !local; };
+  const auto calls = static_cast<std::size_t>(std::ranges::count_if(substeps, is_called));
+  claims.add_count("the number of evaluations", machine.calls.size(), calls - (known ? 1 : 0));
+  std::vector<Expression> velocity;
   std::size_t call = 0;
   const std::vector<Expression>* last = nullptr;
   for (std::size_t s = 0; s < substeps.size(); ++s) {
@@ -83,6 +96,13 @@ Identities splitting_identities(const StepUnderProof& step, const Derivatives* d
     const int to = kick ? n : 0;
     if (known && s == 0) {
       last = &remembered;
+    } else if (!is_called(substeps[s])) {
+      velocity.clear();
+      const Substitution point = at_state(step, at);
+      for (int i = 0; i < n; ++i) {
+        velocity.push_back(substitute(derivatives.first(n + i), point));
+      }
+      last = &velocity;
     } else {
       if (call == machine.calls.size()) break;
       const CallTrace& trace = machine.calls[call++];
@@ -96,7 +116,7 @@ Identities splitting_identities(const StepUnderProof& step, const Derivatives* d
       last = &trace.output;
     }
     for (int i = 0; i < n; ++i) {
-      if (derivatives != nullptr && derivatives->first(from + i).is_zero()) continue;
+      if (zeros && derivatives.first(from + i).is_zero()) continue;
       const auto place = static_cast<std::size_t>(to + i);
       const Expression change = lengths[s] * last->at(static_cast<std::size_t>(i));
       sum[place] = sum[place] + (kick ? -change : change);
@@ -109,7 +129,7 @@ Identities splitting_identities(const StepUnderProof& step, const Derivatives* d
   }
   for (int j = 0; closed && last != nullptr && j < n; ++j) {
     const int from = substeps.front().kick ? 0 : n;
-    if (derivatives != nullptr && derivatives->first(from + j).is_zero()) continue;
+    if (zeros && derivatives.first(from + j).is_zero()) continue;
     claims.add("what is remembered for " + step.name(from + j), machine.value(of_start("value", j)),
                last->at(static_cast<std::size_t>(j)));
   }
@@ -134,13 +154,14 @@ std::vector<Identities> method_identities(const StepUnderProof& step,
                                           const Derivatives& derivatives) {
   const Method& method = step.scheme.method;
   // Loops do not leave out what vanishes.
-  const Derivatives* zeros = step.mechanics.keeps_sums() ? nullptr : &derivatives;
+  const bool zeros = !step.mechanics.keeps_sums();
   if (const auto* splitting = std::get_if<Splitting>(&method)) {
     const std::vector<ExactSubstep> substeps = substeps_of(*splitting);
-    std::vector<Identities> parts = {lengths_identities(step, substeps),
-                                     splitting_identities(step, zeros, substeps, false)};
+    std::vector<Identities> parts = {
+        lengths_identities(step, substeps),
+        splitting_identities(step, derivatives, zeros, substeps, false)};
     if (step.code.record("Start") != nullptr)
-      parts.push_back(splitting_identities(step, zeros, substeps, true));
+      parts.push_back(splitting_identities(step, derivatives, zeros, substeps, true));
     return parts;
   }
   if (const auto* tableau = std::get_if<RungeKutta>(&method)) {

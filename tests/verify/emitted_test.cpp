@@ -225,6 +225,8 @@ std::vector<Loops> loops(const Mechanics& mechanics) {
   all.push_back({"explicit", "", uniform(n, zero, zero, zero)});
   all.push_back({"explicit, the other way", "", uniform(n, Expression(1), zero, zero)});
   all.push_back({"splitting", "", named("stormer-verlet")});
+  all.push_back({"splitting of three kicks", "", named("ruth-3")});
+  all.push_back({"splitting of three drifts", "", named("saba-2")});
   all.push_back(
       {"composition", "", compose(*find_scheme("yoshida-4"), uniform(n, half(), zero, zero))});
   return all;
