@@ -9,9 +9,10 @@ namespace hamgen::drift {
 [[nodiscard]] std::vector<Row> all_rows();
 
 // The problems, as text of a model.
-[[nodiscard]] std::string oscillator();          // w = 1.3
-[[nodiscard]] std::string chain(int n);          // harmonic, fixed ends, in loops from n = 25
-[[nodiscard]] std::string soft_chain(int n);     // the same, but the generator cannot know
+[[nodiscard]] std::string oscillator();  // w = 1.3
+[[nodiscard]] std::string chain(int n);  // harmonic, fixed ends, in loops from n = 25
+// The same, but the generator cannot know.
+[[nodiscard]] std::string soft_chain(int n, const std::string& k = "1.3");
 [[nodiscard]] std::string kepler();              // L is its first invariant
 [[nodiscard]] std::string planar_bodies(int n);  // soft attraction, all pairs; L
 // A member whose alpha is a list: the sums are written out whatever n is.

@@ -230,7 +230,7 @@ void add_splitting(Program& code, const Environment& environment, const LoweredS
       coefficients_of(environment, lowered, splitting_lengths(sequence));
   code.records.push_back(coefficients.record);
   code.routines.push_back(coefficients.prepare);
-  if (is_closed(sequence)) {
+  if (keeps_gradient(lowered)) {
     const bool kick = sequence.substeps.front().kind == SubstepKind::kick;
     code.records.push_back(
         {.name = "Start",

@@ -33,6 +33,14 @@ struct HalfStep {
   [[nodiscard]] const char* lengths() const { return kick ? "kick" : "drift"; }
 };
 
+// What a loop over the momenta goes on with, unless drifts come first and kicks last.
+std::optional<LocalVelocity> velocity_in_loops(const LoweredStep& lowered) {
+  const Sequence& sequence = lowered.sequence;
+  const bool kick_first = sequence.substeps.front().kind == SubstepKind::kick;
+  if (!lowered.plan.arrays || (!kick_first && !is_closed(sequence))) return {};
+  return local_velocity(lowered.plan.equations.mechanics);
+}
+
 // Note [sums of kicks]
 // What is small is summed first, the carry with it, and nothing of it is lost.  The kicks of a step
 // are rounded multiples of one force where h and the coefficients are simple fractions, and then
@@ -54,8 +62,10 @@ class SplittingRoutine {
         internal_error("substeps that do not alternate");
     }
     first_.kick = substeps.front().kind == SubstepKind::kick;
-    first_.gradient = closed_ ? Place{"start", "value"} : Place{"first"};
     second_.kick = !first_.kick;
+    velocity_ = velocity_in_loops(lowered);
+    keeps_ = keeps_gradient(lowered);
+    first_.gradient = keeps_ ? Place{"start", "value"} : Place{"first"};
     second_.gradient = {"second"};
     for (HalfStep* kind : {&first_, &second_}) {
       const auto is_of_kind = [&](const Substep& substep) {
@@ -63,7 +73,6 @@ class SplittingRoutine {
       };
       kind->once = std::ranges::count_if(substeps, is_of_kind) == 1;
     }
-    if (arrays_ && first_.kick) velocity_ = local_velocity(lowered.plan.equations.mechanics);
   }
 
   Routine build() {
@@ -74,7 +83,7 @@ class SplittingRoutine {
                               {.name = "k", .record = "Coefficients"},
                               state_argument("z"),
                               state_argument("carry")}};
-    if (closed_) {
+    if (keeps_) {
       routine_.arguments.push_back({.name = "start", .record = "Start", .changes = true});
     }
     routine_.arguments.push_back(state_argument("dz", true));
@@ -86,14 +95,18 @@ class SplittingRoutine {
     Body& body = routine_.body;
     add_places(body);
     const Place known{"start", "known"};
-    if (closed_) {
+    if (keeps_) {
       Body unknown;
       add_call(unknown, first_, velocity_ ? "z" : "now");
       body.push_back({If{known, false, std::move(unknown)}});
     }
-    add_pairs(body);
+    if (velocity_ && !first_.kick) {
+      add_drifts_first(body);
+    } else {
+      add_pairs(body);
+    }
     Return end;
-    if (closed_) end.flag = known;
+    if (keeps_) end.flag = known;
     add_finite(end);
     body.push_back({std::move(end)});
     return std::move(routine_);
@@ -118,14 +131,30 @@ class SplittingRoutine {
     }
   }
 
+  // What there is of each pair, in a loop if there are several.
+  template <class Add>
+  void for_pairs(Body& body, const Add& add) {
+    if (pairs_ == 1) return add(body, AffineIndex{});
+    Body loop;
+    add(loop, AffineIndex{0, {{"i", 1}}});
+    body.push_back({For{{"i", {0, {}}, {pairs_ - 1, {}}}, std::move(loop)}});
+  }
+  // A drift, and behind every kick, where the momenta are, the next one.
+  void add_drifts_first(Body& body) {
+    Body change{{Let{velocity_->momentum, component("z", true, {0, {{"j", 1}}})}}};
+    add_change(change, first_, {}, Look::state, true);
+    add_loop(body, std::move(change));
+    for_pairs(body, [&](Body& pair, AffineIndex substep) {
+      add_call(pair, second_, "now");
+      Body changes;
+      add_change(changes, second_, substep, Look::velocity);
+      ++substep.constant;
+      add_change(changes, first_, substep, pairs_ == 1 ? Look::nobody : Look::state);
+      add_loop(pair, std::move(changes));
+    });
+  }
   void add_pairs(Body& body) {
-    if (pairs_ == 1) {
-      add_pair(body, {0, {}});
-    } else {
-      Body loop;
-      add_pair(loop, {0, {{"i", 1}}});
-      body.push_back({For{{"i", {0, {}}, {pairs_ - 1, {}}}, std::move(loop)}});
-    }
+    for_pairs(body, [&](Body& pair, const AffineIndex& substep) { add_pair(pair, substep); });
     if (closed_) {
       Body change;
       add_change(change, first_, {pairs_, {}}, Look::nobody);
@@ -137,7 +166,7 @@ class SplittingRoutine {
     const bool ends = pairs_ == 1 && !closed_;  // nobody looks at what the pair leaves
     if (!closed_) add_call(body, first_, begins_in_loops() ? "z" : "now");
     Body change;
-    add_change(change, first_, substep, velocity_ ? Look::velocity : Look::state);
+    add_change(change, first_, substep, velocity_ ? Look::velocity : Look::state, true);
     if (!velocity_) {
       add_loop(body, std::exchange(change, {}));
       add_call(body, second_, "now");
@@ -194,7 +223,9 @@ class SplittingRoutine {
   enum class Look { state, velocity, nobody };
 
   // dz -= kick dV/dq or dz += drift dT/dp, and what somebody looks at.
-  void add_change(Body& body, const HalfStep& kind, const AffineIndex& substep, Look look) {
+  // `begins`: the sums, too.
+  void add_change(Body& body, const HalfStep& kind, const AffineIndex& substep, Look look,
+                  bool begins = false) {
     for (const AffineIndex& i : components(kind.kick)) {
       const Expression length = element({"k", kind.lengths()}, substep);
       const Expression slope = velocity_ && !kind.kick ? velocity(body) : element(kind.gradient, i);
@@ -207,8 +238,7 @@ class SplittingRoutine {
         body.push_back({Assign{dz.name(), change}});
         body.push_back({Assign{rest.name(), carry}});
       } else {
-        const bool begins = begins_in_loops() && &kind == &first_ && look != Look::nobody;
-        if (begins) {
+        if (begins && begins_in_loops()) {
           body.push_back({Assign{dz.name(), carry}});
           body.push_back({Assign{rest.name(), Expression(0)}});
         }
@@ -247,8 +277,9 @@ class SplittingRoutine {
   const LoweredStep& lowered_;
   int n_, pairs_;
   bool arrays_, closed_;
-  HalfStep first_, second_;                // that comes first, and the other
-  std::optional<LocalVelocity> velocity_;  // where a kick comes first
+  bool keeps_ = false;       // the gradient that the step ends with, for the next
+  HalfStep first_, second_;  // that comes first, and the other
+  std::optional<LocalVelocity> velocity_;
   Routine routine_;
 };
 
@@ -261,6 +292,13 @@ std::vector<ScaledNumbers> splitting_lengths(const Sequence& sequence) {
 
 bool is_closed(const Sequence& sequence) {
   return sequence.substeps.front().kind == sequence.substeps.back().kind;
+}
+
+bool keeps_gradient(const LoweredStep& lowered) {
+  const Sequence& sequence = lowered.sequence;
+  if (!is_closed(sequence)) return false;
+  const bool kick_first = sequence.substeps.front().kind == SubstepKind::kick;
+  return kick_first || !velocity_in_loops(lowered);
 }
 
 std::vector<Routine> splitting_routines(const Environment& environment, const LoweredStep& lowered,
