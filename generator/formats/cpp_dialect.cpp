@@ -35,7 +35,8 @@ std::string CppDialect::argument(const Argument& argument, const std::string& na
   if (!argument.count.empty()) return argument.count + named;
   if (argument.sizes.empty() && argument.record.empty()) return "Real" + named;
   if (argument.decays) return constant + "Real*" + named;
-  if (argument.sizes.empty()) return constant + argument.record + "&" + named;
+  if (argument.sizes.empty())
+    return constant + argument.record + "&" + (argument.alone ? " __restrict" : "") + named;
   return fmt::format("{}{} (&{}){}", constant, argument.record.empty() ? "Real" : argument.record,
                      name, sizes);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generator/program/alone.hpp"
 #include "generator/program/coefficients.hpp"
 #include "generator/program/describe_step.hpp"
 #include "generator/program/function_routines.hpp"
@@ -337,6 +338,7 @@ Program build_program(const LoweredStep& lowered) {
   find_changed(code, environment);
   trace_origins(code, environment, equations);
   code.facts = describe_step(lowered, code);
+  if (arrays || code.stages) find_alone(code);
   return code;
 }
 

@@ -308,6 +308,7 @@ struct Argument {
   bool changes = false;
   bool decays = false;     // an array that is given by its first element
   std::string count = {};  // of a number that is an integer: its type
+  bool alone = false;      // of a record: is nothing else that the routine is given a part of it?
 };
 
 // What a routine returns: nothing, a number, or a record of this name that it fills in.

@@ -8,8 +8,9 @@ namespace hamgen {
 
 namespace {
 
-// Of the index j instead of the kernel's own, which is `first` where j is 0.
-AffineIndex counted_from_zero(const AffineIndex& index, const KernelRange& range, long first) {
+// Of the loop's index instead of the kernel's own, which is `first` where that is 0.
+AffineIndex counted_from_zero(const AffineIndex& index, const KernelRange& range, long first,
+                              const std::string& of_loop) {
   AffineIndex result{index.constant, {}};
   for (const auto& [name, factor] : index.factors) {
     if (name != range.index) {
@@ -17,7 +18,7 @@ AffineIndex counted_from_zero(const AffineIndex& index, const KernelRange& range
       continue;
     }
     result.constant += factor * first;
-    result.factors["j"] = factor;
+    result.factors[of_loop] = factor;
   }
   return result;
 }
@@ -33,7 +34,7 @@ bool is_full_range(const Kernel& kernel, int n) {
 
 }  // namespace
 
-std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics) {
+std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics, const std::string& index) {
   if (!mechanics.is_separable() || !mechanics.sums.empty()) return {};
   const int n = mechanics.degrees_of_freedom;
   if (std::ranges::count_if(mechanics.kernels, uses_momenta) != 1) return {};
@@ -44,16 +45,16 @@ std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics) {
   const long first = n - slot.position.constant;
 
   LocalVelocity result;
-  result.momentum = slot.symbol.substr(0, slot.symbol.find('[')) + "[j]";
+  result.momentum = slot.symbol.substr(0, slot.symbol.find('[')) + "[" + index + "]";
   Substitution names{{slot.symbol, Expression::symbol(result.momentum, kRankOfTemporary)}};
-  const std::string index = "index(j)";
-  result.places[index] = {.object = {}, .indices = {{first, {{"j", 1}}}}};
-  names.emplace(range.index, Expression::symbol(index, kRankOfParameter));
+  const std::string number = "index(" + index + ")";
+  result.places[number] = {.object = {}, .indices = {{first, {{index, 1}}}}};
+  names.emplace(range.index, Expression::symbol(number, kRankOfParameter));
   for (const ParameterSlot& parameter : kernel.parameters) {
     result.places[parameter.symbol] = {
         .object = "par",
         .field = member_identifier(parameter.parameter),
-        .indices = {counted_from_zero(parameter.position, range, first)}};
+        .indices = {counted_from_zero(parameter.position, range, first, index)}};
   }
   result.evaluation = evaluate_together({substitute(kernel.gradient.front(), names)});
   return result;

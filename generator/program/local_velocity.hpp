@@ -1,5 +1,5 @@
-// dT/dp where element j of it is a function of element j of the momenta alone: a loop that has the
-// momentum can go on with it, and needs no array of velocities.
+// dT/dp where an element of it is a function of the same element of the momenta alone: a loop that
+// has the momentum can go on with it, and needs no array of velocities.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,13 @@
 namespace hamgen {
 
 struct LocalVelocity {
-  std::string momentum;   // the symbol of element j
+  std::string momentum;   // the symbol of the element
   Evaluation evaluation;  // one result
   std::map<std::string, Place> places;
 };
-// Of a system in loops whose elements from 0 on one kernel meets, each of them once.
-[[nodiscard]] std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics);
+// Of a system in loops whose elements one kernel meets, each of them once; the loop that goes on
+// has them from 0 on by this index.
+[[nodiscard]] std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics,
+                                                          const std::string& index);
 
 }  // namespace hamgen

@@ -68,7 +68,7 @@ class LoopMember : LoopStage {
                               .values = {0},
                               .type = "bool"});
     }
-    if (arrays_.reduced) array("momentum", n_, "of zbar");
+    if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
     array("slope", 2 * n_, "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
       array("lack", unknowns(), "of the equations at zbar, then the increment");
@@ -186,7 +186,7 @@ class LoopMember : LoopStage {
   [[nodiscard]] Body iteration_body(RoutineBuilder& b) const {
     Body body;
     add_gradient_at_stage(body);
-    body.push_back(for_each(elements(), lacks(b)));
+    if (!arrays_.reduced) body.push_back(for_each(elements(), lacks(b, slope(b))));
     return body;
   }
 

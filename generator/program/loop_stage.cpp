@@ -16,14 +16,20 @@ Expression lacking(const Expression& z, const Expression& bar, const Expression&
   return row.large.empty() ? sum : sum + (carry + row.small);
 }
 
+// z + (carry + row), what is small first; z alone where nothing moves it.
+Expression moved(RoutineBuilder& b, Body& body, const Expression& z, const Expression& carry,
+                 const StageRow& row, const std::string& change) {
+  if (row.large.empty()) return z;
+  Expression sum = carry + row.small;
+  for (const Expression& term : row.large) sum += term;
+  return z + b.let(body, change, sum);
+}
+
 }  // namespace
 
 void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
                const Expression& carry, const StageRow& row, const std::string& change) {
-  if (row.large.empty()) return body.push_back({Assign{bar.name(), z}});
-  Expression sum = carry + row.small;
-  for (const Expression& term : row.large) sum += term;
-  body.push_back({Assign{bar.name(), z + b.let(body, change, sum)}});
+  body.push_back({Assign{bar.name(), moved(b, body, z, carry, row, change)}});
 }
 
 std::vector<Argument> LoopStage::arguments(bool with_states) const {
@@ -86,9 +92,12 @@ void LoopStage::add_gradient_at_stage(Body& body) const {
 }
 
 Routine LoopStage::evaluate() const {
-  RoutineBuilder b({.name = "evaluate",
-                    .remark = {"grad H at the stage, whose momenta follow from its coordinates."},
-                    .arguments = arguments(true)});
+  RoutineBuilder b(
+      {.name = "evaluate",
+       .remark = {"grad H at the stage, whose momenta follow from its coordinates, and "
+                  "what the equations",
+                  "lack there."},
+       .arguments = arguments(true)});
   const Place p{"start", "momentum"};
   const Place dp{"start", "slope", {affine(n_)}};
   const Instruction force{Call{.routine = "potential_gradient",
@@ -100,11 +109,26 @@ Routine LoopStage::evaluate() const {
   const Expression carry = state(b, "carry", "p");
   const Gradient at = slope(b);
   Body each;
+  if (velocity_) {
+    for (const auto& [symbol, place] : velocity_->places) b.routine().places[symbol] = place;
+    environment_.bind_parameters(b.routine());
+    const StageRow row = weights_.row_of_p(b, each, at);
+    each.push_back({Let{velocity_->momentum, moved(b, each, z, carry, row, "change")}});
+    append(each, velocity_->evaluation.statements);
+    const Expression& velocity_there = velocity_->evaluation.results.front();
+    each.push_back({Assign{at.by_p.name(), velocity_there}});
+    // A number that is trivial needs no place to be read from.
+    const Gradient there = {at.by_q, is_trivial(velocity_there) ? velocity_there : at.by_p};
+    for (Instruction& instruction : lacks(b, there)) each.push_back(std::move(instruction));
+    b.body().push_back(for_each(elements(), std::move(each)));
+    return b.take();
+  }
   if (!needs_drift()) {
     const StageRow row = weights_.row_of_p(b, each, at);
     set_stage(b, each, bar, z, carry, row, "change");
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(velocity);
+    b.body().push_back(for_each(elements(), lacks(b, at)));
     return b.take();
   }
   const Expression own =
@@ -122,6 +146,7 @@ Routine LoopStage::evaluate() const {
   b.body().push_back(for_each(elements(), std::move(again)));
   b.body().back().remark = {"What their rows lack there, rounded as they are."};
   b.body().push_back(velocity);
+  b.body().push_back(for_each(elements(), lacks(b, at)));
   return b.take();
 }
 
@@ -183,9 +208,8 @@ void LoopStage::add_stage(RoutineBuilder& b, Body& each) const {
   }
 }
 
-Body LoopStage::lacks(RoutineBuilder& b) const {
+Body LoopStage::lacks(RoutineBuilder& b, const Gradient& at) const {
   Body each;
-  const Gradient at = slope(b);
   for (const bool is_p : {false, true}) {
     if (is_p && arrays_.reduced) break;
     const char* field = is_p ? "p" : "q";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/local_velocity.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/routine_builder.hpp"
@@ -13,7 +14,7 @@
 
 namespace hamgen {
 
-// z + (carry + row), what is small first; z alone where nothing moves it.
+// bar = z + (carry + row), what is small first; z alone where nothing moves it.
 void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
                const Expression& carry, const StageRow& row, const std::string& change);
 
@@ -27,7 +28,9 @@ class LoopStage {
         arrays_(*lowered.plan.arrays),
         n_(environment.degrees_of_freedom),
         tangent_(lowered.tangent),
-        weights_(*uniform_parameters(plan_.equations.scheme.member())) {}
+        weights_(*uniform_parameters(plan_.equations.scheme.member())) {
+    if (arrays_.reduced && !needs_drift()) velocity_ = local_velocity(mechanics_, "i");
+  }
 
  protected:
   [[nodiscard]] bool newton() const { return arrays_.method == ArrayMethod::newton; }
@@ -51,14 +54,15 @@ class LoopStage {
   // start.slope = grad H at a stage.
   void add_gradient(Body& body, const Place& q, const Place& p) const;
   void add_gradient_at_stage(Body& body) const;
-  // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).
+  // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).  With
+  // them start.slope = grad H at the stage, and start.lack.
   [[nodiscard]] Routine evaluate() const;
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
   void add_stage(RoutineBuilder& b, Body& each) const;
-  // What the equations lack at the stage.
-  [[nodiscard]] Body lacks(RoutineBuilder& b) const;
+  // What the equations lack at the stage, where the gradient is this.
+  [[nodiscard]] Body lacks(RoutineBuilder& b, const Gradient& at) const;
 
   const Environment& environment_;
   const Mechanics& mechanics_;
@@ -67,6 +71,7 @@ class LoopStage {
   int n_;
   bool tangent_;
   StepWeights weights_;
+  std::optional<LocalVelocity> velocity_;  // of torn momenta
   bool has_coefficients_ = false;
 };
 

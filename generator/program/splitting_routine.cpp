@@ -38,7 +38,7 @@ std::optional<LocalVelocity> velocity_in_loops(const LoweredStep& lowered) {
   const Sequence& sequence = lowered.sequence;
   const bool kick_first = sequence.substeps.front().kind == SubstepKind::kick;
   if (!lowered.plan.arrays || (!kick_first && !is_closed(sequence))) return {};
-  return local_velocity(lowered.plan.equations.mechanics);
+  return local_velocity(lowered.plan.equations.mechanics, "j");
 }
 
 // Note [sums of kicks]

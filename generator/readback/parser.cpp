@@ -95,6 +95,7 @@ class CppReader {
     result.type = type();
     if (cursor_.accept("&")) result.pass = CppArgument::Pass::reference;
     if (cursor_.accept("*")) result.pass = CppArgument::Pass::pointer;
+    result.alone = cursor_.accept("__restrict");
     if (cursor_.accept("(")) {
       result.pass = CppArgument::Pass::array;
       cursor_.expect("&");

@@ -79,6 +79,7 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
   if (argument.decays) pass = Pass::pointer;
   if (number && !argument.decays) pass = Pass::value;
   bool same = written.type == type && written.pass == pass;
+  if (!c_) same = same && written.alone == argument.alone;
   if (pass != Pass::value) same = same && written.constant != argument.changes;
   if (pass == Pass::array) {
     same = same && written.sizes.size() == argument.sizes.size();

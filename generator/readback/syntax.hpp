@@ -56,6 +56,7 @@ struct CppArgument {
   std::string type;  // "Real"
   enum class Pass { value, reference, pointer, array };
   Pass pass = Pass::value;
+  bool alone = false;  // "__restrict"
   std::string name;
   std::vector<CppExpression> sizes;
 };

@@ -90,6 +90,14 @@ class Locality {
   };
   // An element in a nest of loops: by dimension the growing index, and what is added to it.
   using Offsets = std::vector<std::pair<std::string, long>>;
+  // Which part of its array it is in: the indices that choose it, and by dimension where it begins,
+  // in multiples of the size.
+  struct Block {
+    std::string indices;
+    std::vector<long> begins;
+    auto operator<=>(const Block&) const = default;
+  };
+  using Places = std::set<std::pair<Block, Offsets>>;
 
   const GrowingEvent& next() { return events_[at_++]; }
   [[nodiscard]] bool grows(const std::string& index) const {
@@ -186,8 +194,16 @@ class Locality {
     }
     loop.last = std::abs(event.numbers.back().near);
     if (!loop.grows) loop.times = std::max(1L, loop.last - event.numbers.front().near + 1);
+    if (loop.grows) covers_ = growing_loops() == 0 && !moves ? covered(event) : std::nullopt;
     if (loop.grows && in_pairs()) throw NotLonger{"a sum runs over more than pairs"};
     loops_.push_back(std::move(loop));
+  }
+  // How many elements the loop has at most, in multiples of the size.
+  static std::optional<long> covered(const GrowingEvent& event) {
+    const AffineNumber& from = event.numbers.front();
+    const AffineNumber& to = event.numbers.back();
+    if (to.near >= from.near) return {};
+    return to.slope - from.slope;
   }
   // One end moves with the loop around it, element by element: the other one is fixed.
   [[nodiscard]] bool is_triangle(const GrowingEvent& event) const {
@@ -206,6 +222,22 @@ class Locality {
     gets_.clear();
     inner_locals_.clear();
   }
+  // Is what an instance writes and reads of an array its own?  It is if the place is the same, and
+  // if the places are the same in several blocks of it that do not meet.
+  [[nodiscard]] bool is_own(const Places& written, const Places& read) const {
+    if (written.size() == 1 && read == written) return true;
+    Places all = written;
+    all.insert(read.begin(), read.end());
+    const auto& [block, place] = *all.begin();
+    std::set<long> begins;
+    for (const auto& [other, there] : all) {
+      if (there != place || other.begins.size() != 1 || other.indices != block.indices)
+        return false;
+      begins.insert(other.begins.front());
+    }
+    const auto meet = [this](long a, long b) { return !covers_ || b - a < *covers_; };
+    return std::ranges::adjacent_find(begins, meet) == begins.end();
+  }
   void end() {
     loops_.pop_back();
     if (in_growing()) return;
@@ -213,7 +245,7 @@ class Locality {
     for (const auto& [name, places] : written_) {
       const auto read = gets_.find(name);
       if (read == gets_.end()) continue;
-      if (places.size() != 1 || read->second != places)
+      if (!is_own(places, read->second))
         throw NotLonger{"an instance of a loop reads what another one writes"};
     }
     for (const std::string& name : summed_over_pairs_) {
@@ -266,18 +298,19 @@ class Locality {
   void access(const CodeEvent& of, bool alone) {
     Offsets offsets;
     std::set<std::string> indices;
-    std::string blocks;  // which part of the array
+    Block block;
     while (at_ < events_.size() && events_[at_].of.kind == Event::element) {
       const GrowingEvent& event = next();
       const auto [index, offset] = element(event);
       offsets.emplace_back(index, offset);
       if (!index.empty()) indices.insert(index);
-      for (std::size_t i = 0; i < event.of.names.size(); ++i) blocks += " " + event.of.names[i];
-      blocks += fmt::format(" {}", event.numbers.back().slope);
+      for (const std::string& name : event.of.names) block.indices += " " + name;
+      block.indices += ",";
+      block.begins.push_back(event.numbers.back().slope);
     }
     if (of.kind == Event::get) {
       read_.insert(of.text);
-      if (in_growing() && !indices.empty()) gets_[of.text].insert({blocks, offsets});
+      if (in_growing() && !indices.empty()) gets_[of.text].insert({block, offsets});
       return get(of.text, alone);
     }
     const bool adds_pairs = std::exchange(adds_pairs_, false);
@@ -287,7 +320,7 @@ class Locality {
       return change_local(of, local->second);
     if (in_pairs() && of.kind == Event::add && !indices.empty()) return sum_over_pairs(of.text);
     if (std::ssize(indices) == growing_loops()) {
-      if (of.kind == Event::set || !offsets.empty()) written_[of.text].insert({blocks, offsets});
+      if (of.kind == Event::set || !offsets.empty()) written_[of.text].insert({block, offsets});
       return;
     }
     if (of.kind != Event::add || !offsets.empty()) throw NotLonger{"all elements meet in one"};
@@ -324,7 +357,8 @@ class Locality {
   std::vector<Loop> loops_;
   std::optional<long> lowest_, highest_;
   std::map<std::string, long> inner_locals_;  // in how many of them that grow
-  std::map<std::string, std::set<std::pair<std::string, Offsets>>> written_, gets_;
+  std::optional<long> covers_;                // of a nest of one loop, in multiples of the size
+  std::map<std::string, Places> written_, gets_;
   std::set<std::string> sums_, read_;
   // Of the routine: arrays and locals that are sums over the other one of a pair.
   std::set<std::string> summed_over_pairs_;

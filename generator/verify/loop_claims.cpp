@@ -17,6 +17,10 @@ namespace hamgen {
 
 namespace {
 
+bool calls_velocity(const StepUnderProof& step) {
+  return called_routines(step.code.routine("evaluate")->body).contains("kinetic_gradient");
+}
+
 class LoopMemberClaims {
  public:
   LoopMemberClaims(const StepUnderProof& step, const Derivatives& derivatives,
@@ -27,7 +31,7 @@ class LoopMemberClaims {
         sweeps_(sweeps),
         n_(step.mechanics.degrees_of_freedom),
         reduced_(step.code.routine("evaluate") != nullptr),
-        linear_(reduced_ && !member.beta.is_zero()) {}
+        local_(reduced_ && (!member.beta.is_zero() || !calls_velocity(step))) {}
 
   std::vector<Identities> run() {
     std::vector<Identities> parts;
@@ -45,6 +49,11 @@ class LoopMemberClaims {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] bool has(const char* routine) const {
     return step_.code.routine(routine) != nullptr;
+  }
+  // Are the torn momenta in an array?
+  [[nodiscard]] bool keeps_momenta() const {
+    const std::vector<Field>& fields = step_.code.record("Start")->fields;
+    return std::ranges::find(fields, "momentum", &Field::name) != fields.end();
   }
   void claim(std::string what, const Expression& emitted, const Expression& expected) {
     identities_.claims.push_back({std::move(what), emitted, expected});
@@ -110,7 +119,7 @@ class LoopMemberClaims {
 
   // grad H as it was called at these points; a symbol that nobody knows if it was not.
   Expression slope(const SymbolicMachine& machine, const std::vector<Expression>& point, int k) {
-    if (linear_ && k >= n_) return velocity(k, point);
+    if (local_ && k >= n_) return velocity(k, point);
     const auto first = point.begin();
     const std::vector<Expression> q(first, first + n_);
     const std::vector<Expression> p(first + n_, first + 2 * n_);
@@ -162,10 +171,10 @@ class LoopMemberClaims {
   Identities solve_identities(const std::string& skipped) {
     identities_ = {};
     std::set<std::string> opaque = {"gradient", "potential_gradient", "differentiate"};
-    if (!linear_) opaque.insert("kinetic_gradient");
+    if (!local_) opaque.insert("kinetic_gradient");
     SymbolicMachine machine = step_.machine(std::move(opaque));
     for (int i = 0; i < n_; ++i) machine.name({"start", "value", {{i, {}}}}, bar(i));
-    for (int i = 0; i < n_; ++i) {
+    for (int i = 0; i < n_ && (!reduced_ || keeps_momenta()); ++i) {
       machine.name(reduced_ ? Place{"start", "momentum", {{i, {}}}}
                             : Place{"start", "value", {{n_ + i, {}}}},
                    bar(n_ + i));
@@ -253,15 +262,15 @@ class LoopMemberClaims {
       return call.routine == "potential_gradient" && call.input == unknowns;
     });
     const bool evaluated = force != machine.calls.end();
-    const bool has_momenta = evaluated && (linear_ || std::next(force) != machine.calls.end());
+    const bool has_momenta = evaluated && (local_ || std::next(force) != machine.calls.end());
     claim(fmt::format("the gradient is evaluated {}", where), Expression(has_momenta ? 1 : 0),
           Expression(1));
     for (int i = 0; i < n_; ++i) {
       point.push_back(!has_momenta ? step_.mechanics.variable(n_ + i)
-                      : linear_    ? solved_momentum(n_ + i, force->output[at(i)])
+                      : local_     ? solved_momentum(n_ + i, force->output[at(i)])
                                    : std::next(force)->input.at(at(i)));
     }
-    if (linear_ || !has_momenta) return point;
+    if (local_ || !has_momenta) return point;
     for (int i = n_; i < 2 * n_; ++i) {
       claim(fmt::format("the stage value of {} {}", step_.name(i), where), point[at(i)],
             row(i, [&](int k) { return slope(machine, point, k); }));
@@ -349,7 +358,7 @@ class LoopMemberClaims {
   int n_;
   bool reduced_;  // the momenta are torn out
   // They depend on dT/dp, which is linear in them then, and is looked into.
-  bool linear_;
+  bool local_;  // is dT/dp what the routine itself makes of its momenta?
   Identities identities_;
 };
 

@@ -28,6 +28,14 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        {},
        "two_sum(z_.q, carry_.q, dz.q);",
        "two_sum(z_.q, carry_.q, dz.q);\n    two_sum(z_.q, carry_.q, dz.q);"},
+      {"what is written may be what is read",
+       "fput",
+       {.scheme = "gauss-4"},
+       "Start& __restrict start) {",
+       "Start& start) {"},
+      {"what is read is promised", "fput", splitting,
+       "solve(const Parameters& par, const Coefficients& k, const State& z,",
+       "solve(const Parameters& par, const Coefficients& k, const State& __restrict z,"},
       {"sign of the kick", "pendulum", splitting, "rest.p, -k.kick[0]", "rest.p, k.kick[0]"},
       {"a number of the tableau",
        "pendulum",
@@ -84,7 +92,7 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        "const bool rises = at_low < 0 &&",
        "const bool rises = at_low > 0 &&"},
   };
-  EXPECT_EQ(faults.size(), 22U);
+  EXPECT_EQ(faults.size(), 24U);
   for (const Fault& fault : faults) expect_found(fault);
 }
 
