@@ -34,6 +34,11 @@ bool is_full_range(const Kernel& kernel, int n) {
 
 }  // namespace
 
+void LocalVelocity::compute(Body& body) const {
+  for (const Statement& s : evaluation.statements)
+    body.push_back({Let{s.name, s.value}, {}, {.terms = terms}});
+}
+
 std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics, const std::string& index) {
   if (!mechanics.is_separable() || !mechanics.sums.empty()) return {};
   const int n = mechanics.degrees_of_freedom;
@@ -44,7 +49,7 @@ std::optional<LocalVelocity> local_velocity(const Mechanics& mechanics, const st
   const Slot& slot = kernel.slots.front();
   const long first = n - slot.position.constant;
 
-  LocalVelocity result;
+  LocalVelocity result{.terms = kernel.terms};
   result.momentum = slot.symbol.substr(0, slot.symbol.find('[')) + "[" + index + "]";
   Substitution names{{slot.symbol, Expression::symbol(result.momentum, kRankOfTemporary)}};
   const std::string number = "index(" + index + ")";

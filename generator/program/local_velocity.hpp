@@ -14,6 +14,10 @@ struct LocalVelocity {
   std::string momentum;   // the symbol of the element
   Evaluation evaluation;  // one result
   std::map<std::string, Place> places;
+  std::set<int> terms;  // of H that it comes from
+
+  // The statements before its value.
+  void compute(Body& body) const;
 };
 // Of a system in loops whose elements one kernel meets, each of them once; the loop that goes on
 // has them from 0 on by this index.

@@ -114,9 +114,9 @@ Routine LoopStage::evaluate() const {
     environment_.bind_parameters(b.routine());
     const StageRow row = weights_.row_of_p(b, each, at);
     each.push_back({Let{velocity_->momentum, moved(b, each, z, carry, row, "change")}});
-    append(each, velocity_->evaluation.statements);
+    velocity_->compute(each);
     const Expression& velocity_there = velocity_->evaluation.results.front();
-    each.push_back({Assign{at.by_p.name(), velocity_there}});
+    each.push_back({Assign{at.by_p.name(), velocity_there}, {}, {.terms = velocity_->terms}});
     // A number that is trivial needs no place to be read from.
     const Gradient there = {at.by_q, is_trivial(velocity_there) ? velocity_there : at.by_p};
     for (Instruction& instruction : lacks(b, there)) each.push_back(std::move(instruction));

@@ -241,15 +241,16 @@ class SplittingRoutine {
       const Expression rest = component("rest", kind.kick, i);
       const Expression carry = component("carry", kind.kick, i);
       const Expression z = component("z", kind.kick, i);
+      const Origin origin{.terms = velocity_ && !kind.kick ? velocity_->terms : std::set<int>()};
       if (kind.once) {
-        body.push_back({Assign{dz.name(), change}});
+        body.push_back({Assign{dz.name(), change}, {}, origin});
         body.push_back({Assign{rest.name(), carry}});
       } else {
         if (begins && begins_in_loops()) {
           body.push_back({Assign{dz.name(), carry}});
           body.push_back({Assign{rest.name(), Expression(0)}});
         }
-        body.push_back({Collect{dz.name(), rest.name(), change}});
+        body.push_back({Collect{dz.name(), rest.name(), change}, {}, origin});
       }
       if (look == Look::nobody) continue;
       const bool to_local = look == Look::velocity;
@@ -271,7 +272,7 @@ class SplittingRoutine {
   }
   // dT/dp_j, in a loop that has p_j.
   Expression velocity(Body& body) const {
-    append(body, velocity_->evaluation.statements);
+    velocity_->compute(body);
     return velocity_->evaluation.results.front();
   }
   // The changes, of every element if they are those of arrays.
