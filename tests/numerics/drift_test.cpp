@@ -34,8 +34,13 @@ std::string replaced(std::string text, const Replacement& r) {
   return text;
 }
 
-Result result_of(const Row& row, const std::vector<Replacement>& edits = {}) {
-  return measure(row, kSteps, kStarts, 60, [&](std::string header) {
+struct Length {
+  long long steps = kSteps;
+  int starts = kStarts;
+};
+Result result_of(const Row& row, const std::vector<Replacement>& edits = {},
+                 const Length& length = {}) {
+  return measure(row, length.steps, length.starts, 60, [&](std::string header) {
     for (const Replacement& edit : edits) header = replaced(std::move(header), edit);
     return header;
   });
@@ -47,10 +52,11 @@ std::string words(const Result& result) {
 }
 
 // The row does not drift, and what the edits make of its text does.
-void expect_drift_only_with(const std::vector<Replacement>& edits, const Row& row) {
-  const Result result = result_of(row);
+void expect_drift_only_with(const std::vector<Replacement>& edits, const Row& row,
+                            const Length& length = {}) {
+  const Result result = result_of(row, {}, length);
   EXPECT_FALSE(result.drifts()) << words(result);
-  const Result mutant = result_of(row, edits);
+  const Result mutant = result_of(row, edits, length);
   EXPECT_TRUE(mutant.drifts()) << words(mutant);
 }
 
@@ -106,6 +112,13 @@ TEST(Drift, AFixedPointIsRefinedFromAfar) {
 TEST(Drift, NothingIsLostOfTheSumsOfKicks) {
   expect_drift_only_with({{"lost += error;", ""}},
                          {.model = oscillator(), .request = {.scheme = "sbab-3"}, .h = 0.2});
+}
+
+// 3e-4 units a step: that takes a while to be seen.
+TEST(Drift, ASplittingThatIsNoWayBackLooksAtAllOfASum) {
+  expect_drift_only_with({{"now.p += lost_z_p;", ""}, {"now.q += lost_z_q;", ""}},
+                         {.model = oscillator(), .request = {.scheme = "ruth-3"}, .h = 0.2},
+                         {.steps = 1'000'000, .starts = 32});
 }
 
 TEST(Drift, NewtonWithAConstantMatrixDoesNotDrift) {
