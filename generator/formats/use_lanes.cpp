@@ -10,23 +10,6 @@
 
 namespace hamgen {
 
-namespace {
-
-// What there are no blocks for in lanes.
-std::string without_lanes(const Instruction& instruction) {
-  const auto& value = instruction.value;
-  const auto* iterate = std::get_if<Iterate>(&value);
-  const bool fixed_point = iterate != nullptr && iterate->rule != Rule::newton;
-  if (fixed_point || std::holds_alternative<Refine>(value) ||
-      std::holds_alternative<RefineArray>(value) || std::holds_alternative<Alternate>(value)) {
-    return "a fixed-point iteration";
-  }
-  if (std::holds_alternative<IterateArray>(value)) return "an iteration of arrays";
-  return std::holds_alternative<Invert>(value) ? "the inverse of a matrix" : "";
-}
-
-}  // namespace
-
 void refuse_lanes(const EmitOptions& options, std::string_view what) {
   if (options.lanes == 0) return;
   throw UsageError(
@@ -43,17 +26,12 @@ void require_lanes(const Program& program, const EmitOptions& options) {
   if (options.tangent) {
     throw UsageError("--batch: there is no tangent map in lanes\nhelp: drop --tangent");
   }
-  std::set<std::string> needed = callees(program, "prepare");
-  needed.merge(callees(program, "solve"));
-  for (const std::string& name : needed) {
-    const std::string found = find_in(program.routine(name)->body, without_lanes);
-    if (found.empty()) continue;
+  if (program.matrix && program.matrix->kind == MatrixKind::eigen_sparse) {
     throw UsageError(
-        fmt::format("--batch: {0} has {1} in its step, and there is none in lanes\n"
-                    "help: what there is are explicit steps, as --scheme stormer-verlet, and "
-                    "Newton's iteration "
-                    "of members and their compositions for small systems: --solver newton",
-                    program.facts.scheme, found));
+        fmt::format("--batch: the matrix of {} unknowns is sparse and not a band: Eigen eliminates "
+                    "it, with other bits by the instructions it has\n"
+                    "help: --solver fixed-point, where that converges, or --scheme stormer-verlet",
+                    program.matrix->size));
   }
 }
 

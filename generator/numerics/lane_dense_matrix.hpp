@@ -44,6 +44,16 @@ class DenseMatrix {
       vector[r] = vector[r] / entry_[r][r];
     }
   }
+  // The factors of another one in these lanes.
+  void take(const Mask& lanes, const DenseMatrix& from) {
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) {
+        entry_[i][j] = select(lanes, from.entry_[i][j], entry_[i][j]);
+        exchanged_[i][j] = (from.exchanges(i, j) & lanes) | (exchanges(i, j) & !lanes);
+      }
+      pivots_[i] = pivots_[i] || from.pivots_[i];
+    }
+  }
 
  private:
   // In each lane the largest entry of the column becomes its pivot.
@@ -53,6 +63,8 @@ class DenseMatrix {
       for (int j = 0; j < size; ++j) exchange(exchanged_[c][r], entry_[c][j], entry_[r][j]);
     }
   }
+  // Where a column has none they are of an earlier matrix.
+  Mask exchanges(int c, int r) const { return pivots_[c] ? exchanged_[c][r] : Mask(false); }
   static void exchange(const Mask& lanes, Real& a, Real& b) {
     const Real kept = a;
     a = select(lanes, b, a);

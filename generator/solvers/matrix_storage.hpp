@@ -18,6 +18,7 @@ struct ArrayMatrix {
   int bandwidth = 0;
   int arrays = 1;
   bool folded = false;
+  bool kept = false;  // of trajectories in lanes: does it serve over many steps?
   [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
 };
 
