@@ -13,11 +13,12 @@ struct Distance {
   }
   // Arrays of them, rounded with what stands beside.
   void add(const Real* moved, const Real* value, const Real* beside, int count) {
-    const auto length = [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); };
     size += sum_of(count, [&](int j) { return magnitude(moved[j]); });
-    scale += sum_of(count, length);
-    for (int j = 0; j < count; ++j)
-      close = close & (magnitude(moved[j]) <= units * epsilon * length(j));
+    scale += sum_of(count, [&](int j) {
+      const Real length = magnitude(value[j]) + magnitude(beside[j]);
+      close = close & (magnitude(moved[j]) <= units * epsilon * length);
+      return length;
+    });
   }
 };
 // Of these lanes, which are done and which have failed?

@@ -65,19 +65,19 @@ struct Refinement {
   }
   void round(const Real (&lack)[Size], const Real (&gradient)[Components]) {
     if (!any(open)) return;
-    const auto error = [&](int j) { return missing[j] + (lack[j] - missing[j]) / amplifier; };
-    last = sum_of(Size, [&](int j) {
-      moved[j] = select(open, moved[j] + error(j), moved[j]);
-      return magnitude(error(j));
-    });
-    // What is cut off is a bias: a 2^-13th of a unit.
+    const Mask lanes = open;
     Mask lacking = false;
-    for (int j = 0; j < Size; ++j) {
-      const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
-      lacking = lacking | (magnitude(error(j)) * 8192 > unit);
-    }
+    last = sum_of(Size, [&](int j) {
+      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
+      const Real way = moved[j] + error;
+      moved[j] = select(lanes, way, moved[j]);
+      // What is cut off is a bias: a 2^-13th of a unit.
+      const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
+      lacking = lacking | (magnitude(error) * 8192 > unit);
+      return magnitude(error);
+    });
     for (int k = 0; k < Components; ++k)
-      change[k] = select(open, (gradient[k] - slope[k]) / amplifier, change[k]);
+      change[k] = select(lanes, (gradient[k] - slope[k]) / amplifier, change[k]);
     // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
     const Mask decreased = rounds == 0 ? Mask(true) : last < least;
     stuck = select(decreased, Real(0), stuck + 1);
