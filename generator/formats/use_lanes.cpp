@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <variant>
-
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -16,7 +13,7 @@ void refuse_lanes(const EmitOptions& options, std::string_view what) {
       fmt::format("--batch: {} has no lanes\nhelp: --format cpp-header or cmake-package", what));
 }
 
-void require_lanes(const Program& program, const EmitOptions& options) {
+void require_lanes(const EmitOptions& options) {
   if (find_scalar(options.scalar).digits != 53) {
     throw UsageError("--batch: lanes are of double numbers\nhelp: drop --scalar");
   }
@@ -25,13 +22,6 @@ void require_lanes(const Program& program, const EmitOptions& options) {
   }
   if (options.tangent) {
     throw UsageError("--batch: there is no tangent map in lanes\nhelp: drop --tangent");
-  }
-  if (program.matrix && program.matrix->kind == MatrixKind::eigen_sparse) {
-    throw UsageError(
-        fmt::format("--batch: the matrix of {} unknowns is sparse and not a band: Eigen eliminates "
-                    "it, with other bits by the instructions it has\n"
-                    "help: --solver fixed-point, where that converges, or --scheme stormer-verlet",
-                    program.matrix->size));
   }
 }
 

@@ -37,12 +37,11 @@ void collect_filled(const Program& code, const Body& body, std::set<std::string>
 
 Program in_lanes(Program code) {
   if (!code.retries) return code;
-  if (code.matrix && code.matrix->kind == MatrixKind::eigen_dense)
-    code.matrix->kind = MatrixKind::dense;
   if (Record* coefficients = record_of(code, "Coefficients")) set_types(*coefficients);
   Record& start = *record_of(code, "Start");
   const bool is_kept =
       std::ranges::find(start.fields, "factorised", &Field::name) != start.fields.end();
+  if (code.matrix) code.matrix->in_lanes = true;
   if (code.matrix) code.matrix->kept = is_kept;
   std::set<std::string> filled;
   for (const Routine& routine : code.routines) collect_filled(code, routine.body, filled);

@@ -47,7 +47,8 @@ class RoutineWriter : public RunWriter {
     add(Define{"Real", array.name, list(std::move(values)), true, array.sizes});
   }
   void operator()(const Matrix& matrix) {
-    const char* dense = matrix.large && form_.eigen ? "EigenDenseMatrix" : "DenseMatrix";
+    const char* dense =
+        matrix.large && form_.eigen ? "EigenDenseMatrix" : "DenseMatrix";
     add(Declare{matrix.patterned ? "Matrix" : fmt::format("{}<{}>", dense, matrix.size),
                 {matrix.name}});
   }
@@ -302,8 +303,11 @@ std::string type_of(const ArrayMatrix& matrix) {
   }
   const auto plain = [&](const char* name) { return fmt::format("{}<{}>", name, matrix.size); };
   if (matrix.kind == MatrixKind::dense) return plain("DenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_dense) return plain("EigenDenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_sparse) return plain("EigenSparseMatrix");
+  const bool eigen = !matrix.in_lanes;
+  if (matrix.kind == MatrixKind::eigen_dense)
+    return plain(eigen ? "EigenDenseMatrix" : "DenseMatrix");
+  if (matrix.kind == MatrixKind::eigen_sparse)
+    return plain(eigen ? "EigenSparseMatrix" : "SparseMatrix");
   if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
   const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return band;
