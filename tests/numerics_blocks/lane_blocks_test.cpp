@@ -1,6 +1,7 @@
 // The blocks of a batch: what is decided in a lane is decided as for one trajectory alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -116,6 +117,52 @@ void expect_kept_as_alone(int width) {
 TEST(LaneBlocks, FactorsServeEachLaneUntilItWantsOthers) {
   expect_kept_as_alone<packs::DenseMatrix<kRows>, of_double::DenseMatrix<kRows>>(kRows);
   expect_kept_as_alone<packs::BandMatrix<kRows, 2>, of_double::BandMatrix<kRows, 2>>(2);
+}
+
+// A torus of 3 rows: its order is found, and what the other lanes have changes no bit.
+TEST(LaneBlocks, ASparseMatrixIsSolvedInEachLaneAsAlone) {
+  constexpr int size = 15;
+  const auto value = [](int lane, int i, int k) {
+    return i == k ? (lane == 2 ? 0 : 0.1 * lane - 0.3) : std::sin(1.0 + lane + i + 3 * k);
+  };
+  const auto fill_torus = [&](auto& matrix, const auto& entry) {
+    matrix.clear();
+    for (int i = 0; i < size; ++i) {
+      for (const int way : {0, 1, 3, size - 1, size - 3})
+        matrix.put(i, (i + way) % size, entry(i, (i + way) % size));
+    }
+  };
+  packs::KeptMatrix<packs::SparseMatrix<size>> mixed;
+  packs::Real sides[size] = {};
+  for (int i = 0; i < size; ++i) sides[i] = 1 + i;
+  for (int filling = 0; filling < 2; ++filling) {
+    fill_torus(mixed, [&](int i, int k) {
+      packs::Real entry = 0;
+      for (int lane = 0; lane < kLanes; ++lane) entry.set(lane, value(lane, i, k));
+      return entry;
+    });
+    ASSERT_TRUE(all(mixed.factorise(true)));
+  }
+  mixed.solve(true, sides);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    packs::SparseMatrix<size> equal;
+    fill_torus(equal, [&](int i, int k) { return packs::Real(value(lane, i, k)); });
+    of_double::DenseMatrix<size> dense;
+    fill_torus(dense, [&](int i, int k) { return value(lane, i, k); });
+    packs::Real alone[size] = {};
+    double expected[size] = {};
+    for (int i = 0; i < size; ++i) alone[i] = expected[i] = 1 + i;
+    ASSERT_TRUE(all(equal.factorise()) && dense.factorise());
+    equal.solve(alone);
+    dense.solve(expected);
+    for (int i = 0; i < size; ++i) {
+      EXPECT_EQ(sides[i][lane], alone[i][0]) << lane;
+      EXPECT_NEAR(sides[i][lane], expected[i], 1e-10 * (1 + std::fabs(expected[i]))) << lane;
+    }
+  }
+  packs::SparseMatrix<size> singular;
+  fill_torus(singular, [&](int i, int k) { return packs::Real(i == 4 ? 0 : value(1, i, k)); });
+  EXPECT_FALSE(any(singular.factorise()));
 }
 
 TEST(LaneBlocks, AnInverseIsThatOfEachLane) {

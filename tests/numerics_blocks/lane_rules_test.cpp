@@ -1,6 +1,7 @@
 // The rules of a batch: an iteration ends in a lane where it would end for one trajectory alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
