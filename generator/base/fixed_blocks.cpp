@@ -79,7 +79,7 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"lane_contraction_rule", "ContractionRule"},
     {"lane_impatient_rule", "ImpatientRule"},
     {"lane_simplified_newton_rule", "SimplifiedNewtonRule"},
-    {"trajectory_refinement", "Refinement"},
+    {"lane_each_refinement", "Refinement"},
     {"lane_history", "History forget"},
 };
 

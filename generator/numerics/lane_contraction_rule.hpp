@@ -10,10 +10,10 @@ struct ContractionRule : FixedPointRule<2> {
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
   void begin(const Turn& turn, int matrix_work) {
     FixedPointRule<2>::begin(turn);
-    size = select(open, Real(0), size);
+    size = 0;
     work = matrix_work;
     checks = turn.is_check();
-    settled = settled & !open;
+    settled = false;
   }
   Mask operator()(const Distance& moved, int iterations) {
     const Real before = size;
@@ -22,7 +22,6 @@ struct ContractionRule : FixedPointRule<2> {
     const Mask second = before > 0;
     learn(open & !judgement.failed & second & (size > 64 * round_off), size / before);
     judgement.failed = judgement.failed | is_slow();
-    judgement.done = judgement.done & !judgement.failed;
     // When it is tried again, things may have changed.
     if (work > 0) contraction = select(open & judgement.failed, Real(largest), contraction);
     // Of an increment that is mostly rounding, what is missing from before.

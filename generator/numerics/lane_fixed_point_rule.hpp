@@ -41,12 +41,12 @@ struct FixedPointRule : Iteration {
   }
   Judgement judge(const Distance& moved, int iterations) {
     taken = select(open, Real(iterations), taken);
-    size = select(open, moved.size, size);
+    size = moved.size;
     const Mask finite = size <= largest;
     Real& smallest = least[iterations % Cycle];
     const Mask decreased = (smallest <= 0) | (size < smallest);
-    smallest = select(decreased & !moved.close, size, smallest);
-    stuck = select(moved.close, stuck, select(decreased, Real(0), stuck + 1));
+    smallest = select(decreased, size, smallest);
+    stuck = select(decreased, Real(0), stuck + 1);
     const Real round_off = epsilon * moved.scale;
     const Mask rests = ((stuck >= 2) & (size <= 64 * round_off)) |
                        ((stuck >= 3) & (size <= 512 * round_off)) |

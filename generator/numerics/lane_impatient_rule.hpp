@@ -16,7 +16,6 @@ struct ImpatientRule : FixedPointRule<2> {
     const Mask near = moved.close | (size <= 64 * round_off);
     judgement.failed =
         judgement.failed | (judgement.done & !near) | ((slow >= 3) & !judgement.done);
-    judgement.done = judgement.done & near;
     return end(judgement);
   }
 };

@@ -60,8 +60,9 @@ Program in_lanes(Program code) {
     if (routine.result.type == "bool") routine.result.type = "Mask";
   }
   set_types(start);
-  start.fields.insert(start.fields.begin(),
-                      {.name = "turn", .remark = "whose it is", .type = "Turn"});
+  start.fields.insert(
+      start.fields.begin(),
+      {.name = "turn", .remark = "the lanes that have a part in it", .type = "Turn"});
   return code;
 }
 

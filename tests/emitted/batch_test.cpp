@@ -245,18 +245,42 @@ TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
 
 TEST(BatchHeader, TakesNoNameFromTheUser) {
   const std::string model =
-      "system lanes\ncoordinate any, select, lane_sin\nmomentum moving, Mask, library\n"
+      "system lanes\ncoordinate any, select, lane_sin\nmomentum moving, Mask, part\n"
       "parameter running = 1\nparameter require_finite = 2\n"
-      "H = (moving^2 + Mask^2 + library^2)*(1 + any^2)/2 + running*sin(select) "
+      "H = (moving^2 + Mask^2 + part^2)*(1 + any^2)/2 + running*sin(select) "
       "+ require_finite*any^2*exp(lane_sin)\n";
-  Request request;
-  request.batch = 2;
-  request.solver = "newton";
-  for (const char* math : {"own", "libm"}) {
-    request.math = math;
-    const std::string text = generate(make_source("lanes.ham", model), request)[0].text;
-    EXPECT_EQ(messages("g++", without_pragma(text)), "") << math;
+  const std::string iterated =
+      "system lanes\ncoordinate tried, found, turn\nmomentum Turn, Iteration, library\n"
+      "parameter collect_lanes = 1\n"
+      "H = (Turn^2 + Iteration^2 + library^2)/2 + collect_lanes*sin(tried*found)*cos(turn)\n";
+  Request newton;
+  newton.solver = "newton";
+  Request libm = newton;
+  libm.math = "libm";
+  Request fixed_point;
+  fixed_point.solver = "fixed-point";
+  Request gauss;
+  gauss.scheme = "gauss-4";
+  for (const auto& [request, text] :
+       {std::pair(newton, model), std::pair(libm, model), std::pair(fixed_point, iterated),
+        std::pair(gauss, iterated)}) {
+    Request lanes = request;
+    lanes.batch = 2;
+    const std::string header = generate(make_source("lanes.ham", text), lanes)[0].text;
+    EXPECT_EQ(messages("g++", without_pragma(header)), "");
   }
+}
+
+// Of every kind of iteration and matrix, for every compiler.
+TEST(BatchHeader, OfIterationsCompilesWithoutAWarning) {
+  std::string text;
+  for (const BatchCase& test : iterated_cases()) {
+    Request request = test.request;
+    request.batch = 4;
+    request.name_space = test.name + "::method";
+    text += without_pragma(generate(make_source("m.ham", test.model), request)[0].text);
+  }
+  for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
 }
 
 TEST(BatchHeader, SaysThatItsProgramIsProvedAndNotItsText) {
