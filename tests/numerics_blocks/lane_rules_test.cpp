@@ -48,7 +48,7 @@ const std::vector<Increments>& all_increments() {
       {"nothing", {0}},
       {"noise", {1e-6, 1e-14, 2e-14, 1e-14, 3e-14, 2e-14, 1e-14}},
       {"grows", {1e-9, 1e-8, 1e-7, 1e-6, 1e-5}},
-      {"close", {1e-4, 1e-14}},
+      {"stalls", {6e-14, 6e-14, 7e-14, 5e-14, 7e-14, 4e-14, 7e-14, 3e-14, 1e-16}},
       {"slow and close", {1e-4, 0.6e-4, 0.4e-4, 1e-15}},
       {"once", {1e-9, 1e-15}}};
   return list;
