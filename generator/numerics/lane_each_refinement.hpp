@@ -70,7 +70,7 @@ struct Refinement {
     last = sum_of(Size, [&](int j) {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;
-      moved[j] = select(lanes, way, moved[j]);
+      moved[j] = way;
       // What is cut off is a bias: a 2^-13th of a unit.
       const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
       lacking = lacking | (magnitude(error) * 8192 > unit);
