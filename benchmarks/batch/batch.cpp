@@ -56,6 +56,7 @@ constexpr int kWidths[] = {0, 1, 2, 4, 8, 16};  // 0: the header of one trajecto
 const char* const kMeasure = R"(
 #include <chrono>
 #include <cstdio>
+#include <memory>
 inline void put(double& x, int, double value) { x = value; }
 template <class Pack>
 void put(Pack& x, int lane, double value) { x.set(lane, value); }
@@ -71,7 +72,9 @@ static volatile double step_size = STEP_SIZE;
 template <class Propagator, class Parameters, class State>
 double measure(const State& z, int lanes) {
   constexpr long long steps = 20000;
-  Propagator propagator(Parameters(), step_size, z);
+  // Of a system in loops it may be larger than the stack.
+  const auto made = std::make_unique<Propagator>(Parameters(), step_size, z);
+  Propagator& propagator = *made;
   const auto begin = std::chrono::steady_clock::now();
   const auto report = propagator.advance(steps);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
