@@ -13,13 +13,10 @@ class BandStorage {
   const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }
   Real& factor(int c, int k) { return factor_[c][k]; }
   const Real& factor(int c, int k) const { return factor_[c][k]; }
-  Mask& exchanged(int c, int k) { return exchanged_[c][k]; }
-  const Mask& exchanged(int c, int k) const { return exchanged_[c][k]; }
 
  private:
   Real entry_[Size][3 * Width + 1] = {};
   Real factor_[Size][Width] = {};
-  Mask exchanged_[Size][Width];
 };
 // Elimination in a band, in each lane as for one trajectory (band_matrix.hpp), with pivots of its
 // own.
@@ -27,7 +24,7 @@ template <int Size, class Storage>
 class BandElimination : public Storage {
  public:
   static constexpr int size = Size;
-  using Storage::at, Storage::factor, Storage::exchanged, Storage::width;
+  using Storage::at, Storage::factor, Storage::width;
   void clear() { Storage::clear_entries(); }
   void put(int row, int column, const Real& value) { at(row, column) += value; }
   // False in lanes whose matrix is singular or not finite.
@@ -36,16 +33,19 @@ class BandElimination : public Storage {
     for (int c = 0; c < size; ++c) {
       const int last_row = end(c + width());
       const int last_column = end(c + 2 * width());
-      Mask small = false;
+      // In each lane the largest entry of the column becomes its pivot.
+      Real most = magnitude(at(c, c));
+      pivot_[c] = c;
       for (int r = c + 1; r <= last_row; ++r) {
-        small = small | (magnitude(at(r, c)) > magnitude(at(c, c)));
+        const Mask larger = magnitude(at(r, c)) > most;
+        most = select(larger, magnitude(at(r, c)), most);
+        pivot_[c] = select(larger, Real(r), pivot_[c]);
       }
-      pivots_[c] = any(small);
-      for (int r = c + 1; pivots_[c] && r <= last_row; ++r) {
-        // In each lane the largest entry of the column becomes its pivot.
-        const Mask larger = magnitude(at(r, c)) > magnitude(at(c, c));
-        exchanged(c, r - c - 1) = larger;
-        for (int j = c; j <= last_column; ++j) exchange(larger, at(c, j), at(r, j));
+      exchanges_[c] = any(pivot_[c] > c);
+      for (int r = c + 1; exchanges_[c] && r <= last_row; ++r) {
+        const Mask here = pivot_[c] == r;
+        if (!any(here)) continue;
+        for (int j = c; j <= last_column; ++j) exchange(here, at(c, j), at(r, j));
       }
       regular = regular & (magnitude(at(c, c)) > 0);
       const Real reciprocal = 1 / at(c, c);
@@ -60,8 +60,7 @@ class BandElimination : public Storage {
   void solve(Real (&x)[size]) const {
     for (int c = 0; c < size; ++c) {
       const int last_row = end(c + width());
-      for (int r = c + 1; pivots_[c] && r <= last_row; ++r)
-        exchange(exchanged(c, r - c - 1), x[c], x[r]);
+      for (int r = c + 1; exchanges_[c] && r <= last_row; ++r) exchange(pivot_[c] == r, x[c], x[r]);
       for (int r = c + 1; r <= last_row; ++r) x[r] -= factor(c, r - c - 1) * x[c];
     }
     for (int r = size - 1; r >= 0; --r) {
@@ -75,11 +74,10 @@ class BandElimination : public Storage {
     for (int i = 0; i < size; ++i) {
       for (int j = i - width(); j <= i + 2 * width(); ++j)
         at(i, j) = select(lanes, from.at(i, j), at(i, j));
-      for (int k = 0; k < width(); ++k) {
+      for (int k = 0; k < width(); ++k)
         factor(i, k) = select(lanes, from.factor(i, k), factor(i, k));
-        exchanged(i, k) = (from.exchanges(i, k) & lanes) | (exchanges(i, k) & !lanes);
-      }
-      pivots_[i] = pivots_[i] || from.pivots_[i];
+      pivot_[i] = select(lanes, from.pivot_[i], pivot_[i]);
+      exchanges_[i] = exchanges_[i] || from.exchanges_[i];
     }
   }
 
@@ -90,10 +88,9 @@ class BandElimination : public Storage {
     a = select(lanes, b, a);
     b = select(lanes, kept, b);
   }
-  // Where a column has none they are of an earlier matrix.
-  Mask exchanges(int c, int k) const { return pivots_[c] ? exchanged(c, k) : Mask(false); }
 
-  bool pivots_[size] = {};  // of columns with exchanges in some lane
+  Real pivot_[size] = {};      // its row
+  bool exchanges_[size] = {};  // is it another one in some lane?
 };
 template <int Size, int Width>
 using BandMatrix = BandElimination<Size, BandStorage<Size, Width>>;

@@ -6,7 +6,6 @@ class WideStorage {
     width_ = bandwidth;
     entry_.resize(Size * (3 * std::size_t(width_) + 1), Real(0));
     factor_.resize(Size * std::size_t(width_), Real(0));
-    exchanged_.resize(Size * std::size_t(width_), Mask(false));
   }
 
  protected:
@@ -18,8 +17,6 @@ class WideStorage {
   const Real& at(int row, int column) const { return entry_[place(row, column)]; }
   Real& factor(int c, int k) { return factor_[std::size_t(c * width_ + k)]; }
   const Real& factor(int c, int k) const { return factor_[std::size_t(c * width_ + k)]; }
-  Mask& exchanged(int c, int k) { return exchanged_[std::size_t(c * width_ + k)]; }
-  const Mask& exchanged(int c, int k) const { return exchanged_[std::size_t(c * width_ + k)]; }
 
  private:
   std::size_t place(int row, int column) const {
@@ -27,7 +24,6 @@ class WideStorage {
   }
   int width_ = 0;
   std::vector<Real> entry_, factor_;
-  std::vector<Mask> exchanged_;
 };
 // A sparse matrix in each lane that is filled again and again by the same entries.  The first
 // filling finds an order of the unknowns in which they lie near the diagonal, that of Cuthill and
