@@ -57,7 +57,7 @@ bool has_sums(const Model& model) {
 
 bool asks_for_expressions(const Request& request, const Scheme& scheme) {
   const bool of_k = scheme.has_member() && scheme.member().generating_order > 0;
-  return of_k || request.tangent || request.watch_modified > 0 || request.batch > 0 ||
+  return of_k || request.tangent || request.watch_modified > 0 ||
          !request.format->format->takes_loops;
 }
 
@@ -65,7 +65,7 @@ Mechanics derive_for(const Request& request, const Model& model, bool keep_sums,
   Mechanics mechanics = derive(model, keep_sums, most);
   const bool newton = !request.solver.empty() && request.solver->kind == SolverWish::Kind::newton;
   const bool needs_more = newton || request.order > 0 || request.tangent ||
-                          request.watch_modified > 0 || request.batch > 0 ||
+                          request.watch_modified > 0 ||
                           !request.format->format->takes_loops;
   if (mechanics.sums.empty() || !needs_more) return mechanics;
   return derive(model, false, most);

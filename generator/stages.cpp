@@ -144,7 +144,8 @@ Stages stages_of(Model model, const Request& request) {
   StepWishes wishes{.tangent = request.tangent && !without_tangent(plan),
                     .plain_sums = request.plain_sums,
                     .unchecked = unchecked,
-                    .stages_in_lanes = request.scalar->type->digits == 53};
+                    .stages_in_lanes = request.scalar->type->digits == 53 && request.batch == 0,
+                    .trajectories_in_lanes = request.batch > 0};
   if (request.watch_modified > 0) {
     require_solved_step(request);
     wishes.modified_terms = modified_terms(system.mechanics, system.scheme, request.watch_modified);

@@ -21,6 +21,7 @@ struct BatchRow {
   double h;
   std::vector<std::pair<const char*, double>> start;  // of lane 0; other lanes start nearby
   const char* scheme;
+  const char* solver = "";
 };
 
 const std::vector<std::pair<const char*, double>> kPendulum = {{"q", 3.1}};
@@ -30,6 +31,7 @@ const std::vector<std::pair<const char*, double>> kProduct = {{"q", 0.5}, {"p", 
 const std::vector<std::pair<const char*, double>> kDouble = {{"q1", 0.6}, {"q2", 0.8}};
 const std::vector<std::pair<const char*, double>> kStiff = {
     {"x[0]", 1}, {"px[0]", 1}, {"y[0]", 0.02}, {"py[0]", 1}};
+const std::vector<std::pair<const char*, double>> kPlucked = {{"q[15]", 1}};
 
 const std::vector<BatchRow> kBatchRows = {
     {"pendulum", 0.1, kPendulum, "stormer-verlet"},
@@ -42,12 +44,19 @@ const std::vector<BatchRow> kBatchRows = {
     {"product", 0.005, kProduct, "implicit-midpoint"},
     {"double_pendulum", 0.02, kDouble, "implicit-midpoint"},
     {"stiff_fpu", 0.001, kStiff, "implicit-midpoint"},
+    {"henon_heiles", 0.05, kHenon, "implicit-midpoint", "fixed-point"},
+    {"henon_heiles", 0.1, kHenon, "gauss-6"},
+    {"double_pendulum", 0.02, kDouble, "gauss-8"},
+    {"fput", 0.1, kPlucked, "stormer-verlet"},
+    {"fput", 0.1, kPlucked, "implicit-midpoint"},
+    {"fput", 0.1, kPlucked, "gauss-6"},
 };
 constexpr int kWidths[] = {0, 1, 2, 4, 8, 16};  // 0: the header of one trajectory
 
 const char* const kMeasure = R"(
 #include <chrono>
 #include <cstdio>
+#include <memory>
 inline void put(double& x, int, double value) { x = value; }
 template <class Pack>
 void put(Pack& x, int lane, double value) { x.set(lane, value); }
@@ -63,7 +72,9 @@ static volatile double step_size = STEP_SIZE;
 template <class Propagator, class Parameters, class State>
 double measure(const State& z, int lanes) {
   constexpr long long steps = 20000;
-  Propagator propagator(Parameters(), step_size, z);
+  // Of a system in loops it may be larger than the stack.
+  const auto made = std::make_unique<Propagator>(Parameters(), step_size, z);
+  Propagator& propagator = *made;
   const auto begin = std::chrono::steady_clock::now();
   const auto report = propagator.advance(steps);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
@@ -101,6 +112,11 @@ std::string program_text() {
       rounds, printed);
 }
 
+std::string name_of(const BatchRow& row) {
+  const std::string solver = *row.solver == 0 ? "" : fmt::format(", {}", row.solver);
+  return fmt::format("{}, {}{}, h = {}", row.model, row.scheme, solver, row.h);
+}
+
 std::string measured(const BatchRow& row, const std::vector<std::string>& flags) {
   const std::string path = fmt::format("{}/hamiltonians/{}.ham", HAMGEN_SOURCE_DIR, row.model);
   const std::string model = hamgen::runtime::read_file(path);
@@ -108,6 +124,7 @@ std::string measured(const BatchRow& row, const std::vector<std::string>& flags)
   for (const int width : kWidths) {
     hamgen::Request request;
     request.scheme = row.scheme;
+    request.solver = row.solver;
     request.batch = width;
     files.push_back({fmt::format("w{}.hpp", width),
                      emitted_header(model, request, "", fmt::format("w{}::method", width))});
@@ -125,10 +142,9 @@ int main(int count, char** arguments) {
     std::string widths;
     for (const int width : kWidths)
       widths += fmt::format(" {:>8}", width == 0 ? "one" : fmt::format("W = {}", width));
-    fmt::print("{:<38}{}\n", "ns per trajectory and step", widths);
+    fmt::print("{:<50}{}\n", "ns per trajectory and step", widths);
     for (const BatchRow& row : kBatchRows) {
-      fmt::print("{:<38}{}\n", fmt::format("{}, {}, h = {}", row.model, row.scheme, row.h),
-                 measured(row, flags));
+      fmt::print("{:<50}{}\n", name_of(row), measured(row, flags));
       std::fflush(stdout);
     }
   } catch (const std::exception& error) {

@@ -60,11 +60,26 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"sum_with_rest", "two_sum_with_rest"},
     {"collected_sum", "collect"},
     {"lane_product_error", "product_error"},
+    {"sums", "sum_of lengths_of squares_of"},
     {"lane_step",
-     "StepReport end_iteration require_finite stop_failed run_lanes astray_lanes add_substep "
-     "take_lanes move_lanes"},
+     "StepReport require_finite stop_failed astray_lanes add_substep take_lanes move_lanes "
+     "collect_lanes"},
+    {"lane_turn", "Turn Iteration end_iteration"},
     {"lane_dense_matrix", "DenseMatrix"},
+    {"lane_diagonal_matrix", "DiagonalMatrix"},
+    {.name = "lane_band_matrix", .defines = "BandMatrix", .helpers = "BandStorage BandElimination"},
+    {"lane_sparse_matrix", "SparseMatrix"},
+    {"element_order", "ElementOrder"},
+    {"lane_reordered_matrix", "ReorderedMatrix"},
+    {"lane_kept_matrix", "KeptMatrix"},
+    {"lane_inverse", "invert"},
     {"lane_newton_rule", "NewtonRule"},
+    {"lane_waiting_newton_rule", "WaitingNewtonRule"},
+    {.name = "lane_fixed_point_rule", .defines = "FixedPointRule Distance", .helpers = "Judgement"},
+    {"lane_contraction_rule", "ContractionRule"},
+    {"lane_impatient_rule", "ImpatientRule"},
+    {"lane_simplified_newton_rule", "SimplifiedNewtonRule"},
+    {"lane_each_refinement", "Refinement"},
     {"lane_history", "History forget"},
 };
 

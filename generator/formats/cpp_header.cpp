@@ -45,7 +45,11 @@ void declare_quad_functions(CodeWriter& out, const std::set<std::string>& functi
 void write_includes(CodeWriter& out, const EmitContext& context, const Support& support) {
   const bool shared = context.options.shared_support;
   if (context.options.lanes > 0) {
+    const std::optional<ArrayMatrix>& matrix = context.program.matrix;
+    const bool sparse = matrix && matrix->kind == MatrixKind::eigen_sparse;
+    if (sparse) out.line("#include <algorithm>");
     if (context.options.library_functions) out.line("#include <cmath>");
+    if (sparse) out.line("#include <vector>");
   } else if (context.quad()) {
     declare_quad_functions(out, context.used.functions);
   } else if ((!context.used.functions.empty() && !context.options.builtins) ||
@@ -193,7 +197,7 @@ std::string file_text(EmitContext& context, const std::string& first_lines) {
 }  // namespace
 
 std::string cpp_header(const Program& program, const EmitOptions& options) {
-  if (options.lanes > 0) require_lanes(program, options);
+  if (options.lanes > 0) require_lanes(options);
   const std::unique_ptr<Dialect> dialect = dialect_of(program, options);
   EmitContext context(program, options, *dialect);
   return file_text(context, "#pragma once");

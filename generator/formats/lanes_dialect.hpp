@@ -16,8 +16,8 @@ class LanesDialect : public CppDialect {
   }
   [[nodiscard]] std::vector<std::string> taken_names() const override {
     std::vector<std::string> names = CppDialect::taken_names();
-    names.insert(names.end(),
-                 {"Mask", "any", "select", "moving", "end_iteration", "require_finite"});
+    names.insert(names.end(), {"Mask", "any", "select", "moving", "part", "tried", "found",
+                               "end_iteration", "require_finite", "collect_lanes"});
     return names;
   }
   // A pack is handed on by reference: as a value it is handed on otherwise by the instructions of

@@ -14,12 +14,20 @@ class DenseMatrix {
   Mask factorise() {
     Mask regular = true;
     for (int c = 0; c < size; ++c) {
-      Mask small = false;
+      // In each lane the largest entry of the column becomes its pivot.
+      Real most = magnitude(entry_[c][c]);
+      pivot_[c] = c;
       for (int r = c + 1; r < size; ++r) {
-        small = small | (magnitude(entry_[r][c]) > magnitude(entry_[c][c]));
+        const Mask larger = magnitude(entry_[r][c]) > most;
+        most = select(larger, magnitude(entry_[r][c]), most);
+        pivot_[c] = select(larger, Real(r), pivot_[c]);
       }
-      pivots_[c] = any(small);
-      if (pivots_[c]) bring_largest(c);
+      exchanges_[c] = any(pivot_[c] > c);
+      for (int r = c + 1; exchanges_[c] && r < size; ++r) {
+        const Mask here = pivot_[c] == r;
+        if (!any(here)) continue;
+        for (int j = 0; j < size; ++j) exchange(here, entry_[c][j], entry_[r][j]);
+      }
       regular = regular & (magnitude(entry_[c][c]) > 0);
       const Real reciprocal = 1 / entry_[c][c];
       for (int r = c + 1; r < size; ++r) {
@@ -32,9 +40,8 @@ class DenseMatrix {
   }
   void solve(Real (&vector)[size]) const {
     for (int c = 0; c < size; ++c) {
-      for (int r = c + 1; pivots_[c] && r < size; ++r) {
-        exchange(exchanged_[c][r], vector[c], vector[r]);
-      }
+      for (int r = c + 1; exchanges_[c] && r < size; ++r)
+        exchange(pivot_[c] == r, vector[c], vector[r]);
     }
     for (int r = 0; r < size; ++r) {
       for (int j = 0; j < r; ++j) vector[r] -= entry_[r][j] * vector[j];
@@ -44,15 +51,16 @@ class DenseMatrix {
       vector[r] = vector[r] / entry_[r][r];
     }
   }
-
- private:
-  // In each lane the largest entry of the column becomes its pivot.
-  void bring_largest(int c) {
-    for (int r = c + 1; r < size; ++r) {
-      exchanged_[c][r] = magnitude(entry_[r][c]) > magnitude(entry_[c][c]);
-      for (int j = 0; j < size; ++j) exchange(exchanged_[c][r], entry_[c][j], entry_[r][j]);
+  // The factors of another one in these lanes.
+  void take(const Mask& lanes, const DenseMatrix& from) {
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) entry_[i][j] = select(lanes, from.entry_[i][j], entry_[i][j]);
+      pivot_[i] = select(lanes, from.pivot_[i], pivot_[i]);
+      exchanges_[i] = exchanges_[i] || from.exchanges_[i];
     }
   }
+
+ private:
   static void exchange(const Mask& lanes, Real& a, Real& b) {
     const Real kept = a;
     a = select(lanes, b, a);
@@ -60,6 +68,6 @@ class DenseMatrix {
   }
 
   Real entry_[size][size] = {};
-  Mask exchanged_[size][size];  // of columns with
-  bool pivots_[size] = {};      // exchanges in some lane
+  Real pivot_[size] = {};      // its row
+  bool exchanges_[size] = {};  // is it another one in some lane?
 };

@@ -78,15 +78,28 @@ struct History {
     return total;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {
-    Real sum[Unknowns] = {};
+    int first = 0;
+    for (; first + block < Unknowns; first += block) extrapolate_part<block>(solution, first);
+    extrapolate_part<(Unknowns - 1) % block + 1>(solution, first);
+  }
+  // Of many unknowns so many are looked at together: what a sum has reached stays near.
+  static constexpr int block = Unknowns > 64 ? 64 : Unknowns;
+  template <int Count>
+  void extrapolate_part(Real (&solution)[Unknowns], int first) const {
+    Real sum[Count] = {};
     for (int k = 0; k <= highest; k += 2) {
-      for (int i = 0; i < Unknowns; ++i)
-        sum[i] += weight[k] * past[newest + k][i] + weight[k + 1] * past[newest + k + 1][i];
+      for (int i = 0; i < Count; ++i)
+        sum[i] += weight[k] * past[newest + k][first + i] +
+                  weight[k + 1] * past[newest + k + 1][first + i];
     }
-    for (int i = 0; i < Unknowns; ++i) solution[i] = sum[i];
+    for (int i = 0; i < Count; ++i) solution[first + i] = sum[i];
   }
 };
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
-  history = History<Unknowns>();
+  for (auto& solution : history.past) {
+    for (Real& value : solution) value = 0;
+  }
+  history.newest = history.known = history.age = 0;
+  history.use(0);
 }

@@ -7,28 +7,27 @@ struct Motion {
   Real bend = 0;
 };
 template <int Power>
-struct NewtonRule {
+struct NewtonRule : Iteration {
   Real contraction = largest;
   Real previous = 0;
   Real grown = 0;
-  Real taken = 0;  // iterations
-  Real last = 0;   // increment of a lane that has failed
   Mask predicted = false;
-  Mask open = false;  // lanes that go on
-  Mask failed = false;
-  Mask stopped = false;  // lanes that have no part in it
-  int step = 0;
+  bool checks = false;
   Motion motion;
 
   static Real power(const Real& size) { return Power == 2 ? size * size : size; }
   // From a prediction, or else from the state itself.
-  void begin(const Mask& from_prediction) {
-    step = (step + 1) % 32;
+  void begin(const Mask& from_prediction, const Turn& turn) {
+    Iteration::begin(turn);
     grown = 0;
-    taken = 0;
     predicted = from_prediction;
-    open = !stopped;
-    failed = false;
+    checks = turn.is_check();
+  }
+  // Nothing is known any more in lanes that begin again from the state.
+  void forget(const Mask& lanes) {
+    contraction = select(lanes, Real(largest), contraction);
+    motion.move = select(lanes, Real(0), motion.move);
+    motion.bend = select(lanes, Real(0), motion.bend);
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>
@@ -36,18 +35,11 @@ struct NewtonRule {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  void end_with(const Mask& lanes, const Real& size) {
-    failed = failed | lanes;
-    last = select(lanes, size, last);
-    open = open & !lanes;
-  }
-  // Lanes whose matrix is singular have failed.
-  void require(const Mask& regular) { end_with(open & !regular, Real(0)); }
   // size, scale: sums over the unknowns, of their increments and of their values.  Gives the lanes
   // that move.
   Mask operator()(const Real& size, const Real& scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && step != 0 && all(stopped | is_lost(size, round_off))) {
+    if (iterations == 1 && !checks && all((!open) | is_lost(size, round_off))) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -58,7 +50,7 @@ struct NewtonRule {
     if (iterations > 1) {
       done = done | learn(size, round_off);
       done = done | is_next_lost(size, round_off);
-    } else if (step != 0) {
+    } else if (!checks) {
       done = done | is_lost(size, round_off);
     }
     open = open & !done;
@@ -94,7 +86,3 @@ struct NewtonRule {
     return bend * power(size) * 1024 <= round_off * power(motion.move);
   }
 };
-template <int Power>
-inline void take_lanes(const Mask& lanes, NewtonRule<Power>& to, const NewtonRule<Power>& from) {
-  take_lanes(lanes, to.contraction, from.contraction);
-}

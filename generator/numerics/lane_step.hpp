@@ -5,18 +5,14 @@ struct StepReport {
   Real iterations = 0;
   Real increment = 0;
 };
-// An iteration has ended, in some lanes without success.
-template <class Rule>
-inline void end_iteration(StepReport& report, const Rule& rule) {
-  report.iterations += rule.taken;
-  report.increment = select(report.converged & rule.failed, rule.last, report.increment);
-  report.converged = report.converged & !rule.failed;
-}
 // The sum of the squares of what should be finite: neither an infinity nor NaN.
-inline void require_finite(StepReport& report, const Real& length) {
-  const Mask finite = length <= largest;
+inline void require_finite(StepReport& report, const Mask& lanes, const Real& length) {
+  const Mask finite = (!lanes) | (length <= largest);
   report.increment = select(report.converged & !finite, length, report.increment);
   report.converged = report.converged & finite;
+}
+inline void require_finite(StepReport& report, const Real& length) {
+  require_finite(report, true, length);
 }
 // Lanes that do not run have no part in the step; those that have failed in it run no more.
 inline void stop_failed(Mask& running, StepReport& report) {
@@ -24,11 +20,6 @@ inline void stop_failed(Mask& running, StepReport& report) {
   report.increment = select(running, report.increment, Real(0));
   running = running & report.converged;
   report.converged = running;
-}
-// Only these lanes have a part in what the rule stops.
-template <class Rule>
-inline void run_lanes(Rule& rule, const Mask& lanes) {
-  rule.stopped = !lanes;
 }
 // Lanes that have failed from what was known of earlier steps.
 inline Mask astray_lanes(const Mask& running, const Mask& known, const StepReport& report) {
@@ -44,10 +35,6 @@ inline void add_substep(StepReport& total, const StepReport& report) {
 // What stands in these lanes of `from`.
 inline void take_lanes(const Mask& lanes, Real& to, const Real& from) {
   to = select(lanes, from, to);
-}
-template <class Numbers, int Size>
-inline void take_lanes(const Mask& lanes, Numbers (&to)[Size], const Numbers (&from)[Size]) {
-  for (int i = 0; i < Size; ++i) take_lanes(lanes, to[i], from[i]);
 }
 // A step tried again: both count.
 inline void take_lanes(const Mask& lanes, StepReport& to, const StepReport& from) {
@@ -75,4 +62,12 @@ inline void move_lanes(const Mask& lanes, Real& value, Real& carry, const Real& 
 // Where sums are plain.
 inline void move_lanes(const Mask& lanes, Real& value, const Real& increment) {
   value = select(lanes, value + increment, value);
+}
+// The sum of many numbers in these lanes, and what rounding loses of it.
+inline void collect_lanes(const Mask& lanes, Real& value, Real& lost, const Real& increment) {
+  Real sum = value;
+  Real error = 0;
+  two_sum(sum, error, increment);
+  value = select(lanes, sum, value);
+  lost = select(lanes, lost + error, lost);
 }

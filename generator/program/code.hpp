@@ -326,6 +326,8 @@ struct Routine {
   std::map<std::string, Place> places = {};  // of symbols that are no locals
   Body body = {};
   bool of_run = false;  // is it given what a run keeps, as "self"?
+  // Of trajectories in lanes: objects and fields that it changes only in those of start.turn.
+  std::vector<Place> in_turn = {};
 };
 
 // What only the routines of a run have, those of a Propagator.

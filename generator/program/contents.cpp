@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "generator/program/lane_program.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -41,7 +43,7 @@ class ContentsBuilder {
     if (program_.matrix) add(*program_.matrix);
     add_record("Coefficients");
     add_with_callees("prepare");
-    add_start();
+    add_record("Start");
     add_with_callees("solve");
     add_steps();
     add_with_callees("events");
@@ -54,16 +56,6 @@ class ContentsBuilder {
   void add(Piece piece) { pieces_->push_back(std::move(piece)); }
   void add_record(const char* name) {
     if (const Record* record = program_.record(name)) add(*record);
-  }
-  void add_start() {
-    const Record* record = program_.record("Start");
-    if (record == nullptr) return;
-    Record start = *record;
-    // Flags that differ from lane to lane.
-    for (Field& field : start.fields) {
-      if (wishes_.lanes > 0 && program_.unknowns > 0 && field.type == "bool") field.type = "Mask";
-    }
-    add(std::move(start));
   }
   // The routine of this name, if there is one, behind those that it calls; each once.
   void add_with_callees(const char* name) {
@@ -155,7 +147,9 @@ class ContentsBuilder {
 }  // namespace
 
 Contents contents_of(const Program& program, const ContentsWishes& wishes) {
-  return ContentsBuilder(program, wishes).build();
+  if (wishes.lanes == 0) return ContentsBuilder(program, wishes).build();
+  const Program together = in_lanes(program);
+  return ContentsBuilder(together, wishes).build();
 }
 
 const Field* parameter_of_method(const Contents& contents) {

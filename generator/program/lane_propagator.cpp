@@ -43,27 +43,25 @@ class LanePropagatorBuilder : public PropagatorParts {
     arguments.insert(arguments.begin(), lanes);
     return {.block = block, .arguments = std::move(arguments)};
   }
-  // Only these lanes have a part in what the rules of `start` stop.
-  void run_only(Body& body, const std::string& start, const Place& lanes) const {
-    for (const RuleOfNewton& rule : code_.rules)
-      add(body, Use{.block = "run_lanes", .arguments = {{start, rule.name}, lanes}});
-  }
-
   // A solve; where it starts from what is known of earlier steps, and lanes fail, it is tried again
   // in these.
   void add_solve(Routine& routine, const std::string& z, const std::string& carry) const {
     if (!large_) add_room(routine);
     Call call = solve_kept(z, carry);
     call.varies = true;
-    if (!extrapolates_) return add(routine, call);
+    if (!code_.retries) return add(routine, call);
     const std::string start = own("start");
-    const Place value{start, "value"};
-    run_only(routine.body, start, running());
-    add(routine, Ask{{start, "known"}, {own("history"), "known"}});
-    add(routine, Use{"History", "extrapolate", {{own("history")}, value}});
+    const Place known = extrapolates_ ? Place{start, "known"} : Place{"known"};
+    add(routine, Use{"Turn", "begin", {{start, "turn"}, running()}});
+    if (extrapolates_) {
+      add(routine, Ask{known, {own("history"), "known"}});
+      add(routine, Use{"History", "extrapolate", {{own("history")}, {start, "value"}}});
+    } else {
+      add(routine, Note{"Mask", "known", {start, "known"}});
+    }
     add(routine, call);
     add(routine, Call{.routine = "astray_lanes",
-                      .arguments = {running(), {start, "known"}, {"report"}},
+                      .arguments = {running(), known, {"report"}},
                       .record = "Mask",
                       .object = "astray"});
     add_again(routine, call);
@@ -73,33 +71,17 @@ class LanePropagatorBuilder : public PropagatorParts {
   void add_again(Routine& routine, Call call) const {
     const std::string start = own("start");
     const Place astray{"astray"};
-    Body body = {{Declare{"Start", {"again"}},
+    const std::string lanes = number(routine, {start, "turn.lanes"}).name();
+    Body body = {{Assign{lanes, number(routine, astray)},
                   {"Extrapolation may lead astray, the state itself seldom does."}}};
-    run_only(body, "again", astray);
-    Declare room_again{"State", {"dz_again"}};
-    if (rest_) room_again.objects.emplace_back("rest_again");
-    add(body, room_again);
+    if (extrapolates_) add(body, SetFlag{{start, "known"}, false});
+    for (const RuleOfNewton& rule : code_.rules)
+      add(body, Use{"NewtonRule", "forget", {{start, rule.name}, astray}});
     call.object = "second";
     call.varies = false;
-    for (Place& place : call.arguments) {
-      if (place == Place{start}) place = {"again"};
-      if (place == room("dz")) place = {"dz_again"};
-      if (place == room("rest")) place = {"rest_again"};
-    }
     add(body, call);
     add(body, in_lanes("take_lanes", astray, {{"report"}, {"second"}}));
-    Routine inside{.name = "", .body = std::move(body)};
-    for (const char* name : {"dz", "rest"}) {
-      if (name == std::string("rest") && !rest_) continue;
-      each(inside, [&](const Place& at) -> Instruction {
-        return {in_lanes("take_lanes", astray,
-                         {of(room(name).object, at), of(std::string(name) + "_again", at)})};
-      });
-    }
-    add(inside, in_lanes("take_lanes", astray, {{start, "value"}, {"again", "value"}}));
-    for (const RuleOfNewton& rule : code_.rules)
-      add(inside, in_lanes("take_lanes", astray, {{start, rule.name}, {"again", rule.name}}));
-    add(routine, If{.flag = astray, .then = std::move(inside.body), .any = true});
+    add(routine, If{.flag = astray, .then = std::move(body), .any = true});
   }
 
   // The state of the lanes that run, and how many steps they have taken.

@@ -172,7 +172,7 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
     const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
     const int dimension = 2 * plan.equations.mechanics.degrees_of_freedom;
     StageLayout layout{.stages = stages, .dimension = dimension};
-    if (!plan.arrays) layout.lanes = 1;
+    if (!plan.arrays || wishes.trajectories_in_lanes) layout.lanes = 1;
     if (wishes.stages_in_lanes) layout = stages_in_lanes(stages, dimension);
     lowered.stage_layout = layout;
     if (layout.by_component() && *plan.stage_solver != StageSolver::newton)

@@ -62,10 +62,12 @@ struct Cost {
 
 // What a step has besides what its plan says.
 struct StepWishes {
-  bool tangent = false;          // is the tangent map wanted?
-  bool plain_sums = false;       // what rounding takes from the state is lost
-  bool unchecked = false;        // no step fails, but where numbers end
-  bool stages_in_lanes = false;  // of an implicit Runge-Kutta method, where it is written out
+  bool tangent = false;     // is the tangent map wanted?
+  bool plain_sums = false;  // what rounding takes from the state is lost
+  bool unchecked = false;   // no step fails, but where numbers end
+  // Of an implicit Runge-Kutta method: many stages at once, or none where trajectories are.
+  bool stages_in_lanes = false;
+  bool trajectories_in_lanes = false;
   // H_0, H_1, ... of the modified Hamiltonian sum of h^j H_j whose values are wanted.
   std::vector<Expression> modified_terms = {};
 };

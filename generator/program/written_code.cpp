@@ -47,7 +47,8 @@ class RoutineWriter : public RunWriter {
     add(Define{"Real", array.name, list(std::move(values)), true, array.sizes});
   }
   void operator()(const Matrix& matrix) {
-    const char* dense = matrix.large && form_.eigen ? "EigenDenseMatrix" : "DenseMatrix";
+    const char* dense =
+        matrix.large && form_.eigen ? "EigenDenseMatrix" : "DenseMatrix";
     add(Declare{matrix.patterned ? "Matrix" : fmt::format("{}<{}>", dense, matrix.size),
                 {matrix.name}});
   }
@@ -58,23 +59,29 @@ class RoutineWriter : public RunWriter {
   }
   void operator()(const Assign& assign) {
     if (!put_lanes("Lanes::put", assign.symbol, assign.value))
-      set(symbol(assign.symbol), formula(assign.value));
+      set_number(symbol(assign.symbol), formula(assign.value), is_in_turn(assign.symbol));
   }
   void operator()(const Collect& sum) {
-    Value collect = call("collect", {symbol(sum.symbol), symbol(sum.lost), formula(sum.value)});
+    std::vector<Value> numbers = {symbol(sum.symbol), symbol(sum.lost), formula(sum.value)};
+    const bool in_turn = is_in_turn(sum.symbol);
+    if (in_turn) numbers.insert(numbers.begin(), lanes_in_turn());
+    Value collect = call(in_turn ? "collect_lanes" : "collect", std::move(numbers));
     collect.changed = 2;
     add(Do{std::move(collect)});
   }
   void operator()(const Accumulate& sum) {
-    if (!put_lanes("Lanes::add", sum.symbol, sum.value))
-      set(symbol(sum.symbol), formula(sum.value), "+=");
+    if (!put_lanes("Lanes::add", sum.symbol, sum.value)) increase(sum.symbol, formula(sum.value));
   }
   void operator()(const Clear& clear) { add(Do{action("Matrix", clear.matrix, "clear")}); }
   void operator()(const Put& put) {
     add(Do{action("Matrix", put.matrix, "put",
                   {index(put.row), index(put.column), formula(put.value)})});
   }
-  void operator()(const SetFlag& flag) { set(at(flag.flag), word(flag.value ? "true" : "false")); }
+  void operator()(const SetFlag& flag) {
+    if (!is_in_turn(flag.flag)) return set(at(flag.flag), word(flag.value ? "true" : "false"));
+    Value lanes = flag.value ? lanes_in_turn() : prefix("!", lanes_in_turn());
+    set(at(flag.flag), joined(flag.value ? "|" : "&", {at(flag.flag), std::move(lanes)}));
+  }
   void operator()(const hamgen::For& loop) {
     if (loop.lanes > 0) lane_index_ = loop.range.index;
     add(For{loop.range, inside(loop.body), Shape::fitting, loop.lanes});
@@ -84,6 +91,8 @@ class RoutineWriter : public RunWriter {
   void operator()(const hamgen::If& node) {
     Value condition = node.any ? call("any", {object(node.flag)}) : at(node.flag);
     if (!node.set) condition = prefix("!", std::move(condition));
+    if (!routine_.in_turn.empty())
+      return narrow(std::move(condition), Shape::fitting, [&] { write(node.then); });
     if (node.also) condition = joined("&&", {std::move(condition), at(*node.also)});
     branch(std::move(condition), Shape::fitting, [&] { write(node.then); });
   }
@@ -107,6 +116,7 @@ class RoutineWriter : public RunWriter {
 
   void operator()(const Alternate& node) {
     const Value patience = at(node.patience);
+    if (form_.lanes) return alternate_in_lanes(node);
     branch(joined("&&", {joined("==", {patience, integer(0)}), prefix("!", called(node.first))}),
            Shape::braces, [&] {
              write(node.between);
@@ -119,11 +129,12 @@ class RoutineWriter : public RunWriter {
   }
 
   void operator()(const Factorise& node) {
-    Value regular = action("Matrix", node.matrix, "factorise");
+    std::vector<Value> lanes;
+    if (is_in_turn(node.matrix)) lanes.push_back(lanes_in_turn());
+    Value regular = action("Matrix", node.matrix, "factorise", std::move(lanes));
     if (form_.lanes) {
-      if (iterates_) return void(add(Do{action("NewtonRule", rule_, "require", {regular})}));
-      const Value converged = at({"report", "converged"});
-      return set(converged, joined("&", {converged, std::move(regular)}));
+      const Value turn = object({"start", "turn"});
+      return void(add(Do{action("NewtonRule", rule_, "require", {turn, std::move(regular)})}));
     }
     branch(prefix("!", std::move(regular)), iterates_ ? Shape::braces : Shape::line, [this] {
       if (iterates_) count_iterations();
@@ -131,17 +142,20 @@ class RoutineWriter : public RunWriter {
     });
   }
   void operator()(const SolveFactorised& solve) {
-    add(Do{action("Matrix", solve.matrix, "solve", {object(solve.vector)})});
+    std::vector<Value> given = {object(solve.vector)};
+    if (is_in_turn(solve.matrix)) given.insert(given.begin(), lanes_in_turn());
+    add(Do{action("Matrix", solve.matrix, "solve", std::move(given))});
   }
   void operator()(const Invert& node) {
     Value inverse = call("invert", {object({node.matrix}), object(node.inverse)});
-    set(at(node.regular), joined("&&", {std::move(inverse), at(node.regular)}));
+    set(at(node.regular), joined(form_.lanes ? "&" : "&&", {std::move(inverse), at(node.regular)}));
   }
 
   void operator()(const hamgen::Return& end) {
     if (end.value) return void(add(Return{formula(*end.value)}));
     if (!end.report.empty()) return void(add(Return{object({end.report})}));
     if (!end.finite.empty()) length_of(end);
+    if (form_.lanes) return return_lanes(end);
     const std::size_t first = body_.size();
     Value success = word(end.success ? "true" : "false");
     if (!end.finite.empty()) success = joined("<=", {at({"length "}), word("largest")});
@@ -152,7 +166,7 @@ class RoutineWriter : public RunWriter {
       add(Return{std::move(success)});
     }
     const bool loops = !end.finite.empty() && std::holds_alternative<For>(body_[first - 1].value);
-    if (loops && !form_.lanes) body_[first].remark = kOfLength;
+    if (loops) body_[first].remark = kOfLength;
   }
 
  private:
@@ -190,10 +204,8 @@ class RoutineWriter : public RunWriter {
 
   void length_of(const hamgen::Return& end) {
     std::vector<Value> squares;
-    if (!form_.lanes) {
-      for (const Place& array : finite_arrays(routine_, end))
-        squares.push_back(call("squares_of", {object(array)}));
-    }
+    for (const Place& array : finite_arrays(routine_, end))
+      squares.push_back(call("squares_of", {object(array)}));
     const bool whole = !squares.empty();
     for (std::size_t i = 0; i < end.finite.size() && !whole; ++i)
       squares.push_back(joined("*", {symbol(end.finite[i]), symbol(end.finite[i])}));
@@ -210,18 +222,56 @@ class RoutineWriter : public RunWriter {
 
   void report_success(const hamgen::Return& end, const Value& success) {
     const Value converged = at({"report", "converged"});
-    if (form_.lanes && !end.finite.empty())
-      add(Do{call("require_finite", {object({"report"}), at({"length "})})});
-    if (!form_.lanes) {
-      set(converged, success);
-      if (!end.finite.empty()) {
-        branch(prefix("!", converged), Shape::line, [this] {
-          set(at({"report", "increment"}), at({"length "}));
-        });
-      }
+    set(converged, success);
+    if (!end.finite.empty()) {
+      branch(prefix("!", converged), Shape::line, [this] {
+        set(at({"report", "increment"}), at({"length "}));
+      });
     }
-    // Of a lane that has failed nothing is asked any more.
-    if (end.flag) set(at(*end.flag), form_.lanes ? call("any", {converged}) : converged);
+    if (end.flag) set(at(*end.flag), converged);
+  }
+
+  // --- of trajectories in lanes --------------------------------------------------------------
+
+  // A routine ends where all lanes have come to its end.
+  void return_lanes(const hamgen::Return& end) {
+    const Value converged = at({"report", "converged"});
+    if (!end.success) return set(converged, joined("&", {converged, prefix("!", lanes_in_turn())}));
+    const bool in_turn = !routine_.in_turn.empty();
+    if (!end.finite.empty()) {
+      std::vector<Value> given = {object({"report"}), at({"length "})};
+      if (in_turn) given.insert(given.begin() + 1, lanes_in_turn());
+      add(Do{call("require_finite", std::move(given))});
+    }
+    if (end.flag && in_turn) {
+      Value lanes = in_parentheses(joined("&", {converged, lanes_in_turn()}));
+      set(at(*end.flag), joined("|", {at(*end.flag), std::move(lanes)}));
+    } else if (end.flag) {
+      // Of a lane that has failed nothing is asked any more.
+      set(at(*end.flag), call("any", {converged}));
+    }
+    add(Return{routine_.result.type == "StepReport" ? object({"report"}) : converged});
+  }
+
+  // Lanes that the first routine fails in go on to the second.
+  void alternate_in_lanes(const Alternate& node) {
+    const Value patience = at(node.patience);
+    const Value converged = at({"report", "converged"});
+    const auto is_zero = [&](const char* sign) {
+      return in_parentheses(joined(sign, {patience, integer(0)}));
+    };
+    narrow(is_zero("<="), Shape::braces, [&] {
+      add(Define{"Mask", "tried ", lanes_in_turn()});
+      add(Define{"Mask", "found ", called(node.first)});
+      set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
+      write(node.between);
+      set_number(patience, integer(node.steps), true);
+      set(converged, joined("|", {converged, lanes_in_turn()}));
+    });
+    narrow(is_zero(">"), Shape::braces, [&] {
+      set_number(patience, joined("-", {patience, integer(1)}), true);
+      add(Do{unused(called(node.second))});
+    });
   }
 
   // To numbers of the stages side by side, if it is that.
@@ -246,10 +296,18 @@ bool is_of_lanes(const Place& place, const std::string& index) {
 }
 
 std::string type_of(const ArrayMatrix& matrix) {
+  if (matrix.kept) {
+    ArrayMatrix plain = matrix;
+    plain.kept = false;
+    return fmt::format("KeptMatrix<{}>", type_of(plain));
+  }
   const auto plain = [&](const char* name) { return fmt::format("{}<{}>", name, matrix.size); };
   if (matrix.kind == MatrixKind::dense) return plain("DenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_dense) return plain("EigenDenseMatrix");
-  if (matrix.kind == MatrixKind::eigen_sparse) return plain("EigenSparseMatrix");
+  const bool eigen = !matrix.in_lanes;
+  if (matrix.kind == MatrixKind::eigen_dense)
+    return plain(eigen ? "EigenDenseMatrix" : "DenseMatrix");
+  if (matrix.kind == MatrixKind::eigen_sparse)
+    return plain(eigen ? "EigenSparseMatrix" : "SparseMatrix");
   if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
   const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return band;

@@ -30,7 +30,7 @@ class IterationWriter : public StatementWriter {
       Value value = symbol(u.symbol);
       if (iterate.rule == Rule::newton)
         value = joined("+", {std::move(value), formula(u.correction)});
-      set(memory_of(u), std::move(value));
+      set_number(memory_of(u), std::move(value), form_.lanes);
     }
   }
 
@@ -53,7 +53,7 @@ class IterationWriter : public StatementWriter {
   }
 
   void operator()(const RefineArray& refine) {
-    std::vector<Value> given;
+    std::vector<Value> given = turn();
     if (!refine.rule.empty()) given.push_back(object({"start", refine.rule}));
     for (const Place& place : {refine.point, refine.lack, refine.gradient})
       given.push_back(object(place));
@@ -79,6 +79,15 @@ class IterationWriter : public StatementWriter {
   }
 
  protected:
+  // What a block is given besides that knows of lanes.
+  [[nodiscard]] std::vector<Value> turn() const {
+    if (!form_.lanes) return {};
+    return {object({"start", "turn"})};
+  }
+  [[nodiscard]] std::vector<Value> with_turn(std::vector<Value> given) const {
+    if (form_.lanes) given.push_back(turn().front());
+    return given;
+  }
   void count_iterations() { set(at({"report", "iterations"}), at({"iteration "}), "+="); }
 
   std::set<std::string> kept_;  // locals that an iteration changes
@@ -133,7 +142,8 @@ class IterationWriter : public StatementWriter {
 
   void newton(const Iterate& iterate) {
     const Place rule{"start", iterate.name};
-    add(Do{action("NewtonRule", rule, "begin", {at({"start", "known"})})}).remark = *remark_;
+    add(Do{action("NewtonRule", rule, "begin", with_turn({at({"start", "known"})}))}).remark =
+        *remark_;
     rule_ = rule;
     iterate_with([&] {
       write(iterate.body);
@@ -145,28 +155,40 @@ class IterationWriter : public StatementWriter {
       }
       add(Define{"Real", "size ", joined("+", std::move(sizes))});
       add(Define{"Real", "scale ", joined("+", std::move(lengths))});
-      if (form_.lanes) return correct_lanes(iterate, rule);
+      if (form_.lanes) {
+        look_at_moving(action("NewtonRule", rule, "", judged_by_size()));
+        for (const Unknown& u : iterate.unknowns)
+          move_lanes(at({"moving "}), symbol(u.symbol), formula(u.correction));
+        return;
+      }
       add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
       end_newton();
       for (const Unknown& u : iterate.unknowns) set(symbol(u.symbol), formula(u.correction), "+=");
     });
-    if (form_.lanes) add(Do{call("end_iteration", {object({"report"}), object(rule)})});
+    if (form_.lanes) end_lanes(rule);
   }
 
-  // Lanes that are done stand still until all are.
-  void correct_lanes(const Iterate& iterate, const Place& rule) {
-    const Value moving = at({"moving "});
-    add(Define{"Mask", "moving ", action("NewtonRule", rule, "", judged_by_size())});
-    branch(prefix("!", call("any", {moving})), Shape::line, [this] { add(Break{}); });
-    for (const Unknown& u : iterate.unknowns) {
-      const Value x = symbol(u.symbol);
-      set(x, call("select", {moving, joined("+", {x, formula(u.correction)}), x}));
-    }
+  // --- of trajectories in lanes: those that are done stand still until all are -----------------
+
+  void look_at_moving(Value moving) {
+    add(Define{"Mask", "moving ", std::move(moving)});
+    break_unless_any(at({"moving "}));
+  }
+  void break_unless_any(Value lanes) {
+    branch(prefix("!", call("any", {std::move(lanes)})), Shape::line, [this] { add(Break{}); });
+  }
+  void move_lanes(Value lanes, const Value& x, Value by) {
+    set(x, selected(std::move(lanes), joined("+", {x, std::move(by)}), x));
+  }
+  void end_lanes(const Place& rule) {
+    std::vector<Value> given = {object({"report"}), turn().front(), object(rule)};
+    add(Do{call("end_iteration", std::move(given))});
   }
 
   void newton(const IterateArray& iterate) {
     const Place rule{"start", iterate.name};
-    add(Do{action("NewtonRule", rule, "begin", {at({"start", "known"})})});
+    add(Do{action("NewtonRule", rule, "begin", with_turn({at({"start", "known"})}))});
+    rule_ = rule;
     iterate_with([&] {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
@@ -178,16 +200,24 @@ class IterationWriter : public StatementWriter {
         }
       };
       over(iterate.ranges, measure, Shape::braces);
+      if (form_.lanes) {
+        look_at_moving(action("NewtonRule", rule, "", judged_by_size()));
+        return move(iterate, at({"moving "}));
+      }
       add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
       end_newton();
       move(iterate);
     });
+    if (form_.lanes) end_lanes(rule);
   }
 
-  void move(const IterateArray& iterate) {
+  // Of trajectories in lanes in these.
+  void move(const IterateArray& iterate, const std::optional<Value>& lanes = {}) {
     const auto lines = [&] {
-      for (const UnknownArray& u : iterate.unknowns)
-        set(symbol(u.value), symbol(u.increment), "+=");
+      for (const UnknownArray& u : iterate.unknowns) {
+        lanes ? move_lanes(*lanes, symbol(u.value), symbol(u.increment))
+              : set(symbol(u.value), symbol(u.increment), "+=");
+      }
     };
     over(iterate.ranges, lines, Shape::braces);
   }
@@ -205,7 +235,9 @@ class IterationWriter : public StatementWriter {
   }
 
   void fixed_point(const Iterate& iterate) {
+    const Place rule{iterate.name};
     add(Declare{"FixedPointRule<2>", {iterate.name}});
+    if (form_.lanes) add(Do{action("FixedPointRule", rule, "begin", turn())});
     iterate_with([&] {
       write(iterate.body);
       add(numbers("increment ", lacks_of(iterate.unknowns)));
@@ -215,36 +247,44 @@ class IterationWriter : public StatementWriter {
         const Value increment = element("increment ", j);
         add(Do{action("Distance", {"distance "}, "add",
                       {call("magnitude", {increment}), length(u.symbol, u.start)})});
-        set(symbol(u.symbol), increment, "+=");
+        // Nothing that the last one has computed is read behind the loop.
+        form_.lanes ? move_lanes(at({iterate.name, "open"}), symbol(u.symbol), increment)
+                    : set(symbol(u.symbol), increment, "+=");
       }
-      add(Define{"Verdict", "verdict ",
-                 action("FixedPointRule", {iterate.name}, "",
-                        {object({"distance "}), at({"iteration "})})});
-      end_contraction({iterate.name, "size"});
+      judge("FixedPointRule", rule, {object({"distance "}), at({"iteration "})});
     });
+    if (form_.lanes) end_lanes(rule);
   }
 
   // The fixed point, and Newton with a matrix that serves for many steps.
   void contraction(const IterateArray& iterate) {
     const Place rule{"start", iterate.name};
     const bool newton = iterate.rule == Rule::simplified_newton;
-    std::vector<Value> served;
+    std::vector<Value> served = turn();
     if (newton) served.push_back(object(*iterate.factorised));
     if (iterate.work) served.push_back(integer(*iterate.work));
     add(Do{action("ContractionRule", rule, "begin", served)});
+    rule_ = rule;
     iterate_with([&] {
+      // Only they may want another matrix.
+      if (form_.lanes && newton) set(lanes_in_turn(), at({"start", iterate.name + ".open"}));
       write(iterate.body);
       add(Declare{"Distance", {"distance "}});
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
-      iterate.lanes > 0 ? write({{moved_in_lanes(iterate)}}) : move(iterate);
+      if (iterate.lanes > 0) write({{moved_in_lanes(iterate)}});
+      if (iterate.lanes == 0 && !form_.lanes) move(iterate);
       std::vector<Value> judged = {object({"distance "})};
       if (newton) judged.push_back(symbol(iterate.residual));
       if (newton) judged.push_back(object(*iterate.factorised));
       judged.push_back(at({"iteration "}));
-      add(Define{"Verdict", "verdict ", action("ContractionRule", rule, "", std::move(judged))});
-      end_contraction({"start", iterate.name + ".size"});
+      if (!form_.lanes) return judge("ContractionRule", rule, std::move(judged));
+      look_at_moving(action("ContractionRule", rule, "", std::move(judged)));
+      move(iterate, at({"moving "}));
     });
+    if (!form_.lanes) return;
+    end_lanes(rule);
+    move(iterate, lanes_in_turn());
   }
 
   void distance_of(const IterateArray& iterate) {
@@ -270,7 +310,13 @@ class IterationWriter : public StatementWriter {
     over(iterate.ranges, lines, Shape::braces);
   }
 
-  void end_contraction(const Place& size) {
+  // What the rule says of an iteration that has moved, and what follows from it.
+  void judge(const char* type, const Place& rule, std::vector<Value> given) {
+    Value verdict = action(type, rule, "", std::move(given));
+    if (form_.lanes) return break_unless_any(std::move(verdict));
+    add(Define{"Verdict", "verdict ", std::move(verdict)});
+    Place size = rule;
+    size.field += size.field.empty() ? "size" : ".size";
     branch(is_verdict("go_on"), Shape::line, [this] { add(Continue{}); });
     count_iterations();
     branch(is_verdict("done"), Shape::line, [this] { add(Break{}); });
@@ -293,8 +339,9 @@ class IterationWriter : public StatementWriter {
     std::vector<Value> points;
     for (const Unknown& u : refine.unknowns) points.push_back(symbol(u.symbol));
     add(numbers("point ", std::move(points), true));
-    set(at({"more "}), action("Refinement", {refine.name}, "",
-                              {object({"point "}), object({"lack "}), object({"slope "})}));
+    std::vector<Value> given = turn();
+    for (const char* array : {"point ", "lack ", "slope "}) given.push_back(object({array}));
+    set(at({"more "}), action("Refinement", {refine.name}, "", std::move(given)));
     for (std::size_t j = 0; j < refine.unknowns.size(); ++j)
       set(symbol(refine.unknowns[j].symbol), element("point ", j));
   }

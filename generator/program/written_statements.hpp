@@ -1,6 +1,7 @@
 // What writes a routine as statements is made of: values, and a body that grows.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <set>
 #include <string>
@@ -38,6 +39,7 @@ namespace hamgen::written {
 [[nodiscard]] inline Value call(const std::string& block, std::vector<Value> arguments) {
   return with_parts(Value::Kind::call, block, std::move(arguments));
 }
+[[nodiscard]] inline Value in_parentheses(Value of) { return call("", {std::move(of)}); }
 [[nodiscard]] inline Value list(std::vector<Value> parts) {
   return with_parts(Value::Kind::list, "", std::move(parts));
 }
@@ -100,6 +102,47 @@ class StatementWriter {
     Body body = inside([&] { over(ranges, lines, innermost, depth + 1); });
     const bool last = depth + 1 == ranges.size();
     add(For{ranges[depth], std::move(body), last ? innermost : Shape::braces});
+  }
+
+  // --- of trajectories in lanes --------------------------------------------------------------
+
+  // Those that have a part in what is done.
+  [[nodiscard]] static Value lanes_in_turn() { return at({"start", "turn.lanes"}); }
+  // Does the routine change the object or field in these alone?
+  [[nodiscard]] bool is_in_turn(const Place& place) const {
+    return std::ranges::any_of(routine_.in_turn, [&](const Place& each) {
+      return each.object == place.object && (each.field.empty() || each.field == place.field);
+    });
+  }
+  [[nodiscard]] bool is_in_turn(const std::string& symbol) const {
+    const auto found = routine_.places.find(symbol);
+    return found != routine_.places.end() && is_in_turn(found->second);
+  }
+  void set_number(Value to, Value value, bool in_turn) {
+    if (in_turn) value = selected(lanes_in_turn(), std::move(value), to);
+    set(std::move(to), std::move(value));
+  }
+  [[nodiscard]] static Value selected(Value lanes, Value value, Value other) {
+    const bool number = value.kind == Value::Kind::index ||
+                        (value.kind == Value::Kind::formula && value.formula.is_number());
+    if (number) value = call("Real", {std::move(value)});
+    return call("select", {std::move(lanes), std::move(value), std::move(other)});
+  }
+  void increase(const std::string& number, Value by) {
+    const Value to = symbol(number);
+    if (!is_in_turn(number)) return set(to, std::move(by), "+=");
+    const bool sum = by.kind == Value::Kind::formula && by.formula.kind() == hamgen::Kind::sum;
+    if (sum) by = in_parentheses(std::move(by));
+    set_number(to, joined("+", {to, std::move(by)}), true);
+  }
+  // In these lanes, and in no others, what the lines say.
+  void narrow(Value lanes, Shape shape, const Lines& lines) {
+    add(Block{inside([&] {
+      add(Define{"Mask", "part ", lanes_in_turn()});
+      set(lanes_in_turn(), joined("&", {at({"part "}), std::move(lanes)}));
+      branch(call("any", {lanes_in_turn()}), shape, lines);
+      set(lanes_in_turn(), at({"part "}));
+    })});
   }
 
   // The routine ends without success.

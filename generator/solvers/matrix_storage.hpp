@@ -18,6 +18,9 @@ struct ArrayMatrix {
   int bandwidth = 0;
   int arrays = 1;
   bool folded = false;
+  // Of trajectories in lanes: it is eliminated without Eigen; does it serve over many steps?
+  bool in_lanes = false;
+  bool kept = false;
   [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
 };
 

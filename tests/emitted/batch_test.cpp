@@ -2,164 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "generator/base/diagnostic.hpp"
-#include "tests/emitted/compiled.hpp"
+#include "tests/emitted/batch_cases.hpp"
 
 namespace hamgen::emitted_test {
 namespace {
-
-// Trajectories of a model; those of `fails` leave the domain of H or the numbers on the way.
-struct BatchCase {
-  std::string name;
-  std::string model;  // its state is q, p
-  Request request;
-  double h = 0.1;
-  int steps = 200;
-  std::vector<std::pair<double, double>> starts = {};  // 8 of them
-  int failing = 0;                                     // of these
-  std::vector<int> widths = {1, 2, 4, 8};
-};
-
-void PrintTo(const BatchCase& test, std::ostream* out) { *out << test.name; }
-
-// The steps of a cubic well run away on one side of its barrier, sooner or later.
-const char* const kCubic =
-    "system cubic\ncoordinate q\nmomentum p\nparameter a = 1/3\n"
-    "H = p^2/2 + q^2/2 - a*q^3\n";
-using Starts = std::vector<std::pair<double, double>>;
-const Starts kCubicStarts = {{0.1, 0.2}, {1.5, 0}, {-0.3, 0.4}, {1.001, 0},
-                             {0.9, 0.1}, {3, 1},   {0, 0},      {0.5, -0.3}};
-const char* const kFunctions =
-    "system functions\ncoordinate q\nmomentum p\nparameter a = 1/2\n"
-    "H = p^2/2 + exp(a*q) - q - cos(3*q) + sqrt(1 + q^2) + a*q^2\n";
-const char* const kLogarithm =
-    "system logarithm\ncoordinate q\nmomentum p\nH = p^2/2 - log(q) + q^(5/2)/7\n";
-const Starts kLogarithmStarts = {{1, 0},    {0.5, 1},   {-1, 0},      {2, -3},
-                                 {0.01, 0}, {1.5, 0.5}, {1e-300, -1}, {0.7, 0.7}};
-
-std::vector<BatchCase> explicit_cases() {
-  Request verlet;
-  verlet.scheme = "stormer-verlet";
-  Request yoshida;
-  yoshida.scheme = "yoshida-4-verlet";
-  Request euler;
-  euler.scheme = "symplectic-euler-b";
-  euler.plain_sums = true;
-  return {{"Verlet", kCubic, verlet, 0.1, 200, kCubicStarts, 4},
-          {"Composition", kLogarithm, yoshida, 0.05, 200, kLogarithmStarts, 4},
-          {"PlainSums", kFunctions, euler, 0.05, 200, kCubicStarts, 0}};
-}
-
-// Newton's iteration: of size 1, of 2 without a separable H, with a matrix, and in substeps. Beyond
-// q = 2 there is no force: some lanes begin there, some come there, from a prediction too.
-const char* const kMixed =
-    "system mixed\ncoordinate q\nmomentum p\nparameter a = 1/2\n"
-    "H = (1 + q^2)*(1 + p^2)/2 + a*sin(q)*p - sqrt(2 - q)*(2 - q)/2\n";
-const Starts kMixedStarts = {{0.1, 0.2}, {1.9, 1.5},  {-0.3, 0.4}, {2.5, 0},
-                             {1, 3},     {0.9, -2.6}, {0, 0},      {0.5, -0.3}};
-const char* const kCoupled =
-    "system coupled\ncoordinate q, r, s\nmomentum p, u, v\nparameter a = 1/2\n"
-    "H = (p^2 + u^2*(1 + q^2) + v^2)/2 + a*(q - r)^4 + sqrt(1 + q^2 + s^2) + (q^2 + r^2)/2 "
-    "- a*sin(p*v)/2 - cos(s*q) - sqrt(2 - q)*(2 - q)/4\n";
-
-std::vector<BatchCase> implicit_cases() {
-  Request newton;
-  newton.solver = "newton";
-  Request composed = newton;
-  composed.scheme = "yoshida-4";
-  composed.plain_sums = true;
-  Request member = newton;
-  member.alpha = "3/10";
-  return {{"Newton", kLogarithm, newton, 0.2, 200, kLogarithmStarts, 3, {1, 8}},
-          {"NewtonOfTwo", kMixed, newton, 0.05, 200, kMixedStarts, 4},
-          {"NewtonWithAMatrix", kCoupled, member, 0.05, 150, kMixedStarts, 2},
-          {"NewtonInSubsteps", kMixed, composed, 0.05, 100, kMixedStarts, 4}};
-}
-
-std::string batch_header(const BatchCase& test, int lanes, const std::string& math) {
-  Request request = test.request;
-  request.batch = lanes;
-  request.math = math;
-  request.name_space = fmt::format("lanes{}::method", lanes);
-  return without_pragma(generate(make_source(test.name + ".ham", test.model), request)[0].text);
-}
-
-const char* const kPrintBatch = R"(
-#include <cstdio>
-struct Start { double q, p; };
-void print(int i, bool running, double time, double q, double p, double cq, double cp) {
-  std::printf("%d %s t=%a q=%a p=%a carry %a %a", i, running ? "runs" : "failed", time, q, p, cq, cp);
-}
-void print_other(const double* numbers, int count) {
-  // The sign of NaN is anyone's.
-  for (int i = 0; i < count; ++i) {
-    numbers[i] == numbers[i] ? std::printf(" %a", numbers[i]) : std::printf(" nan");
-  }
-  std::printf("\n");
-}
-template <class T>
-double carried(const T& method, int lane, bool q) {
-  if constexpr (requires { method.carry(); }) {
-    return q ? method.carry().q[lane] : method.carry().p[lane];
-  } else {
-    return 0;
-  }
-}
-template <class Propagator, class Parameters, class State>
-void run(const Start* starts, int count, double h, int steps, bool compare_reports) {
-  constexpr int W = Propagator::lanes;
-  for (int i = 0; i < count; i += W) {
-    State z;
-    for (int lane = 0; lane < W; ++lane) {
-      z.q.set(lane, starts[i + lane].q);
-      z.p.set(lane, starts[i + lane].p);
-    }
-    Propagator method(Parameters(), h, z);
-    const auto report = method.advance(steps);
-    for (int lane = 0; lane < W; ++lane) {
-      if (report.converged[lane] != method.running()[lane]) std::printf("another report\n");
-      print(i + lane, method.running()[lane], method.time()[lane], method.state().q[lane],
-            method.state().p[lane], carried(method, lane, true), carried(method, lane, false));
-      const double other[] = {report.iterations[lane], report.increment[lane]};
-      print_other(other, compare_reports ? 2 : 0);
-    }
-  }
-}
-)";
-
-std::string starts_text(const BatchCase& test) {
-  std::string text = "const Start starts[] = {";
-  for (const auto& [q, p] : test.starts) text += fmt::format("{{{}, {}}}, ", q, p);
-  return text + "};\n";
-}
-
-// What the trajectories come to in batches of so many, a line each.
-std::string batch_program(const BatchCase& test, const std::vector<int>& widths,
-                          const std::string& math) {
-  std::string headers;
-  std::string calls;
-  for (const int lanes : widths) {
-    headers += batch_header(test, lanes, math);
-    calls += fmt::format(
-        "  run<lanes{0}::method::Propagator, lanes{0}::Parameters, lanes{0}::State>(starts, 8, "
-        "{1}, {2}, {3});\n",
-        lanes, test.h, test.steps, math != "libm");
-  }
-  return headers + kPrintBatch + "int main() {\n" + starts_text(test) + calls + "}\n";
-}
-
-std::vector<std::string> batch_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-long failed_lines(const std::vector<std::string>& lines) {
-  return std::ranges::count_if(lines, [](const auto& line) { return count(line, "failed") > 0; });
-}
 
 struct Instructions {
   const char* name;
@@ -186,6 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Explicit, BatchLanes, testing::ValuesIn(explicit_cases(
                          [](const auto& info) { return info.param.name; });
 INSTANTIATE_TEST_SUITE_P(Implicit, BatchLanes, testing::ValuesIn(implicit_cases()),
                          [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Iterated, BatchLanes, testing::ValuesIn(iterated_cases()),
+                         [](const auto& info) { return info.param.name; });
 class ExplicitBatch : public testing::TestWithParam<BatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Cases, ExplicitBatch, testing::ValuesIn(explicit_cases()),
                          [](const auto& info) { return info.param.name; });
@@ -204,6 +53,25 @@ TEST_P(BatchLanes, AreBitForBitTheTrajectoryAloneWhateverTheWidthAndTheInstructi
       EXPECT_EQ(lines[i], alone[i % 8]) << set.name << ", width " << widths[i / 8];
     }
   }
+}
+
+// All of them, and if one is refused in lanes then for a reason that it has alone, too.
+class BatchSweep : public testing::TestWithParam<BatchCase> {};
+INSTANTIATE_TEST_SUITE_P(Schemes, BatchSweep, testing::ValuesIn(swept_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(BatchSweep, IsBitForBitTheTrajectoryAlone) {
+  const BatchCase& test = GetParam();
+  try {
+    static_cast<void>(generate(make_source("m.ham", test.model), test.request));
+  } catch (const std::exception& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::vector<std::string> lines =
+      batch_lines(run_program(batch_program(test, test.widths, ""), {"-ffp-contract=off", "-O0"}));
+  ASSERT_EQ(lines.size(), 8 * test.widths.size());
+  EXPECT_LT(failed_lines(lines), static_cast<long>(lines.size()));
+  for (std::size_t i = 8; i < lines.size(); ++i) EXPECT_EQ(lines[i], lines[i % 8]);
 }
 
 // With functions of the library it is the header of one trajectory, if no step of it is decided by
@@ -317,7 +185,7 @@ int main() {
   EXPECT_NE(lines[0].substr(2), lines[1].substr(2));
 }
 
-std::string refusal(Request request, const std::string& model = kCubic) {
+std::string refusal(Request request, const std::string& model = functions_model()) {
   try {
     (void)generate(make_source("cubic.ham", model), request);
   } catch (const UsageError& error) {
@@ -369,7 +237,7 @@ TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
     Request request;
     request.scheme = "stormer-verlet";
     request.batch = lanes;
-    text += without_pragma(generate(make_source("f.ham", kFunctions), request)[0].text);
+    text += without_pragma(generate(make_source("f.ham", functions_model()), request)[0].text);
   }
   text += "functions::batch_8::State z; functions::State one; functions::batch_2::State two;\n";
   for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
@@ -377,29 +245,53 @@ TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
 
 TEST(BatchHeader, TakesNoNameFromTheUser) {
   const std::string model =
-      "system lanes\ncoordinate any, select, lane_sin\nmomentum moving, Mask, library\n"
+      "system lanes\ncoordinate any, select, lane_sin\nmomentum moving, Mask, part\n"
       "parameter running = 1\nparameter require_finite = 2\n"
-      "H = (moving^2 + Mask^2 + library^2)*(1 + any^2)/2 + running*sin(select) "
+      "H = (moving^2 + Mask^2 + part^2)*(1 + any^2)/2 + running*sin(select) "
       "+ require_finite*any^2*exp(lane_sin)\n";
-  Request request;
-  request.batch = 2;
-  request.solver = "newton";
-  for (const char* math : {"own", "libm"}) {
-    request.math = math;
-    const std::string text = generate(make_source("lanes.ham", model), request)[0].text;
-    EXPECT_EQ(messages("g++", without_pragma(text)), "") << math;
+  const std::string iterated =
+      "system lanes\ncoordinate tried, found, turn\nmomentum Turn, Iteration, library\n"
+      "parameter collect_lanes = 1\n"
+      "H = (Turn^2 + Iteration^2 + library^2)/2 + collect_lanes*sin(tried*found)*cos(turn)\n";
+  Request newton;
+  newton.solver = "newton";
+  Request libm = newton;
+  libm.math = "libm";
+  Request fixed_point;
+  fixed_point.solver = "fixed-point";
+  Request gauss;
+  gauss.scheme = "gauss-4";
+  for (const auto& [request, text] :
+       {std::pair(newton, model), std::pair(libm, model), std::pair(fixed_point, iterated),
+        std::pair(gauss, iterated)}) {
+    Request lanes = request;
+    lanes.batch = 2;
+    const std::string header = generate(make_source("lanes.ham", text), lanes)[0].text;
+    EXPECT_EQ(messages("g++", without_pragma(header)), "");
   }
+}
+
+// Of every kind of iteration and matrix, for every compiler.
+TEST(BatchHeader, OfIterationsCompilesWithoutAWarning) {
+  std::string text;
+  for (const BatchCase& test : iterated_cases()) {
+    Request request = test.request;
+    request.batch = 4;
+    request.name_space = test.name + "::method";
+    text += without_pragma(generate(make_source("m.ham", test.model), request)[0].text);
+  }
+  for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
 }
 
 TEST(BatchHeader, SaysThatItsProgramIsProvedAndNotItsText) {
   Request request;
   request.scheme = "stormer-verlet";
   request.batch = 2;
-  const std::string text = generate(make_source("cubic.ham", kCubic), request)[0].text;
+  const std::string text = generate(make_source("f.ham", functions_model()), request)[0].text;
   EXPECT_NE(text.find("//   proved    symplectic, symmetric, order 2, program\n"),
             std::string::npos);
   request.require = "emitted-code";
-  EXPECT_THROW((void)generate(make_source("cubic.ham", kCubic), request), std::exception);
+  EXPECT_THROW((void)generate(make_source("f.ham", functions_model()), request), std::exception);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The blocks of a batch: what is decided in a lane is decided as for one trajectory alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -19,113 +20,164 @@ namespace {
 constexpr int kLanes = 8;
 constexpr int kRows = 5;
 
-// Every lane has pivots of its own; that of lane 3 is singular, and lane 5 has a NaN.
-TEST(LaneBlocks, AMatrixIsSolvedInEachLaneBitForBitAsAlone) {
-  Numbers numbers;
-  packs::DenseMatrix<kRows> together;
-  of_double::DenseMatrix<kRows> alone[kLanes];
-  packs::Real sides[kRows] = {};
-  double side[kLanes][kRows] = {};
+// Numbers in all places of a matrix, or in those of a band.
+template <class Together, class Alone>
+void fill(Together& together, Alone (&alone)[kLanes], Numbers& numbers, int width) {
   for (int r = 0; r < kRows; ++r) {
     for (int c = 0; c < kRows; ++c) {
+      if (r - c > width || c - r > width) continue;
       packs::Real entry = 0;
       for (int lane = 0; lane < kLanes; ++lane) {
         double value = numbers.next() / 3;
         if (lane == 3 && r == 2) value = 0;
-        if (lane == 5 && r == 1 && c == 4) value = std::numeric_limits<double>::quiet_NaN();
+        if (lane == 5 && r == 1 && c == 2) value = std::numeric_limits<double>::quiet_NaN();
         entry.set(lane, value);
         alone[lane].put(r, c, value);
       }
       together.put(r, c, entry);
     }
+  }
+}
+// The right side and the solution in each lane.
+struct Sides {
+  packs::Real together[kRows] = {};
+  double alone[kLanes][kRows] = {};
+  explicit Sides(Numbers& numbers) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      side[lane][r] = numbers.next();
-      sides[r].set(lane, side[lane][r]);
+      for (int r = 0; r < kRows; ++r) {
+        alone[lane][r] = numbers.next();
+        together[r].set(lane, alone[lane][r]);
+      }
     }
   }
+  void expect_equal(int lane) const {
+    for (int r = 0; r < kRows; ++r) EXPECT_EQ(together[r][lane], alone[lane][r]) << lane;
+  }
+};
+
+// Every lane has pivots of its own; that of lane 3 is singular, and lane 5 has a NaN.
+template <class Together, class Alone>
+void expect_solved_as_alone(int width) {
+  Numbers numbers;
+  Together together;
+  Alone alone[kLanes];
+  fill(together, alone, numbers, width);
+  Sides sides(numbers);
   const packs::Mask regular = together.factorise();
-  together.solve(sides);
+  together.solve(sides.together);
   for (int lane = 0; lane < kLanes; ++lane) {
     EXPECT_EQ(regular[lane], lane != 3 && lane != 5) << lane;
     ASSERT_EQ(alone[lane].factorise(), regular[lane]) << lane;
     if (!regular[lane]) continue;
-    alone[lane].solve(side[lane]);
-    for (int r = 0; r < kRows; ++r) EXPECT_EQ(sides[r][lane], side[lane][r]) << lane;
+    alone[lane].solve(sides.alone[lane]);
+    sides.expect_equal(lane);
   }
 }
 
-// Increments of an iteration from its first on, the last one again and again.
-struct Increments {
-  std::string name;
-  std::vector<double> sizes;
-  [[nodiscard]] double at(int iteration) const {
-    const auto i = static_cast<std::size_t>(iteration - 1);
-    return i < sizes.size() ? sizes[i] : sizes.back();
+TEST(LaneBlocks, AMatrixIsSolvedInEachLaneBitForBitAsAlone) {
+  expect_solved_as_alone<packs::DenseMatrix<kRows>, of_double::DenseMatrix<kRows>>(kRows);
+}
+
+TEST(LaneBlocks, ABandIsSolvedInEachLaneBitForBitAsAlone) {
+  expect_solved_as_alone<packs::BandMatrix<kRows, 1>, of_double::BandMatrix<kRows, 1>>(1);
+  expect_solved_as_alone<packs::BandMatrix<kRows, 2>, of_double::BandMatrix<kRows, 2>>(2);
+  using Order = of_double::ElementOrder<1, kRows, true>;
+  expect_solved_as_alone<packs::ReorderedMatrix<packs::BandMatrix<kRows, 4>, Order>,
+                         of_double::ReorderedMatrix<of_double::BandMatrix<kRows, 4>, Order>>(kRows);
+}
+
+// Of a matrix that serves some lanes have factors of the second filling, the others of the first.
+template <class Together, class Alone>
+void expect_kept_as_alone(int width) {
+  Numbers numbers;
+  packs::KeptMatrix<Together> together;
+  Alone alone[2][kLanes];
+  for (int filling = 0; filling < 2; ++filling) {
+    together.clear();
+    fill(together, alone[filling], numbers, width);
+    packs::Real lanes = filling == 0 ? 1 : 0;
+    for (const int lane : {1, 3, 6}) lanes.set(lane, 1);
+    const packs::Mask regular = together.factorise(lanes > 0);
+    EXPECT_FALSE(regular[3]);
+    EXPECT_EQ(regular[5], filling == 1);
   }
-};
-
-// How many iterations, and whether the end was a success.
-struct End {
-  int iterations = 0;
-  bool done = false;
-  bool operator==(const End&) const = default;
-};
-
-End end_alone(const Increments& increments, bool predicted) {
-  of_double::NewtonRule<2> rule;
-  rule.begin(predicted);
-  for (int iteration = 1;; ++iteration) {
-    const of_double::Verdict verdict = rule(increments.at(iteration), 1, iteration);
-    if (verdict != of_double::Verdict::go_on) {
-      return {iteration, verdict == of_double::Verdict::done};
-    }
+  Sides sides(numbers);
+  packs::Real asked = 1;
+  asked.set(7, 0);
+  together.solve(asked > 0, sides.together);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lane == 3 || lane == 5) continue;
+    Alone& last = alone[lane == 1 || lane == 6 ? 1 : 0][lane];
+    ASSERT_TRUE(last.factorise());
+    if (lane != 7) last.solve(sides.alone[lane]);
+    sides.expect_equal(lane);
   }
 }
 
-TEST(LaneBlocks, NewtonsIterationEndsInEachLaneAsAlone) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Increments> lanes = {{"quadratic", {1e-2, 1e-4, 1e-8, 1e-16}},
-                                         {"at once", {1e-17}},
-                                         {"lost", {1e-3, nan}},
-                                         {"never", {1, 0.99}},
-                                         {"astray", {1e-3, 9e-4, 1e-9, 0}},
-                                         {"stands still", {1e-3, 1e-13, 2e-13, 3e-13}},
-                                         {"infinite", {1e300, infinity}},
-                                         {"fast", {1e-5, 1e-12}}};
-  for (const bool predicted : {false, true}) {
-    packs::NewtonRule<2> rule;
-    rule.begin(predicted);
-    for (int iteration = 1;; ++iteration) {
-      packs::Real size = 0;
-      for (int lane = 0; lane < kLanes; ++lane) {
-        size.set(lane, lanes[static_cast<std::size_t>(lane)].at(iteration));
-      }
-      if (!any(rule(size, packs::Real(1), iteration))) break;
-    }
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const Increments& increments = lanes[static_cast<std::size_t>(lane)];
-      const End end = {static_cast<int>(rule.taken[lane]), !rule.failed[lane]};
-      EXPECT_EQ(end, end_alone(increments, predicted)) << increments.name << " " << predicted;
-    }
-  }
+TEST(LaneBlocks, FactorsServeEachLaneUntilItWantsOthers) {
+  expect_kept_as_alone<packs::DenseMatrix<kRows>, of_double::DenseMatrix<kRows>>(kRows);
+  expect_kept_as_alone<packs::BandMatrix<kRows, 2>, of_double::BandMatrix<kRows, 2>>(2);
 }
 
-TEST(LaneBlocks, ALaneThatIsStoppedIsNotWaitedFor) {
-  packs::NewtonRule<2> rule;
-  rule.stopped = packs::Real(1) <= 0;
-  packs::Real one_nan = 1e-20;
-  one_nan.set(2, std::numeric_limits<double>::quiet_NaN());
-  rule.stopped = !(one_nan == one_nan);
-  EXPECT_TRUE(rule.stopped[2]);
-  rule.begin(false);
-  EXPECT_FALSE(any(rule(one_nan, packs::Real(1), 1)));
-  EXPECT_FALSE(any(rule.failed));
-  rule.stopped = false;
-  rule.begin(false);
-  EXPECT_FALSE(any(rule(one_nan, packs::Real(1), 1)));
-  EXPECT_TRUE(rule.failed[2]);
-  EXPECT_FALSE(rule.failed[1]);
+// A torus of 3 rows: its order is found, and what the other lanes have changes no bit.
+TEST(LaneBlocks, ASparseMatrixIsSolvedInEachLaneAsAlone) {
+  constexpr int size = 15;
+  const auto value = [](int lane, int i, int k) {
+    return i == k ? (lane == 2 ? 0 : 0.1 * lane - 0.3) : std::sin(1.0 + lane + i + 3 * k);
+  };
+  const auto fill_torus = [&](auto& matrix, const auto& entry) {
+    matrix.clear();
+    for (int i = 0; i < size; ++i) {
+      for (const int way : {0, 1, 3, size - 1, size - 3})
+        matrix.put(i, (i + way) % size, entry(i, (i + way) % size));
+    }
+  };
+  packs::KeptMatrix<packs::SparseMatrix<size>> mixed;
+  packs::Real sides[size] = {};
+  for (int i = 0; i < size; ++i) sides[i] = 1 + i;
+  for (int filling = 0; filling < 2; ++filling) {
+    fill_torus(mixed, [&](int i, int k) {
+      packs::Real entry = 0;
+      for (int lane = 0; lane < kLanes; ++lane) entry.set(lane, value(lane, i, k));
+      return entry;
+    });
+    ASSERT_TRUE(all(mixed.factorise(true)));
+  }
+  mixed.solve(true, sides);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    packs::SparseMatrix<size> equal;
+    fill_torus(equal, [&](int i, int k) { return packs::Real(value(lane, i, k)); });
+    of_double::DenseMatrix<size> dense;
+    fill_torus(dense, [&](int i, int k) { return value(lane, i, k); });
+    packs::Real alone[size] = {};
+    double expected[size] = {};
+    for (int i = 0; i < size; ++i) alone[i] = expected[i] = 1 + i;
+    ASSERT_TRUE(all(equal.factorise()) && dense.factorise());
+    equal.solve(alone);
+    dense.solve(expected);
+    for (int i = 0; i < size; ++i) {
+      EXPECT_EQ(sides[i][lane], alone[i][0]) << lane;
+      EXPECT_NEAR(sides[i][lane], expected[i], 1e-10 * (1 + std::fabs(expected[i]))) << lane;
+    }
+  }
+  packs::SparseMatrix<size> singular;
+  fill_torus(singular, [&](int i, int k) { return packs::Real(i == 4 ? 0 : value(1, i, k)); });
+  EXPECT_FALSE(any(singular.factorise()));
+}
+
+TEST(LaneBlocks, AnInverseIsThatOfEachLane) {
+  Numbers numbers;
+  packs::DenseMatrix<kRows> together;
+  of_double::DenseMatrix<kRows> alone[kLanes];
+  fill(together, alone, numbers, kRows);
+  packs::Real inverse[kRows][kRows] = {};
+  const packs::Mask regular = packs::invert(together, inverse);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    double other[kRows][kRows] = {};
+    ASSERT_EQ(of_double::invert(alone[lane], other), regular[lane]) << lane;
+    if (!regular[lane]) continue;
+    EXPECT_EQ(inverse[1][2][lane], other[1][2]) << lane;
+  }
 }
 
 // Cubics are met as soon as four points are known, whatever polynomial or noise is beside them.

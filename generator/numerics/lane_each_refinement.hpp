@@ -1,0 +1,96 @@
+// The end of a fixed-point iteration, below the last place of its unknowns, in each lane as for one
+// trajectory (refinement.hpp has the reasons).  A lane that wants no more has its rounded point
+// again, and keeps what was found there.
+template <int Size, int Components>
+struct Refinement {
+  // A power of two near the third root of 1/epsilon.
+  static constexpr double find_amplifier() {
+    double power = 1;
+    while (power * power * power * (8 * epsilon) < 1) power *= 2;
+    return power;
+  }
+  static constexpr double amplifier = find_amplifier();
+  Real change[Components] = {};  // of the gradient, from the rounded point to the solution
+  Real slope[Components] = {};   // the gradient at the rounded point
+  Real at[Size] = {};            // that point
+  Real missing[Size] = {};       // by the equations there
+  Real moved[Size] = {};         // the solution less the point
+  Real last = 0;                 // what the last round moved all together
+  Real least = 0;                // of these
+  Real stuck = 0;                // rounds that moved no less
+  Mask open = false;             // lanes that want more
+  int rounds = 0;
+
+  // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
+  // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  template <class Rule>
+  bool operator()(const Turn& turn, Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
+                  const Real (&gradient)[Components]) {
+    const bool second = rounds == 1;
+    if (rounds == 0) {
+      begin(turn.lanes, point, lack, gradient);
+      rule.settled = open & rule.settled & (lengths_of(lack) <= rule.round_off);
+      open = open & !rule.settled;
+    }
+    const Real before = least;
+    const Mask looked = open;
+    round(lack, gradient);
+    if (second) rule.learn(looked & (before > 0), last / before);
+    open = open & !rule.is_slow();
+    return move(looked, point);
+  }
+  // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
+  // if it wants these and the gradient once more, in some lanes at points that it has moved.
+  bool operator()(const Turn& turn, Real (&point)[Size], const Real (&lack)[Size],
+                  const Real (&gradient)[Components]) {
+    if (rounds == 0) begin(turn.lanes, point, lack, gradient);
+    const Mask looked = open;
+    round(lack, gradient);
+    return move(looked, point);
+  }
+
+ private:
+  void begin(const Mask& lanes, const Real (&point)[Size], const Real (&lack)[Size],
+             const Real (&gradient)[Components]) {
+    for (int j = 0; j < Size; ++j) {
+      at[j] = select(lanes, point[j], at[j]);
+      missing[j] = select(lanes, lack[j], missing[j]);
+      moved[j] = select(lanes, Real(0), moved[j]);
+    }
+    for (int k = 0; k < Components; ++k) {
+      slope[k] = select(lanes, gradient[k], slope[k]);
+      change[k] = select(lanes, Real(0), change[k]);
+    }
+    open = lanes;
+  }
+  void round(const Real (&lack)[Size], const Real (&gradient)[Components]) {
+    if (!any(open)) return;
+    const Mask lanes = open;
+    Mask lacking = false;
+    last = sum_of(Size, [&](int j) {
+      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
+      const Real way = moved[j] + error;
+      moved[j] = way;
+      // What is cut off is a bias: a 2^-13th of a unit.
+      const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
+      lacking = lacking | (magnitude(error) * 8192 > unit);
+      return magnitude(error);
+    });
+    for (int k = 0; k < Components; ++k)
+      change[k] = select(lanes, (gradient[k] - slope[k]) / amplifier, change[k]);
+    // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+    const Mask decreased = rounds == 0 ? Mask(true) : last < least;
+    stuck = select(decreased, Real(0), stuck + 1);
+    least = select(decreased, last, least);
+    open = open & lacking & (stuck < 4) & Mask(rounds < 500);
+  }
+  bool move(const Mask& looked, Real (&point)[Size]) {
+    for (int j = 0; j < Size; ++j) {
+      const Real ahead = at[j] + amplifier * moved[j];
+      point[j] = select(open, ahead, select(looked, at[j], point[j]));
+    }
+    const bool more = any(open);
+    rounds = more ? rounds + 1 : 0;
+    return more;
+  }
+};

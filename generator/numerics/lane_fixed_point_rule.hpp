@@ -1,0 +1,65 @@
+// How far an iteration has moved in each lane, as for one trajectory (fixed_point_rule.hpp).
+struct Distance {
+  // What is left below that is solved for by Refinement.
+  static constexpr double units = 64;
+  Real size = 0;
+  Real scale = 0;
+  Mask close = true;
+
+  void add(const Real& moved, const Real& length) {
+    size += moved;
+    scale += length;
+    close = close & (moved <= units * epsilon * length);
+  }
+  // Arrays of them, rounded with what stands beside.
+  void add(const Real* moved, const Real* value, const Real* beside, int count) {
+    size += sum_of(count, [&](int j) { return magnitude(moved[j]); });
+    scale += sum_of(count, [&](int j) {
+      const Real length = magnitude(value[j]) + magnitude(beside[j]);
+      close = close & (magnitude(moved[j]) <= units * epsilon * length);
+      return length;
+    });
+  }
+};
+// Of these lanes, which are done and which have failed?
+struct Judgement {
+  Mask done = false;
+  Mask failed = false;
+};
+// When to stop an iteration in each lane that has no other end than rounding.  The last increment
+// of a lane is made behind the loop, or what the body gives then is not read.
+template <int Cycle>
+struct FixedPointRule : Iteration {
+  Real least[Cycle] = {};  // 0 before the first increment
+  Real size = 0;           // of the last increment
+  Real stuck = 0;
+
+  void begin(const Turn& turn) {
+    Iteration::begin(turn);
+    for (Real& smallest : least) smallest = 0;
+    stuck = 0;
+  }
+  Judgement judge(const Distance& moved, int iterations) {
+    taken = select(open, Real(iterations), taken);
+    size = moved.size;
+    const Mask finite = size <= largest;
+    Real& smallest = least[iterations % Cycle];
+    const Mask decreased = (smallest <= 0) | (size < smallest);
+    smallest = select(decreased, size, smallest);
+    stuck = select(decreased, Real(0), stuck + 1);
+    const Real round_off = epsilon * moved.scale;
+    const Mask rests = ((stuck >= 2) & (size <= 64 * round_off)) |
+                       ((stuck >= 3) & (size <= 512 * round_off)) |
+                       ((stuck >= 4) & (size <= 4096 * round_off));
+    const Mask done = finite & (moved.close | rests);
+    // What still decreases then does so by a few hundredths at a time: much more is missing.
+    return {done, !finite | (Mask(iterations >= 500) & !done)};
+  }
+  // Gives the lanes that go on.
+  Mask end(const Judgement& judgement) {
+    end_with(open & judgement.failed, size);
+    open = open & !judgement.done;
+    return open;
+  }
+  Mask operator()(const Distance& moved, int iterations) { return end(judge(moved, iterations)); }
+};
