@@ -58,7 +58,7 @@ TEST(Sums, AreWrittenOutForWhatIsMadeOfExpressions) {
   for (const Request& request :
        {Request{.alpha = list}, Request{.order = 4}, Request{.gauge = "locally-exact"},
         Request{.scheme = "stormer-verlet", .format = "c-header"},
-        Request{.scheme = "stormer-verlet", .batch = 4}, Request{.tangent = true},
+        Request{.tangent = true},
         Request{.watch_modified = 2, .step = Rational(1, 10)}}) {
     EXPECT_FALSE(stays_loops(model(chain_of(12)), request));
   }

@@ -146,18 +146,14 @@ class Evaluator {
   }
   void run(Frame& f, const Copy& copy) {
     if (copy.declares) f.objects[copy.to] = {.root = std::to_string(++objects_) + copy.to};
-    const std::string to = f.objects[copy.to].root;
-    if (copy.from.empty()) {
-      zeroed_.insert(to);
-      return;
-    }
+    const std::string to = object(f, copy.to).root;
     for (const Field& field : code_.record(copy.record)->fields) {
       long count = 1;
       for (const int size : field.sizes) count *= size;
       for (long i = 0; i < count; ++i) {
         const std::string end =
             "." + field.name + (field.sizes.empty() ? "" : "[" + std::to_string(i) + "]");
-        cells_[to + end] = cell(f.objects[copy.from].root + end);
+        cells_[to + end] = copy.from.empty() ? 0 : cell(object(f, copy.from).root + end);
       }
     }
   }
@@ -291,9 +287,13 @@ class Evaluator {
     return (name.starts_with("carry") ? 0.01 : 1) *
            (0.5 + static_cast<double>(std::hash<std::string>{}(name) % 1000) / 1000);
   }
+  // A record that nobody has handed over is one of its own.
+  static Object object(const Frame& f, const std::string& name) {
+    const auto known = f.objects.find(name);
+    return known != f.objects.end() ? known->second : Object{.root = name};
+  }
   std::string name(Frame& f, const Place& place) {
-    const auto known = f.objects.find(place.object);
-    Object object = known != f.objects.end() ? known->second : Object{.root = place.object};
+    Object object = this->object(f, place.object);
     std::vector<int> sizes = object.sizes;
     if (!place.field.empty()) {
       object.root += "." + place.field;
