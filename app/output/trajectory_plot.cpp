@@ -148,19 +148,26 @@ class TrajectoryPlotter {
     return band;
   }
 
-  // More than once in four pixels, or between two of the rows that were kept.
+  // By more than a ripple: more than once in four pixels, or between two of the rows that were
+  // kept.
   static bool turns_often(const std::vector<double>& values, const std::vector<double>& low,
                           const std::vector<double>& high) {
     constexpr long most = 100;
     constexpr double seen = 0.1;
+    constexpr double ripple = 0.05;
     if (values.empty()) return false;
     const double range = std::ranges::max(high) - std::ranges::min(low);
     long turns = 0;
+    bool rises = false;
+    double extreme = values[0];  // since it turned
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (high[i] - low[i] > seen * range) return true;
-      if (i < 2) continue;
-      const double before = values[i - 1] - values[i - 2];
-      turns += before * (values[i] - values[i - 1]) < 0.0 ? 1 : 0;
+      const double on = rises ? values[i] - extreme : extreme - values[i];
+      if (on < -ripple * range) {
+        rises = !rises;
+        ++turns;
+      }
+      if (on > 0.0 || on < -ripple * range) extreme = values[i];
     }
     return turns > most;
   }

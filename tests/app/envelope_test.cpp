@@ -52,6 +52,13 @@ TEST(Envelope, IsOfAllRowsAndNotOfThoseThatAreKept) {
 }
 
 TEST(Envelope, IsNotOfWhatAPictureShows) {
+  NumberTable ripple;
+  ripple.columns = {"step", "t", "x"};
+  for (long i = 0; i < 1'900; ++i) {
+    const double x = static_cast<double>(i);
+    ripple.add({x, x, std::sin(0.01 * x) + 0.02 * std::sin(2.0 * x)});
+  }
+  EXPECT_EQ(app::trajectory_plot(ripple, "x", "").panels[0].series.size(), 1U);
   for (const auto& [rows, in_a_turn] : {std::pair{1'900L, 100.0}, {64'000L, 20'000.0}}) {
     const PlotPanel panel = momenta_of(rows, in_a_turn);
     EXPECT_EQ(panel.title, "swing: p");
@@ -67,14 +74,14 @@ TEST(Envelope, IsNoWiderThanItsRipple) {
   for (long i = 0; i < 100'000; ++i) {
     const double t = 1e-5 * static_cast<double>(i);
     table.add({static_cast<double>(i), t,
-               std::sin(2.0 * kPi * t) + 0.01 * std::sin(static_cast<double>(i))});
+               std::sin(2.0 * kPi * t) + 0.15 * std::sin(static_cast<double>(i))});
   }
   const std::vector<PlotSeries> series = app::trajectory_plot(table, "x", "").panels[0].series;
   ASSERT_EQ(series.size(), 3U);
-  // The ripple is 0.02 from crest to trough; the course changes by 2 pi/400 in a span of which
+  // The ripple is 0.3 from crest to trough; the course changes by 2 pi/400 in a span of which
   // there are three.
   for (const PlotPoint& point : series[0].points)
-    EXPECT_LT(point.y - point.low, 0.02 + 4.0 * 2.0 * kPi / 400);
+    EXPECT_LT(point.y - point.low, 0.3 + 4.0 * 2.0 * kPi / 400);
 }
 
 // Of several only the edges: an area would hide those behind it.
