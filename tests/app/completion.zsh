@@ -4,7 +4,6 @@
 # two marks.
 zmodload zsh/zpty
 folder=$(mktemp -d)
-trap 'zpty -d; rm -r $folder' EXIT
 cp $1 $folder/_hamgen
 cat >$folder/say <<'END'
 PROMPT=
@@ -28,13 +27,18 @@ say() {
 }
 comppostfuncs=(say)
 END
-TERM=dumb zpty shell zsh -f -i
-zpty -w shell "source $folder/say"
-for line in "${@:2}"; do
-  zpty -w -n shell "$line"$'\t'
-  zpty -r -m shell said $'*\x02*\x03*' || exit 1
-  said=${${said##*$'\x02'}%%$'\x03'*}
-  [[ -z $said ]] || print -r -- ${said//$'\r'/}
-  print .
-  zpty -w -n shell $'\x15'  # a fresh line
-done
+{
+  TERM=dumb zpty shell zsh -f -i
+  zpty -w shell "source $folder/say"
+  for line in "${@:2}"; do
+    zpty -w -n shell "$line"$'\t'
+    zpty -r -m shell said $'*\x02*\x03*' || break
+    said=${${said##*$'\x02'}%%$'\x03'*}
+    [[ -z $said ]] || print -r -- ${said//$'\r'/}
+    print .
+    zpty -w -n shell $'\x15'  # a fresh line
+  done
+} always {
+  zpty -d shell
+  rm -r $folder
+}
