@@ -44,7 +44,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int start = index_of("start");
     const Address memory = address(Place{"start", "value"});
     const Steps body = steps(iterate.body);
-    return [this, unknowns, start, memory, body, newton, name = iterate.name] {
+    return [this, unknowns, start, memory, body, newton, name = iterate.name, type = iterate.type] {
       const bool known = object(start).flags.at("known") != 0;
       Real* kept = &m_.frame.at(memory);
       for (const Compiled& u : unknowns) {
@@ -52,7 +52,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       const bool done = newton
                             ? solved_by_newton(*object(start).rules.at(name), known, unknowns, body)
-                            : solved_by_fixed_point(unknowns, body);
+                            : solved_by_fixed_point(type, unknowns, body);
       if (!done) return false;
       for (const Compiled& u : unknowns) {
         kept[u.memory] = m_.frame.at(u.target);
@@ -200,8 +200,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         m_.frame.at(unknowns[j].target) += corrections[j];
     });
   }
-  bool solved_by_fixed_point(const std::vector<Compiled>& unknowns, const Steps& body) const {
-    const auto rule = Blocks<Real>::fixed_point_rule("FixedPointRule<2>");
+  bool solved_by_fixed_point(const std::string& type, const std::vector<Compiled>& unknowns,
+                             const Steps& body) const {
+    const auto rule = Blocks<Real>::fixed_point_rule(type);
     const auto move = [&] { return this->move_all(unknowns, this->corrections_of(unknowns)); };
     return run_contraction(body, move, [&](const Distance& distance, int iteration) {
       return judged(*rule, distance, iteration);
