@@ -104,23 +104,6 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
   Rule rule_;
 };
 
-// A rule of fixed points, by the type that records and iterations name.
-template <class Real>
-struct NamedRule {
-  std::string_view type;
-  std::unique_ptr<AnyFixedPointRule<Real>> (*make)();
-};
-template <class Real, class Rule>
-std::unique_ptr<AnyFixedPointRule<Real>> rule_of() {
-  return std::make_unique<FixedPointRuleOf<Real, Rule>>();
-}
-template <class Real, class Numerics = NumericsOf<Real>>
-constexpr NamedRule<Real> kFixedPointRules[] = {
-    {"FixedPointRule<2>", rule_of<Real, typename Numerics::FixedPoint>},
-    {"ImpatientRule", rule_of<Real, typename Numerics::Impatient>},
-    {"ContractionRule", rule_of<Real, typename Numerics::Contraction>},
-};
-
 template <class Real>
 class SimplifiedNewtonRuleOf final : public AnySimplifiedNewtonRule<Real> {
  public:
@@ -224,10 +207,11 @@ std::unique_ptr<AnySimplifiedNewtonRule<Real>> Blocks<Real>::simplified_newton_r
 
 template <class Real>
 std::unique_ptr<AnyFixedPointRule<Real>> Blocks<Real>::fixed_point_rule(std::string_view type) {
-  for (const NamedRule<Real>& rule : kFixedPointRules<Real>) {
-    if (rule.type == type) return rule.make();
-  }
-  return nullptr;
+  std::unique_ptr<AnyFixedPointRule<Real>> found;
+  NumericsOf<Real>::for_fixed_point_rules([&](std::string_view name, auto rule) {
+    if (name == type) found = std::make_unique<FixedPointRuleOf<Real, decltype(rule)>>();
+  });
+  return found;
 }
 
 template <class Real>
