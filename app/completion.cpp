@@ -67,13 +67,17 @@ std::map<std::string, std::vector<std::string>> words_of_commands() {
           {"cache", {"list", "clear", "prune"}}};
 }
 
+bool takes_path(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type == "FILE" || type == "DIRECTORY" || type == "DIR";
+}
+
 // "-o|--output|--plot": the options of all commands whose value is a path.
 std::string options_with_paths(const CLI::App& app) {
   std::set<std::string> names;
   for (const CLI::App* command : listed_commands(app)) {
     for (const CLI::Option* option : command->get_options()) {
-      const std::string type = option->get_type_name();
-      if (type != "FILE" && type != "DIRECTORY" && type != "DIR") continue;
+      if (!takes_path(*option)) continue;
       for (const std::string& name : option->get_lnames()) names.insert("--" + name);
       for (const std::string& name : option->get_snames()) names.insert("-" + name);
     }
@@ -157,7 +161,7 @@ std::string zsh_script(const CLI::App& app) {
         const std::string what =
             !takes                 ? ""
             : list != values.end() ? fmt::format(":name:({})", fmt::join(list->second, " "))
-            : name == "output"     ? ":file:_files"
+            : takes_path(*option)  ? ":file:_files"
                                    : fmt::format(":{}:", zsh_text(option->get_type_name()));
         for (const std::string& letter : option->get_snames())
           cases += fmt::format("      '-{}[{}]{}' \\\n", letter,
@@ -179,9 +183,11 @@ std::string zsh_script(const CLI::App& app) {
 _hamgen() {{
   local -a commands
   commands=(
-{}  )
-  if (( CURRENT == 2 )); then
-    _describe command commands
+{}    'help:prints the help of a command'
+  )
+  local -a options=('--help:what commands there are' '--version:which version this is')
+  if (( CURRENT == 2 )) || [[ $words[CURRENT-1] == help ]]; then
+    if [[ $PREFIX == -* ]]; then _describe option options; else _describe command commands; fi
     return
   fi
   local command=$words[2]

@@ -132,11 +132,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_668fbc88::float64 {
+namespace hamgen_007a8b99::float64 {
 using Real = double;
 
-#ifndef HAMGEN_668FBC88_FLOAT64_STEP_REPORT
-#define HAMGEN_668FBC88_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_007A8B99_FLOAT64_STEP_REPORT
+#define HAMGEN_007A8B99_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -146,15 +146,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_VOCABULARY
-#define HAMGEN_668FBC88_FLOAT64_VOCABULARY
+#ifndef HAMGEN_007A8B99_FLOAT64_VOCABULARY
+#define HAMGEN_007A8B99_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_TWO_SUM
-#define HAMGEN_668FBC88_FLOAT64_TWO_SUM
+#ifndef HAMGEN_007A8B99_FLOAT64_TWO_SUM
+#define HAMGEN_007A8B99_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -164,8 +164,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_SUM_WITH_REST
-#define HAMGEN_668FBC88_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_007A8B99_FLOAT64_SUM_WITH_REST
+#define HAMGEN_007A8B99_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
@@ -176,8 +176,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_SUMS
-#define HAMGEN_668FBC88_FLOAT64_SUMS
+#ifndef HAMGEN_007A8B99_FLOAT64_SUMS
+#define HAMGEN_007A8B99_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -190,18 +190,31 @@ inline Real sum_of(int count, const Term& term) {
   return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
          ((parts[2] + parts[6]) + (parts[3] + parts[7]));
 }
+// Of a known number of them: eight at once are not written where there are fewer, or g++ warns of
+// elements beyond the last.
+template <int Count, class Term>
+inline Real sum_of(const Term& term) {
+  if constexpr (Count >= 8) {
+    return sum_of(Count, term);
+  } else {
+    Real parts[8] = {};
+    for (int k = 0; k < Count; ++k) parts[k] = term(k);
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+  }
+}
 template <int Size>
 inline Real lengths_of(const Real (&vector)[Size]) {
-  return sum_of(Size, [&](int j) { return magnitude(vector[j]); });
+  return sum_of<Size>([&](int j) { return magnitude(vector[j]); });
 }
 template <int Size>
 inline Real squares_of(const Real (&vector)[Size]) {
-  return sum_of(Size, [&](int j) { return vector[j] * vector[j]; });
+  return sum_of<Size>([&](int j) { return vector[j] * vector[j]; });
 }
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_BAND_MATRIX
-#define HAMGEN_668FBC88_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_007A8B99_FLOAT64_BAND_MATRIX
+#define HAMGEN_007A8B99_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -266,14 +279,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_VERDICT
-#define HAMGEN_668FBC88_FLOAT64_VERDICT
+#ifndef HAMGEN_007A8B99_FLOAT64_VERDICT
+#define HAMGEN_007A8B99_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_NEWTON_RULE
-#define HAMGEN_668FBC88_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_007A8B99_FLOAT64_NEWTON_RULE
+#define HAMGEN_007A8B99_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -363,8 +376,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_668FBC88_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_007A8B99_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_007A8B99_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -386,8 +399,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_668FBC88_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_007A8B99_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_007A8B99_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments and of what these are
 // rounded with, and whether each is close to its end.
 struct Distance {
@@ -447,8 +460,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_668FBC88_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_007A8B99_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_007A8B99_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -530,8 +543,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_REFINEMENT
-#define HAMGEN_668FBC88_FLOAT64_REFINEMENT
+#ifndef HAMGEN_007A8B99_FLOAT64_REFINEMENT
+#define HAMGEN_007A8B99_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -594,7 +607,7 @@ struct Refinement {
     }
     last = lengths_of(error);
     // What is cut off is a bias: a 2^-13th of a unit.
-    const Real open = sum_of(Size, [&](int j) {
+    const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
       return magnitude(error[j]) * 8192 > unit ? Real(1) : Real(0);
     });
@@ -624,8 +637,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_HISTORY
-#define HAMGEN_668FBC88_FLOAT64_HISTORY
+#ifndef HAMGEN_007A8B99_FLOAT64_HISTORY
+#define HAMGEN_007A8B99_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -702,8 +715,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_668FBC88_FLOAT64_FORGET
-#define HAMGEN_668FBC88_FLOAT64_FORGET
+#ifndef HAMGEN_007A8B99_FLOAT64_FORGET
+#define HAMGEN_007A8B99_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -713,14 +726,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_668fbc88::float64
+}  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x31ebbfa8
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x99347a84
 namespace fput::implicit_midpoint {
-inline namespace emitted_31ebbfa8 {
+inline namespace emitted_99347a84 {
 
-namespace numerics = ::hamgen_668fbc88::float64;
+namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -742,35 +755,33 @@ inline Coefficients prepare(const Parameters&, Real h) {
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
-  Real value[32] = {};  // the coordinates of zbar
-  bool known = false;   // else the state itself is the start
-  Real slope[64] = {};  // grad H(zbar), dH/dq first
-  Real lack[32] = {};   // of the equations at zbar, then the increment
+  Real value[32] = {};     // the coordinates of zbar
+  bool known = false;      // else the state itself is the start
+  Real momentum[32] = {};  // of zbar
+  Real slope[64] = {};     // grad H(zbar), dH/dq first
+  Real lack[32] = {};      // of the equations at zbar, then the increment
   Matrix matrix;
   WaitingNewtonRule<2> newton_rule;
-  int patience = 0;     // steps left to Newton
+  int patience = 0;        // steps left to Newton
   ContractionRule rule;
   Refinement<32, 64> refinement;
 };
 
-// grad H at the stage, whose momenta follow from its coordinates, and what the equations
-// lack there.
+// grad H at the stage, whose momenta follow from its coordinates.
 inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
-                     const State& carry, Start& __restrict start) {
+                     const State& carry, Start& start) {
   potential_gradient(par, start.value, start.slope);
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.slope[i];
     const Real change = carry.p[i] - p_push;
-    const Real p_i = z.p[i] + change;
-    start.slope[n + i] = p_i;
-    const Real q_push = k.half_h * p_i;
-    start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    start.momentum[i] = z.p[i] + change;
   }
+  kinetic_gradient(par, start.momentum, start.slope + n);
 }
 
 // The derivative of the equations' residual, q first, at a stage.
 inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at,
-                          Matrix& __restrict matrix) {
+                          Matrix& matrix) {
   matrix.clear();
   for (int i = 0; i < n; ++i) matrix.put(i, i, 1.0);
   for (int i = 1; i <= 31; ++i) {
@@ -792,12 +803,15 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
 inline bool contract(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                     const State& carry, Start& __restrict start, State& __restrict dz,
-                     State& __restrict rest, StepReport& __restrict report) {
+                     const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
   // Fixed-point iteration.
   start.rule.begin(6);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
     Distance distance;
     distance.add(start.lack, start.value, z.q, n);
     for (int i = 0; i < n; ++i) {
@@ -813,6 +827,10 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
   // What the equations lack at the rounded unknowns is solved for, too.
   for (bool more = true; more;) {
     evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
     more = start.refinement(start.rule, start.value, start.lack, start.slope);
   }
   for (int i = 0; i < n; ++i) {
@@ -830,12 +848,15 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
 }
 
 inline bool newton(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                   const State& carry, Start& __restrict start, State& __restrict dz,
-                   State& __restrict rest, StepReport& __restrict report) {
+                   const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
   // Newton's iteration on what the equations lack.
   start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
+    for (int i = 0; i < n; ++i) {
+      const Real q_push = k.half_h * start.slope[n + i];
+      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+    }
     differentiate(par, k, start.value, start.matrix);
     if (!start.matrix.factorise()) {
       report.iterations += iteration;
@@ -877,8 +898,8 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, Start& __restrict start,
-                                      State& __restrict dz, State& __restrict rest) {
+                                      const State& z, const State& carry, Start& start, State& dz,
+                                      State& rest) {
   StepReport report;
   if (!start.known) {
     for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
@@ -984,9 +1005,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_31ebbfa8
+}  // namespace emitted_99347a84
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x31ebbfa8
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x99347a84
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

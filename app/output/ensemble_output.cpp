@@ -13,8 +13,15 @@ void add(EnsembleSummary& summary, const std::vector<EnsembleRow>& rows, std::si
     ++summary.count;
     summary.steps += row.steps;
     ++summary.ended.at(static_cast<std::size_t>(row.status));
-    if (row.status == runtime::Status::done && energy_error < row.values.size())
-      summary.largest_error = std::max(summary.largest_error, row.values[energy_error]);
+    if (row.status != runtime::Status::done || energy_error >= row.values.size()) continue;
+    const double error = row.values[energy_error];
+    const double scale = row.values[energy_error + 1];
+    summary.largest_error = std::max(summary.largest_error, error);
+    if (scale > 0.0) {
+      summary.largest_relative_error = std::max(summary.largest_relative_error, error / scale);
+    } else {
+      summary.has_scale = false;
+    }
   }
 }
 
@@ -34,8 +41,12 @@ std::string ensemble_text(const EnsembleSummary& summary, const EnsembleTitle& t
       title.model, title.scene.empty() ? "" : ", scene " + title.scene, summary.count,
       fmt::join(title.varied, ", "), title.scheme, title.h, title.steps, endings_text(summary));
   if (title.watches_energy && summary.ended[0] > 0)
-    text += fmt::format("  energy     largest |H - H(0)| {:.3g}, of those done\n",
-                        summary.largest_error);
+    text +=
+        summary.has_scale
+            ? fmt::format("  energy     largest |H - H(0)| {:.1e} of its scale, of those done\n",
+                          summary.largest_relative_error)
+            : fmt::format("  energy     largest |H - H(0)| {:.1e}, of those done\n",
+                          summary.largest_error);
   if (title.done_before > 0)
     text += fmt::format("  resumed    {} of them were there\n", title.done_before);
   if (title.spoilt > 0)
@@ -58,7 +69,12 @@ std::string ensemble_json(const EnsembleSummary& summary, const EnsembleTitle& t
                                  {"trajectories", summary.count},
                                  {"steps_of_all", summary.steps},
                                  {"ended", ended}};
-  if (title.watches_energy) json["max_energy_error"] = summary.largest_error;
+  if (title.watches_energy) {
+    json["max_energy_error"] = summary.largest_error;
+    json["max_relative_energy_error"] = summary.has_scale
+                                            ? nlohmann::ordered_json(summary.largest_relative_error)
+                                            : nlohmann::ordered_json(nullptr);
+  }
   json["columns"] = title.columns;
   json["output"] = title.output;
   return json_document(json);

@@ -13,7 +13,11 @@ struct EnsembleSummary {
   long long count = 0;
   long long steps = 0;  // of all
   std::array<long long, runtime::kStatuses> ended = {};
-  double largest_error = 0.0;  // of the energy, of those that came to their end
+  // Of the energy, of those that came to their end: |H - H(0)|, and of each one's own scale where
+  // all of them have one (runtime::Judge::energy_terms).
+  double largest_error = 0.0;
+  double largest_relative_error = 0.0;
+  bool has_scale = true;
 };
 
 void add(EnsembleSummary& summary, const std::vector<EnsembleRow>& rows, std::size_t energy_error);

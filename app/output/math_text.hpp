@@ -10,8 +10,4 @@ namespace hamgen::app {
 // set as the page's other formulas are; a line may end before a sign of relation.
 [[nodiscard]] std::string math_prose(std::string_view text);
 
-// MathML of one line of mathematics as it is typed: "A+ J A+^T = 0", "f''(f,f)/24", "{I, H}".
-// `A+` has the sign as its subscript, `f'` is a derivative, `grad` the nabla, `w` a frequency.
-[[nodiscard]] std::string math_line(std::string_view text);
-
 }  // namespace hamgen::app

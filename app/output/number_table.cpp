@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <string_view>
@@ -106,15 +107,36 @@ class TableReader {
   NumberTable table_;
 };
 
+// By what is between two rows; what is not a number does not count.
+void widen(std::vector<double>& low, std::vector<double>& high, const std::vector<double>& least,
+           const std::vector<double>& greatest) {
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    low[i] = std::fmin(low[i], least[i]);
+    high[i] = std::fmax(high[i], greatest[i]);
+  }
+}
+
 }  // namespace
 
 void NumberTable::add(const std::vector<double>& row) {
-  if (seen_++ % each != 0) return;
+  if (seen_++ % each != 0) {
+    widen(low.back(), high.back(), row, row);
+    return;
+  }
   rows.push_back(row);
+  low.push_back(row);
+  high.push_back(row);
   if (rows.size() <= kMostRows) return;
   const std::size_t kept = (rows.size() + 1) / 2;
-  for (std::size_t i = 1; i < kept; ++i) rows[i] = std::move(rows[2 * i]);
-  rows.resize(kept);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::size_t from = 2 * i;
+    if (from + 1 < rows.size()) widen(low[from], high[from], low[from + 1], high[from + 1]);
+    if (i == 0) continue;
+    rows[i] = std::move(rows[from]);
+    low[i] = std::move(low[from]);
+    high[i] = std::move(high[from]);
+  }
+  for (auto* const each_of : {&rows, &low, &high}) each_of->resize(kept);
   each *= 2;
 }
 

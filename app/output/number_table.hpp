@@ -11,9 +11,12 @@ namespace hamgen::app {
 struct NumberTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  // a value for each column; not a number where it has none
-  long long each = 1;                     // of the rows there were, how far those kept are apart
-  bool is_whole = true;                   // a trajectory file that ends with its status
-  std::optional<double> energy_scale;     // that energy errors are compared with, where it is known
+  // Of the rows there were, how far those kept are apart; where it is more than 1, the least and
+  // the greatest of each column from a row kept until the next.
+  long long each = 1;
+  std::vector<std::vector<double>> low, high;
+  bool is_whole = true;                // a trajectory file that ends with its status
+  std::optional<double> energy_scale;  // that energy errors are compared with, where it is known
 
   // Keeps every row at first, then every second, fourth, ...: at most as many as can be told apart.
   void add(const std::vector<double>& row);

@@ -5,14 +5,14 @@
 
 #include "app/output/generate_command.hpp"
 #include "app/output/math_markup.hpp"
+#include "app/output/math_symbol.hpp"
+#include "app/output/math_text.hpp"
 #include "app/output/plain_number.hpp"
 #include "app/output/report_parts.hpp"
 #include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {
 namespace {
-
-constexpr std::string_view kConserved = " conserved by the step";
 
 const Finding* finding(const Proof& proof, const std::string& property) {
   const auto found = std::ranges::find(proof, property, &Finding::property);
@@ -23,12 +23,17 @@ std::string with_verdict(const std::string& claim, const Finding& found) {
   return claim + " " + verdict_markup(found.verdict);
 }
 
+// "alpha = 1/2, beta = 0" is a formula.
+std::string scheme_markup(const std::string& name) {
+  return name.find('=') == std::string::npos ? html_text(name) : math_prose("`" + name + "`");
+}
+
 std::string method_answer(const ReportContent& content) {
   const PluginSource& plugin = *content.plugin;
   const std::string order = fmt::format("order {}", plugin.order);
   const Finding* const proved = finding(content.proof, order);
   const Finding* const symmetric = finding(content.proof, "symmetric");
-  std::string text = fmt::format("<strong>{}</strong>, {}", html_text(plugin.scheme_name),
+  std::string text = fmt::format("<strong>{}</strong>, {}", scheme_markup(plugin.scheme_name),
                                  proved != nullptr ? with_verdict(order, *proved) : order);
   if (symmetric != nullptr) text += ", " + with_verdict("symmetric", *symmetric);
   return text + "; " + named_value("h", to_double(*content.scene->h), 6);
@@ -107,7 +112,7 @@ std::string left_out_answer(const PluginSource& plugin) {
   const std::size_t count = std::min(plugin.left_out_for_scene, plugin.left_out.size());
   std::string text;
   for (std::size_t i = 0; i < std::min(count, most); ++i)
-    text += (text.empty() ? "" : "; ") + html_text(plugin.left_out[i]);
+    text += (text.empty() ? "" : "; ") + html_text(greek_text(plugin.left_out[i]));
   if (count > most) text += fmt::format("; and {} more", count - most);
   return text.empty() ? "nothing: the scene needs all of the model" : text;
 }

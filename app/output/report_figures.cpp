@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/output/bench_picture.hpp"
+#include "app/output/envelope.hpp"
 #include "app/output/math_symbol.hpp"
 #include "app/output/plain_number.hpp"
 #include "app/output/report_orbit.hpp"
@@ -37,22 +38,6 @@ runtime::InitialValues start_of_figure(const BenchMethod& method, const SceneVal
 
 // What is 0 has no scale: its errors are as they are.
 double unit_of(double scale) { return scale > 0.0 ? scale : 1.0; }
-
-// The least and the greatest of a band over a part of its length around each point: what the
-// oscillations fill, without them.
-PlotSeries envelope(const PlotSeries& band) {
-  constexpr std::ptrdiff_t around = 8;
-  PlotSeries result = band;
-  const auto size = static_cast<std::ptrdiff_t>(band.points.size());
-  for (std::ptrdiff_t i = 0; i < size; ++i) {
-    const auto begin = band.points.begin() + std::max<std::ptrdiff_t>(0, i - around);
-    const auto end = band.points.begin() + std::min(size, i + around + 1);
-    PlotPoint& point = result.points[static_cast<std::size_t>(i)];
-    point.y = std::ranges::max_element(begin, end, {}, &PlotPoint::y)->y;
-    point.low = std::ranges::min_element(begin, end, {}, &PlotPoint::low)->low;
-  }
-  return result;
-}
 
 // A conserved quantity, and its largest error so far after each bin.
 struct Watched {
@@ -116,13 +101,8 @@ class EnergyWatch {
 
   [[nodiscard]] const OrbitSummary& summary() const { return summary_; }
   [[nodiscard]] Figure energy() const {
-    PlotSeries upper{.label = "", .points = {}, .style = PlotStyle::lines, .colour = 0};
-    PlotSeries lower = upper;
-    const PlotSeries band = bin_ > 1 ? envelope(band_) : band_;
-    for (const PlotPoint& point : band.points) {
-      upper.points.push_back({point.x, point.y});
-      lower.points.push_back({point.x, point.low});
-    }
+    const PlotSeries each{
+        .label = "", .points = band_.points, .style = PlotStyle::lines, .colour = 0};
     const char* const what = bin_ > 1 ? "between its least and its greatest" : "after each step";
     return {.name = "energy",
             .caption = fmt::format("Energy error over all {} steps, {}, of the scale {}.",
@@ -131,8 +111,7 @@ class EnergyWatch {
             .plot = {.panels = {{.title = "",
                                  .x_label = "t",
                                  .y_label = kEnergyLabel,
-                                 .series = bin_ > 1 ? std::vector{band, upper, lower}
-                                                    : std::vector{upper}}},
+                                 .series = bin_ > 1 ? envelope(band_) : std::vector{each}}},
                      .width = kSmallWidth,
                      .height = kSmallHeight}};
   }

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "app/output/math_font.hpp"
+#include "app/output/math_symbol.hpp"
 #include "app/output/plain_number.hpp"
 #include "app/output/report_parts.hpp"
 #include "app/output/report_style.hpp"
@@ -134,7 +135,7 @@ std::string code_section(const ReportContent& content) {
   const std::string& header = content.plugin->header.text;
   std::string left_out;
   for (const std::string& item : content.plugin->left_out)
-    left_out += "<li>" + html_text(item) + "</li>\n";
+    left_out += "<li>" + html_text(greek_text(item)) + "</li>\n";
   if (!left_out.empty()) left_out = folded("What it does without", "<ul>\n" + left_out + "</ul>\n");
   return fmt::format("<h2>The emitted step</h2>\n<p>{}. Printed by {}</p>\n",
                      html_text(capitalised(content.plugin->solver)),

@@ -24,6 +24,8 @@ namespace hamgen::app {
 // A command, whose lines end between words.
 [[nodiscard]] std::string command_markup(const std::string& command);
 
+// Behind the name of an invariant, in a finding's property.
+inline constexpr std::string_view kConserved = " conserved by the step";
 [[nodiscard]] std::string verdict_markup(Verdict verdict);
 // Shut until it is opened.
 [[nodiscard]] std::string folded(const std::string& summary, const std::string& inside);

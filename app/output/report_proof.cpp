@@ -15,14 +15,23 @@
 namespace hamgen::app {
 namespace {
 
+constexpr std::string_view kInvariant = " invariant";
 constexpr std::size_t kLongestFormula = 600;   // characters, shown at once
 constexpr std::size_t kLongestFolded = 4'000;  // behind a fold
+
+// Of "L conserved by the step" the name is a formula.
+std::string property_markup(const std::string& property) {
+  const std::size_t end = property.find(' ');
+  const std::string rest = end == std::string::npos ? "" : property.substr(end);
+  if (rest != kInvariant && rest != kConserved) return html_text(property);
+  return inline_formula(math_markup(math_variable(property.substr(0, end)))) + rest;
+}
 
 std::string findings_table(const Proof& proof) {
   std::string text = "<div class='wide'><table class='findings'>\n";
   for (const Finding& finding : proof)
     text += fmt::format("<tr><td>{}</td><td>{}</td><td class='detail'>{}</td></tr>\n",
-                        html_text(finding.property), verdict_markup(finding.verdict),
+                        property_markup(finding.property), verdict_markup(finding.verdict),
                         math_prose(finding.detail));
   return text + "</table></div>\n";
 }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
+#include "app/output/envelope.hpp"
 #include "app/output/math_symbol.hpp"
 #include "app/output/plain_number.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -79,11 +81,16 @@ class TrajectoryPlotter {
   }
 
   std::vector<double> values_of(const std::string& name) const {
+    return values_of(name, table_.rows);
+  }
+  // Of the rows, or of the least or the greatest between them.
+  std::vector<double> values_of(const std::string& name,
+                                const std::vector<std::vector<double>>& rows) const {
     const bool is_error = name == kEnergyErrorColumn && energy_ && !find(name);
     const std::size_t place = is_error ? *energy_ : place_of_column(name);
     std::vector<double> values;
     const double scale = is_error ? table_.energy_scale.value_or(1.0) : 1.0;
-    for (const std::vector<double>& row : table_.rows)
+    for (const std::vector<double>& row : rows)
       values.push_back((row[place] - (is_error ? table_.rows.front()[place] : 0.0)) / scale);
     return values;
   }
@@ -114,6 +121,55 @@ class TrajectoryPlotter {
                       .colour = colour};
     for (std::size_t i = 0; i < x.size(); ++i) result.points.push_back({x[i], y[i]});
     return result;
+  }
+
+  struct ValuesBetween {
+    std::vector<double> values, low, high;
+  };
+  ValuesBetween values_between(const std::string& name) const {
+    return {values_of(name), values_of(name, table_.low), values_of(name, table_.high)};
+  }
+
+  // The least and the greatest in spans of a pixel.
+  static PlotSeries band_of(const std::vector<double>& times, const std::vector<double>& low,
+                            const std::vector<double>& high) {
+    constexpr std::size_t spans = 400;
+    const std::size_t rows = (times.size() + spans - 1) / spans;  // in each
+    PlotSeries band{.label = "", .points = {}, .style = PlotStyle::band};
+    for (std::size_t from = 0; from < times.size(); from += rows) {
+      const std::size_t to = std::min(times.size(), from + rows);
+      PlotPoint point{.x = times[from + (to - from) / 2], .y = high[from], .low = low[from]};
+      for (std::size_t i = from; i < to; ++i) {
+        point.y = std::fmax(point.y, high[i]);
+        point.low = std::fmin(point.low, low[i]);
+      }
+      if (std::isfinite(point.y) && std::isfinite(point.low)) band.points.push_back(point);
+    }
+    return band;
+  }
+
+  // By more than a ripple: more than once in four pixels, or between two of the rows that were
+  // kept.
+  static bool turns_often(const std::vector<double>& values, const std::vector<double>& low,
+                          const std::vector<double>& high) {
+    constexpr long most = 100;
+    constexpr double seen = 0.1;
+    constexpr double ripple = 0.05;
+    if (values.empty()) return false;
+    const double range = std::ranges::max(high) - std::ranges::min(low);
+    long turns = 0;
+    bool rises = false;
+    double extreme = values[0];  // since it turned
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (high[i] - low[i] > seen * range) return true;
+      const double on = rises ? values[i] - extreme : extreme - values[i];
+      if (on < -ripple * range) {
+        rises = !rises;
+        ++turns;
+      }
+      if (on > 0.0 || on < -ripple * range) extreme = values[i];
+    }
+    return turns > most;
   }
 
   // No value is farther from the next than so much of their range.
@@ -208,9 +264,23 @@ class TrajectoryPlotter {
                                : one    ? plain_symbol(names.front())
                                         : what,
                     .series = {}};
-    for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i)
-      panel.series.push_back(series(one ? "" : plain_symbol(names[i]), times, values_of(names[i]),
-                                    static_cast<int>(i)));
+    bool is_range = false;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostLines); ++i) {
+      const std::string label = one ? "" : plain_symbol(names[i]);
+      const int colour = static_cast<int>(i);
+      const auto [values, low, high] = values_between(names[i]);
+      if (!std::ranges::is_sorted(times) || !turns_often(values, low, high)) {
+        panel.series.push_back(series(label, times, values, colour));
+        continue;
+      }
+      PlotSeries band = band_of(times, low, high);
+      band.label = label;
+      band.colour = colour;
+      std::ranges::move(one ? envelope(band) : envelope_edges(band),
+                        std::back_inserter(panel.series));
+      is_range = true;
+    }
+    if (is_range) panel.title += ", least to greatest";
     plot_.panels.push_back(std::move(panel));
   }
 

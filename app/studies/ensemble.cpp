@@ -114,6 +114,7 @@ void Ensemble::name_columns() {
   if (watches_energy_) {
     add_column(columns_, "H");
     add_column(columns_, "H_error");
+    add_column(columns_, "H_scale");
   } else {
     energy_error_ = std::numeric_limits<std::size_t>::max();
   }
@@ -134,6 +135,7 @@ void Ensemble::add_end(const VariedStart::Start& start, const runtime::Integrato
   if (!watches_energy_) return;
   row.values.push_back(summary.energy ? summary.energy->last.hi : kNoNumber);
   row.values.push_back(summary.energy ? summary.energy->max_error() : kNoNumber);
+  row.values.push_back(summary.energy ? summary.energy_terms : kNoNumber);
 }
 
 bool Ensemble::advance(long long index, EnsembleRow& row) const {

@@ -38,13 +38,14 @@ class Ensemble {
   explicit Ensemble(const EnsembleRequest& request);
 
   [[nodiscard]] long long count() const { return request_.plan.count(); }
-  // Names of the values of a row: what was varied, time, state, H and its largest error, what is
-  // observed, statistics.
+  // Names of the values of a row: what was varied, time, state, what is observed, H, its largest
+  // error and the scale of that, statistics.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   // Of those the first, which were varied.
   [[nodiscard]] std::size_t varied() const { return varied_; }
   [[nodiscard]] bool watches_energy() const { return watches_energy_; }
-  // The column of the largest energy error; that of none if H is not watched.
+  // The column of the largest energy error, before that of the scale it is compared with; that of
+  // none if H is not watched.
   [[nodiscard]] std::size_t energy_error() const { return energy_error_; }
 
   // Trajectories [first, first + count), one after the other, as rows; empty if it was stopped.

@@ -76,7 +76,7 @@ void Interpreter<Real>::forget() {
   for (std::size_t i = 0; i < substeps(); ++i) {
     if (const Record* start = code_->record("Start"))
       kept("start", i) = make_object<Real>(*start, *code_);
-    if (code_->unknowns > 0) kept("history", i).history = make_history<Real>(code_->unknowns);
+    if (code_->unknowns > 0) kept("history", i).history = Blocks<Real>::history(code_->unknowns);
   }
 }
 

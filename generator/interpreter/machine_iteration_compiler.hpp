@@ -13,19 +13,18 @@ class MachineIterationCompiler : public MachineMemory<Real> {
   using Base::compiled;
   using Base::for_all;
   using Base::index_of;
+  using Base::judged;
   using Base::m_;
   using Base::object;
   using Base::range_of;
   using Base::run_all;
   using Base::run_contraction;
-  using Base::run_fixed_point;
   using Base::run_newton;
-  using Base::run_newton_on;
-  using Base::run_settling;
   using Base::span;
   using Base::whole;
   using typename Base::Array2;
   using typename Base::Compiled;
+  using typename Base::Distance;
   using typename Base::Range;
   using typename Base::Step;
   using typename Base::Steps;
@@ -45,14 +44,15 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int start = index_of("start");
     const Address memory = address(Place{"start", "value"});
     const Steps body = steps(iterate.body);
-    return [this, unknowns, start, memory, body, newton, name = iterate.name] {
+    return [this, unknowns, start, memory, body, newton, name = iterate.name, type = iterate.type] {
       const bool known = object(start).flags.at("known") != 0;
       Real* kept = &m_.frame.at(memory);
       for (const Compiled& u : unknowns) {
         m_.frame.at(u.target) = known ? kept[u.memory] : u.start(m_.frame);
       }
-      const bool done = newton ? run_newton(*object(start).rules.at(name), known, unknowns, body)
-                               : run_fixed_point(unknowns, body);
+      const bool done = newton
+                            ? solved_by_newton(*object(start).rules.at(name), known, unknowns, body)
+                            : solved_by_fixed_point(type, unknowns, body);
       if (!done) return false;
       for (const Compiled& u : unknowns) {
         kept[u.memory] = m_.frame.at(u.target);
@@ -82,10 +82,29 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       };
       if (rule == Rule::newton) {
         const bool known = memory.flags.at("known") != 0;
-        return run_newton_on(*memory.rules.at(name), known, each, body);
+        return run_newton(
+            *memory.rules.at(name), known, body, [&] { return this->lengths_of_each(each); },
+            [&] {
+              each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
+            });
       }
-      if (work) return run_settling(*memory.settling.at(name), *work, each, body);
-      return run_contraction(memory, name, flag, each, body, residual);
+      const auto move = [&] { return this->move_each(each); };
+      if (rule == Rule::simplified_newton) {
+        AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
+        int& factorised = memory.flags.at(flag);
+        newton.begin(factorised != 0);
+        return run_contraction(body, move, [&](const Distance& distance, int iteration) {
+          bool serves = factorised != 0;
+          const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
+          factorised = serves ? 1 : 0;
+          return std::pair(answer, newton.size());
+        });
+      }
+      AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
+      fixed_point.begin(work.value_or(0));
+      return run_contraction(body, move, [&](const Distance& distance, int iteration) {
+        return judged(fixed_point, distance, iteration);
+      });
     };
   }
   Step operator()(const RefineArray& refine) {
@@ -103,7 +122,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       for (bool more = true; more;) {
         if (!run_all(body)) return false;
         more = rule.empty() ? refinement(span(point), span(lack), span(gradient))
-                            : refinement.refine(*object(start).settling.at(rule), span(point),
+                            : refinement.refine(*object(start).contractions.at(rule), span(point),
                                                 span(lack), span(gradient));
       }
       refinement.get_slope(span(slope));
@@ -121,8 +140,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     for (const std::string& symbol : refine.kept) kept.push_back(address(symbol));
     const Address change{index_of(refine.name), 0, {}};
     return [this, unknowns, gradient, kept, change, body = steps(refine.body)] {
-      const auto refinement = make_refinement<Real>(static_cast<int>(unknowns.size()),
-                                                    static_cast<int>(gradient.size()));
+      const auto refinement = Blocks<Real>::refinement(static_cast<int>(unknowns.size()),
+                                                       static_cast<int>(gradient.size()));
       std::vector<Real> waiting(kept.size());
       for (bool more = true; more;) {
         if (!run_all(body)) return false;
@@ -167,6 +186,28 @@ class MachineIterationCompiler : public MachineMemory<Real> {
 
   // Of what is inside.
   virtual Steps steps(const Body& body) = 0;
+
+ private:
+  bool solved_by_newton(AnyNewtonRule<Real>& rule, bool predicted,
+                        const std::vector<Compiled>& unknowns, const Steps& body) const {
+    std::vector<Real> corrections;
+    const auto measure = [&] {
+      corrections = this->corrections_of(unknowns);
+      return this->lengths_of(unknowns, corrections);
+    };
+    return run_newton(rule, predicted, body, measure, [&] {
+      for (std::size_t j = 0; j < unknowns.size(); ++j)
+        m_.frame.at(unknowns[j].target) += corrections[j];
+    });
+  }
+  bool solved_by_fixed_point(const std::string& type, const std::vector<Compiled>& unknowns,
+                             const Steps& body) const {
+    const auto rule = Blocks<Real>::fixed_point_rule(type);
+    const auto move = [&] { return this->move_all(unknowns, this->corrections_of(unknowns)); };
+    return run_contraction(body, move, [&](const Distance& distance, int iteration) {
+      return judged(*rule, distance, iteration);
+    });
+  }
 };
 
 }  // namespace hamgen

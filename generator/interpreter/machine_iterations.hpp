@@ -1,6 +1,8 @@
 // The iterations of a routine, with the rules of generator/numerics.
 #pragma once
 
+#include <utility>
+
 #include "generator/interpreter/machine_addresses.hpp"
 
 namespace hamgen {
@@ -22,130 +24,98 @@ class MachineIterations : public MachineAddresses<Real> {
     return std::ranges::all_of(steps, [](const Step& step) { return step(); });
   }
 
-  template <class Each>
-  bool run_newton_on(AnyNewtonRule<Real>& rule, bool predicted, const Each& each,
-                     const Steps& body) const {
+  // What an iteration measures of its unknowns is summed in the order in which it is written.
+  struct Lengths {
+    Real size = 0;
+    Real scale = 0;
+  };
+
+  // The rule hears of the corrections before they are made; the last ones are not made here.
+  template <class Measure, class Correct>
+  bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const Steps& body,
+                  const Measure& measure, const Correct& correct) const {
     rule.begin(predicted);
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
-      Real size = 0;
-      Real scale = 0;
-      each([&](const Array2& u) {
-        size += magnitude(m_.frame.at(u.increment));
-        scale += magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
-      });
-      const Answer answer = rule(size, scale, static_cast<int>(m_.iteration));
-      if (answer != Answer::go_on) m_.report.iterations += m_.iteration;
-      if (answer == Answer::failed) m_.report.increment = size;
-      if (answer != Answer::go_on) return answer == Answer::done;
-      each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
+      const Lengths lengths = measure();
+      const Answer answer = rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration));
+      if (answer != Answer::go_on) return ends(answer, lengths.size);
+      correct();
     }
   }
 
-  template <class Each>
-  bool run_contraction(Object<Real>& memory, const std::string& name, const std::string& flag,
-                       const Each& each, const Steps& body, const Address& residual) const {
-    const bool newton = !flag.empty();
-    if (newton) {
-      memory.simplified.at(name)->begin(memory.flags.at(flag) != 0);
-    } else {
-      memory.contractions.at(name)->begin();
-    }
+  // The rule hears of the unknowns when they have moved.
+  template <class Move, class Judge>
+  bool run_contraction(const Steps& body, const Move& move, const Judge& judge) const {
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
-      Distance distance;
-      each([&](const Array2& u) {
-        Real& value = m_.frame.at(u.value);
-        const Real increment = m_.frame.at(u.increment);
-        distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame)));
-        value += increment;
-      });
-      const auto iteration = static_cast<int>(m_.iteration);
-      Answer answer = Answer::go_on;
-      Real size = 0;
-      if (newton) {
-        bool factorised = memory.flags.at(flag) != 0;
-        AnySimplifiedNewtonRule<Real>& rule = *memory.simplified.at(name);
-        answer = rule(distance, m_.frame.at(residual), factorised, iteration);
-        memory.flags.at(flag) = factorised ? 1 : 0;
-        size = rule.size();
-      } else {
-        AnyFixedPointRule<Real>& rule = *memory.contractions.at(name);
-        answer = rule(distance, iteration);
-        size = rule.size();
-      }
-      if (answer == Answer::go_on) continue;
-      m_.report.iterations += m_.iteration;
-      if (answer == Answer::failed) m_.report.increment = size;
-      return answer == Answer::done;
-    }
-  }
-  template <class Each>
-  bool run_settling(AnyContractionRule<Real>& rule, int work, const Each& each,
-                    const Steps& body) const {
-    rule.begin(work);
-    for (m_.iteration = 1;; ++m_.iteration) {
-      if (!run_all(body)) return false;
-      Distance distance;
-      each([&](const Array2& u) {
-        Real& value = m_.frame.at(u.value);
-        const Real increment = m_.frame.at(u.increment);
-        distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame)));
-        value += increment;
-      });
-      const Answer answer = rule(distance, static_cast<int>(m_.iteration));
-      if (answer == Answer::go_on) continue;
-      m_.report.iterations += m_.iteration;
-      if (answer == Answer::failed) m_.report.increment = rule.size();
-      return answer == Answer::done;
-    }
-  }
-  bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const std::vector<Compiled>& unknowns,
-                  const Steps& body) const {
-    rule.begin(predicted);
-    for (m_.iteration = 1;; ++m_.iteration) {
-      if (!run_all(body)) return false;
-      Real size = 0;
-      Real scale = 0;
-      std::vector<Real> corrections;
-      for (const Compiled& u : unknowns) {
-        corrections.push_back(u.correction(m_.frame));
-        size += magnitude(corrections.back());
-      }
-      // From the left, term by term, as it is written.
-      for (const Compiled& u : unknowns) {
-        scale += magnitude(m_.frame.at(u.target));
-        scale += magnitude(u.start(m_.frame));
-      }
-      const Answer answer = rule(size, scale, static_cast<int>(m_.iteration));
-      if (answer != Answer::go_on) m_.report.iterations += m_.iteration;
-      if (answer == Answer::failed) m_.report.increment = size;
-      if (answer != Answer::go_on) return answer == Answer::done;
-      for (std::size_t j = 0; j < unknowns.size(); ++j) {
-        m_.frame.at(unknowns[j].target) += corrections[j];
-      }
+      const Distance distance = move();
+      const auto [answer, size] = judge(distance, static_cast<int>(m_.iteration));
+      if (answer != Answer::go_on) return ends(answer, size);
     }
   }
 
-  bool run_fixed_point(const std::vector<Compiled>& unknowns, const Steps& body) const {
-    const auto rule = make_fixed_point_rule<Real>();
-    for (m_.iteration = 1;; ++m_.iteration) {
-      if (!run_all(body)) return false;
-      std::vector<Real> increments;
-      for (const Compiled& u : unknowns) increments.push_back(u.correction(m_.frame));
-      Distance distance;
-      for (std::size_t j = 0; j < unknowns.size(); ++j) {
-        Real& value = m_.frame.at(unknowns[j].target);
-        distance.add(magnitude(increments[j]),
-                     magnitude(value) + magnitude(unknowns[j].start(m_.frame)));
-        value += increments[j];
-      }
-      const Answer answer = (*rule)(distance, static_cast<int>(m_.iteration));
-      if (answer == Answer::go_on) continue;
-      m_.report.iterations += m_.iteration;
-      if (answer == Answer::failed) m_.report.increment = rule->size();
-      return answer == Answer::done;
+  static std::pair<Answer, Real> judged(AnyFixedPointRule<Real>& rule, const Distance& distance,
+                                        int iteration) {
+    const Answer answer = rule(distance, iteration);
+    return {answer, rule.size()};
+  }
+
+  // One by one, of arrays in loops.
+  template <class Each>
+  Distance move_each(const Each& each) const {
+    Distance distance;
+    each([&](const Array2& u) {
+      Real& value = m_.frame.at(u.value);
+      const Real increment = m_.frame.at(u.increment);
+      distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame)));
+      value += increment;
+    });
+    return distance;
+  }
+  template <class Each>
+  Lengths lengths_of_each(const Each& each) const {
+    Lengths lengths;
+    each([&](const Array2& u) {
+      lengths.size += magnitude(m_.frame.at(u.increment));
+      lengths.scale += magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
+    });
+    return lengths;
+  }
+  // All together, where they are written out: the corrections, then the sums from the left, term by
+  // term.
+  std::vector<Real> corrections_of(const std::vector<Compiled>& unknowns) const {
+    std::vector<Real> corrections;
+    for (const Compiled& u : unknowns) corrections.push_back(u.correction(m_.frame));
+    return corrections;
+  }
+  Lengths lengths_of(const std::vector<Compiled>& unknowns,
+                     const std::vector<Real>& corrections) const {
+    Lengths lengths;
+    for (const Real correction : corrections) lengths.size += magnitude(correction);
+    for (const Compiled& u : unknowns) {
+      lengths.scale += magnitude(m_.frame.at(u.target));
+      lengths.scale += magnitude(u.start(m_.frame));
     }
+    return lengths;
+  }
+  Distance move_all(const std::vector<Compiled>& unknowns,
+                    const std::vector<Real>& increments) const {
+    Distance distance;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      Real& value = m_.frame.at(unknowns[j].target);
+      distance.add(magnitude(increments[j]),
+                   magnitude(value) + magnitude(unknowns[j].start(m_.frame)));
+      value += increments[j];
+    }
+    return distance;
+  }
+
+ private:
+  bool ends(Answer answer, Real size) const {
+    m_.report.iterations += m_.iteration;
+    if (answer == Answer::failed) m_.report.increment = size;
+    return answer == Answer::done;
   }
 };
 

@@ -126,7 +126,7 @@ class MachineMemory : public MachineIterations<Real> {
   void begin(Object<Real>& object, const Forget& forget) const {
     const std::string& field = forget.what.field;
     if (forget.type == "History") {
-      object.history = make_history<Real>(code_.unknowns);
+      object.history = Blocks<Real>::history(code_.unknowns);
     } else if (forget.type == "bool") {
       object.flags.at(field) = 0;
     } else {

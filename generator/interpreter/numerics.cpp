@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "generator/base/diagnostic.hpp"
 
@@ -79,29 +80,28 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
 
 template <class Real, class Rule>
 class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
+  using Contraction = typename NumericsOf<Real>::Contraction;
+  static constexpr bool kContracts = std::is_same_v<Rule, Contraction>;
+
  public:
-  void begin() override { rule_.begin(); }
+  void begin(int work) override {
+    if constexpr (kContracts) {
+      rule_.begin(work);
+    } else {
+      rule_.begin();
+    }
+  }
   Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) override {
     return answer(rule_(moved, iteration));
   }
   [[nodiscard]] Real size() const override { return rule_.size; }
+  [[nodiscard]] Contraction* contraction() override {
+    if constexpr (kContracts) return &rule_;
+    return nullptr;
+  }
 
  private:
   Rule rule_;
-};
-
-template <class Real>
-class ContractionRuleOf final : public AnyContractionRule<Real> {
- public:
-  void begin(int work) override { rule_.begin(work); }
-  Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) override {
-    return answer(rule_(moved, iteration));
-  }
-  [[nodiscard]] Real size() const override { return rule_.size; }
-  [[nodiscard]] typename NumericsOf<Real>::Contraction& block() override { return rule_; }
-
- private:
-  typename NumericsOf<Real>::Contraction rule_;
 };
 
 template <class Real>
@@ -129,10 +129,10 @@ class RefinementOf final : public AnyRefinement<Real> {
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
   }
-  bool refine(AnyContractionRule<Real>& rule, std::span<Real> point, std::span<const Real> lack,
+  bool refine(AnyFixedPointRule<Real>& rule, std::span<Real> point, std::span<const Real> lack,
               std::span<const Real> slope) override {
     Padded<Real, Size> all(point);
-    const bool more = refinement_(rule.block(), all.padded, Padded<Real, Size>(lack).padded,
+    const bool more = refinement_(*rule.contraction(), all.padded, Padded<Real, Size>(lack).padded,
                                   Padded<Real, 2 * Size>(slope).padded);
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
@@ -188,42 +188,34 @@ auto at_least(int size, const Make& make) {
 }  // namespace
 
 template <class Real>
-std::unique_ptr<AnyHistory<Real>> make_history(int size) {
+std::unique_ptr<AnyHistory<Real>> Blocks<Real>::history(int size) {
   return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyHistory<Real>> {
     return std::make_unique<HistoryOf<Real, decltype(n)::value>>();
   });
 }
 
 template <class Real>
-std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power, bool waits) {
+std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, bool waits) {
   if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1>>(waits);
   return std::make_unique<NewtonRuleOf<Real, 2>>(waits);
 }
 
 template <class Real>
-std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule() {
-  using Rule = typename NumericsOf<Real>::FixedPoint;
-  return std::make_unique<FixedPointRuleOf<Real, Rule>>();
-}
-
-template <class Real>
-std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule() {
-  using Rule = typename NumericsOf<Real>::Impatient;
-  return std::make_unique<FixedPointRuleOf<Real, Rule>>();
-}
-
-template <class Real>
-std::unique_ptr<AnyContractionRule<Real>> make_contraction_rule() {
-  return std::make_unique<ContractionRuleOf<Real>>();
-}
-
-template <class Real>
-std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule() {
+std::unique_ptr<AnySimplifiedNewtonRule<Real>> Blocks<Real>::simplified_newton_rule() {
   return std::make_unique<SimplifiedNewtonRuleOf<Real>>();
 }
 
 template <class Real>
-std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components) {
+std::unique_ptr<AnyFixedPointRule<Real>> Blocks<Real>::fixed_point_rule(std::string_view type) {
+  std::unique_ptr<AnyFixedPointRule<Real>> found;
+  NumericsOf<Real>::for_fixed_point_rules([&](std::string_view name, auto rule) {
+    if (name == type) found = std::make_unique<FixedPointRuleOf<Real, decltype(rule)>>();
+  });
+  return found;
+}
+
+template <class Real>
+std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components) {
   const int size = std::max(unknowns, (components + 1) / 2);
   return at_least<1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
     return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
@@ -231,43 +223,15 @@ std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int component
 }
 
 template <class Real>
-std::unique_ptr<AnyMatrix<Real>> make_matrix(int size) {
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size) {
   return at_least<256>(size, [size](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     return std::make_unique<MatrixOf<Real, decltype(n)::value>>(size);
   });
 }
 
-template std::unique_ptr<AnyHistory<float>> make_history(int);
-template std::unique_ptr<AnyHistory<double>> make_history(int);
-template std::unique_ptr<AnyHistory<long double>> make_history(int);
-template std::unique_ptr<AnyHistory<Quad>> make_history(int);
-template std::unique_ptr<AnyNewtonRule<float>> make_newton_rule(int, bool);
-template std::unique_ptr<AnyNewtonRule<double>> make_newton_rule(int, bool);
-template std::unique_ptr<AnyNewtonRule<long double>> make_newton_rule(int, bool);
-template std::unique_ptr<AnyNewtonRule<Quad>> make_newton_rule(int, bool);
-template std::unique_ptr<AnyFixedPointRule<float>> make_fixed_point_rule();
-template std::unique_ptr<AnyFixedPointRule<double>> make_fixed_point_rule();
-template std::unique_ptr<AnyFixedPointRule<long double>> make_fixed_point_rule();
-template std::unique_ptr<AnyFixedPointRule<Quad>> make_fixed_point_rule();
-template std::unique_ptr<AnyContractionRule<float>> make_contraction_rule();
-template std::unique_ptr<AnyContractionRule<double>> make_contraction_rule();
-template std::unique_ptr<AnyContractionRule<long double>> make_contraction_rule();
-template std::unique_ptr<AnyContractionRule<Quad>> make_contraction_rule();
-template std::unique_ptr<AnyRefinement<float>> make_refinement(int, int);
-template std::unique_ptr<AnyRefinement<double>> make_refinement(int, int);
-template std::unique_ptr<AnyRefinement<long double>> make_refinement(int, int);
-template std::unique_ptr<AnyRefinement<Quad>> make_refinement(int, int);
-template std::unique_ptr<AnyMatrix<float>> make_matrix(int);
-template std::unique_ptr<AnyMatrix<double>> make_matrix(int);
-template std::unique_ptr<AnyMatrix<long double>> make_matrix(int);
-template std::unique_ptr<AnyMatrix<Quad>> make_matrix(int);
-template std::unique_ptr<AnyFixedPointRule<float>> make_impatient_rule();
-template std::unique_ptr<AnySimplifiedNewtonRule<float>> make_simplified_newton_rule();
-template std::unique_ptr<AnyFixedPointRule<double>> make_impatient_rule();
-template std::unique_ptr<AnySimplifiedNewtonRule<double>> make_simplified_newton_rule();
-template std::unique_ptr<AnyFixedPointRule<long double>> make_impatient_rule();
-template std::unique_ptr<AnySimplifiedNewtonRule<long double>> make_simplified_newton_rule();
-template std::unique_ptr<AnyFixedPointRule<Quad>> make_impatient_rule();
-template std::unique_ptr<AnySimplifiedNewtonRule<Quad>> make_simplified_newton_rule();
+template struct Blocks<float>;
+template struct Blocks<double>;
+template struct Blocks<long double>;
+template struct Blocks<Quad>;
 
 }  // namespace hamgen

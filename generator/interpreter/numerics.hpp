@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string_view>
 
 namespace hamgen {
 
@@ -66,22 +67,17 @@ struct AnyNewtonRule {
                      int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration) = 0;
 };
-// FixedPointRule, and ImpatientRule.
+// When a fixed point ends: one of the rules that Blocks::fixed_point_rule knows.
 template <class Real>
 struct AnyFixedPointRule {
   virtual ~AnyFixedPointRule() = default;
   using Distance = typename NumericsOf<Real>::Moved;
-  virtual void begin() = 0;
+  // What another solver's matrix would cost is for a rule that gives up for it.
+  virtual void begin(int work) = 0;
   virtual Answer operator()(const Distance& moved, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
-};
-template <class Real>
-struct AnyContractionRule {
-  virtual ~AnyContractionRule() = default;
-  virtual void begin(int work) = 0;
-  virtual Answer operator()(const typename NumericsOf<Real>::Moved& moved, int iteration) = 0;
-  [[nodiscard]] virtual Real size() const = 0;
-  [[nodiscard]] virtual typename NumericsOf<Real>::Contraction& block() = 0;
+  // For Refinement; none if it is no ContractionRule.
+  [[nodiscard]] virtual typename NumericsOf<Real>::Contraction* contraction() = 0;
 };
 template <class Real>
 struct AnySimplifiedNewtonRule {
@@ -97,8 +93,8 @@ struct AnyRefinement {
   // True if it wants the values once more, at the point it has moved.
   virtual bool operator()(std::span<Real> point, std::span<const Real> lack,
                           std::span<const Real> slope) = 0;
-  // The same with a rule that may have settled it.
-  virtual bool refine(AnyContractionRule<Real>& rule, std::span<Real> point,
+  // The same with a ContractionRule that may have settled it.
+  virtual bool refine(AnyFixedPointRule<Real>& rule, std::span<Real> point,
                       std::span<const Real> lack, std::span<const Real> slope) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   virtual void get_change(std::span<Real> change) const = 0;
@@ -113,24 +109,19 @@ struct AnyMatrix {
   virtual void solve(std::span<Real> vector) const = 0;
 };
 
-// These throw UsageError for what is too large: more than 4096 unknowns.
+// New ones.  UsageError for what is too large.
 template <class Real>
-[[nodiscard]] std::unique_ptr<AnyHistory<Real>> make_history(int size);
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyNewtonRule<Real>> make_newton_rule(int power, bool waits = false);
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_fixed_point_rule();
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyFixedPointRule<Real>> make_impatient_rule();
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyContractionRule<Real>> make_contraction_rule();
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnySimplifiedNewtonRule<Real>> make_simplified_newton_rule();
-// For up to twice as many components of the gradient as unknowns, 1024 of them.
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyRefinement<Real>> make_refinement(int unknowns, int components);
-// Up to 256 rows.
-template <class Real>
-[[nodiscard]] std::unique_ptr<AnyMatrix<Real>> make_matrix(int size);
+struct Blocks {
+  [[nodiscard]] static std::unique_ptr<AnyHistory<Real>> history(int size);  // up to 4096 unknowns
+  [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule(int power, bool waits);
+  [[nodiscard]] static std::unique_ptr<AnySimplifiedNewtonRule<Real>> simplified_newton_rule();
+  // Of this type; null if there is none.
+  [[nodiscard]] static std::unique_ptr<AnyFixedPointRule<Real>> fixed_point_rule(
+      std::string_view type);
+  // For up to twice as many components of the gradient as unknowns, 1024 of them.
+  [[nodiscard]] static std::unique_ptr<AnyRefinement<Real>> refinement(int unknowns,
+                                                                       int components);
+  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size);  // up to 256 rows
+};
 
 }  // namespace hamgen

@@ -33,21 +33,17 @@ template <class Real>
 void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
-    object.matrices[field.name] = make_matrix<Real>(code.matrix->size);
+    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->size);
   } else if (field.type.starts_with("NewtonRule")) {
-    object.rules[field.name] = make_newton_rule<Real>(sizes.at(0));
+    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), false);
   } else if (field.type.starts_with("WaitingNewtonRule")) {
-    object.rules[field.name] = make_newton_rule<Real>(sizes.at(0), true);
-  } else if (field.type == "ContractionRule") {
-    object.settling[field.name] = make_contraction_rule<Real>();
-  } else if (field.type.starts_with("FixedPointRule")) {
-    object.contractions[field.name] = make_fixed_point_rule<Real>();
-  } else if (field.type.starts_with("ImpatientRule")) {
-    object.contractions[field.name] = make_impatient_rule<Real>();
+    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), true);
   } else if (field.type.starts_with("SimplifiedNewtonRule")) {
-    object.simplified[field.name] = make_simplified_newton_rule<Real>();
+    object.simplified[field.name] = Blocks<Real>::simplified_newton_rule();
   } else if (field.type.starts_with("Refinement")) {
-    object.refinements[field.name] = make_refinement<Real>(sizes.at(0), sizes.at(1));
+    object.refinements[field.name] = Blocks<Real>::refinement(sizes.at(0), sizes.at(1));
+  } else if (auto rule = Blocks<Real>::fixed_point_rule(field.type)) {
+    object.contractions[field.name] = std::move(rule);
   } else {
     internal_error("no block " + field.type);
   }

@@ -18,7 +18,6 @@ struct Object {
   std::map<std::string, int> flags;
   std::map<std::string, std::unique_ptr<AnyNewtonRule<Real>>> rules;
   std::map<std::string, std::unique_ptr<AnyFixedPointRule<Real>>> contractions;
-  std::map<std::string, std::unique_ptr<AnyContractionRule<Real>>> settling;
   std::map<std::string, std::unique_ptr<AnySimplifiedNewtonRule<Real>>> simplified;
   std::map<std::string, std::unique_ptr<AnyRefinement<Real>>> refinements;
   std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> matrices;

@@ -16,6 +16,20 @@ constexpr std::string_view kJumping[] = {"min",       "max",       "sign",  "sgn
                                          "floor",     "ceil",      "round", "step",
                                          "heaviside", "piecewise", "mod",   "clamp"};
 
+// And what is written for others.
+struct OtherName {
+  std::string_view name, help;
+};
+constexpr OtherName kWritten[] = {{"ln", "did you mean 'log', the natural logarithm?"},
+                                  {"log10", "write log(x)/log(10); log is the natural logarithm"},
+                                  {"log2", "write log(x)/log(2); log is the natural logarithm"},
+                                  {"pow", "write a power as q^2"},
+                                  {"hypot", "write sqrt(x^2 + y^2)"},
+                                  {"cbrt", "write x^(1/3), for x > 0"},
+                                  {"sec", "write 1/cos(x)"},
+                                  {"csc", "write 1/sin(x)"},
+                                  {"cot", "write 1/tan(x)"}};
+
 using enum SymbolKind;
 
 class NameCheck {
@@ -122,13 +136,13 @@ class NameCheck {
     std::vector<std::string> names;
     for (const Function& function : all_functions()) names.emplace_back(function.name);
     std::string help = "functions are " + fmt::format("{}", fmt::join(names, ", "));
-    if (name == "ln") help = "did you mean 'log', the natural logarithm?";
-    if (name == "pow") help = "write a power as q^2";
     const std::string near = nearest(name, names);
-    const bool jumps = std::ranges::find(kJumping, name) != std::end(kJumping);
-    if (jumps) {
+    const auto written = std::ranges::find(kWritten, name, &OtherName::name);
+    if (std::ranges::find(kJumping, name) != std::end(kJumping)) {
       help = "H needs two derivatives: a smooth step, say, is tanh(q/width)";
-    } else if (!near.empty() && name.size() > 1 && name != "ln") {
+    } else if (written != std::end(kWritten)) {
+      help = written->help;
+    } else if (!near.empty() && name.size() > 1) {
       help = fmt::format("did you mean '{}'?", near);
     }
     fail(span, fmt::format("unknown function '{}'", name), help);

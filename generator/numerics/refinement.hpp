@@ -60,7 +60,7 @@ struct Refinement {
     }
     last = lengths_of(error);
     // What is cut off is a bias: a 2^-13th of a unit.
-    const Real open = sum_of(Size, [&](int j) {
+    const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
       return magnitude(error[j]) * 8192 > unit ? Real(1) : Real(0);
     });

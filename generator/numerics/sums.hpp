@@ -10,11 +10,24 @@ inline Real sum_of(int count, const Term& term) {
   return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
          ((parts[2] + parts[6]) + (parts[3] + parts[7]));
 }
+// Of a known number of them: eight at once are not written where there are fewer, or g++ warns of
+// elements beyond the last.
+template <int Count, class Term>
+inline Real sum_of(const Term& term) {
+  if constexpr (Count >= 8) {
+    return sum_of(Count, term);
+  } else {
+    Real parts[8] = {};
+    for (int k = 0; k < Count; ++k) parts[k] = term(k);
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+  }
+}
 template <int Size>
 inline Real lengths_of(const Real (&vector)[Size]) {
-  return sum_of(Size, [&](int j) { return magnitude(vector[j]); });
+  return sum_of<Size>([&](int j) { return magnitude(vector[j]); });
 }
 template <int Size>
 inline Real squares_of(const Real (&vector)[Size]) {
-  return sum_of(Size, [&](int j) { return vector[j] * vector[j]; });
+  return sum_of<Size>([&](int j) { return vector[j] * vector[j]; });
 }

@@ -170,6 +170,7 @@ enum class Rule { newton, simplified_newton, fixed_point };
 struct Iterate {
   Rule rule = Rule::newton;
   std::string name;  // of the rule: a field of start, or a local
+  std::string type;  // of that local: "FixedPointRule<2>"
   std::vector<Unknown> unknowns;
   Body body;
   std::vector<std::string> kept;  // symbols of the body that what follows uses

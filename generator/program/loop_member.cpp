@@ -86,7 +86,7 @@ class LoopMember : LoopStage {
     }
     if (fixed_point() || both()) {
       start.fields.push_back(
-          {.name = "rule", .type = settles() ? "ContractionRule" : "FixedPointRule<2>"});
+          {.name = "rule", .type = std::string(settles() ? "ContractionRule" : plan_.rule)});
       start.fields.push_back(
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }

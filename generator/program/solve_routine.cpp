@@ -110,6 +110,7 @@ class SolveRoutine {
     const bool newton = solve.kind == BlockKind::newton;
     Iterate iterate{.rule = newton ? Rule::newton : Rule::fixed_point,
                     .name = fmt::format("rule_{}", s),
+                    .type = std::string(newton ? "" : lowered_.plan.rule),
                     .unknowns = {},
                     .body = {},
                     .kept = kept(s)};

@@ -76,7 +76,7 @@ class StageRoutines : StageParts {
     if (has_fixed_point()) {
       const bool impatient = solver_ == StageSolver::both;
       record.fields.push_back(
-          {.name = "rule", .type = impatient ? "ImpatientRule" : "FixedPointRule<2>"});
+          {.name = "rule", .type = std::string(impatient ? "ImpatientRule" : lowered_.plan.rule)});
     }
     if (has_newton()) {
       record.fields.push_back({.name = "newton", .type = "SimplifiedNewtonRule"});

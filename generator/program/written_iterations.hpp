@@ -236,8 +236,9 @@ class IterationWriter : public StatementWriter {
 
   void fixed_point(const Iterate& iterate) {
     const Place rule{iterate.name};
-    add(Declare{"FixedPointRule<2>", {iterate.name}});
-    if (form_.lanes) add(Do{action("FixedPointRule", rule, "begin", turn())});
+    const std::string type = iterate.type.substr(0, iterate.type.find('<'));
+    add(Declare{iterate.type, {iterate.name}});
+    if (form_.lanes) add(Do{action(type, rule, "begin", turn())});
     iterate_with([&] {
       write(iterate.body);
       add(numbers("increment ", lacks_of(iterate.unknowns)));
@@ -251,7 +252,7 @@ class IterationWriter : public StatementWriter {
         form_.lanes ? move_lanes(at({iterate.name, "open"}), symbol(u.symbol), increment)
                     : set(symbol(u.symbol), increment, "+=");
       }
-      judge("FixedPointRule", rule, {object({"distance "}), at({"iteration "})});
+      judge(type, rule, {object({"distance "}), at({"iteration "})});
     });
     if (form_.lanes) end_lanes(rule);
   }

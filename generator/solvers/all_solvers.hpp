@@ -9,11 +9,15 @@
 
 namespace hamgen {
 
+// A fixed block: when a fixed point ends, if nobody says otherwise.
+inline constexpr std::string_view kFixedPointRule = "FixedPointRule<2>";
+
 // How the equations of a step are to be solved.
 struct SolverWish {
   enum class Kind { cheapest, newton, fixed_point, sweeps };
   Kind kind = Kind::cheapest;
-  int sweeps = 0;  // of the paper's Algorithm 1
+  int sweeps = 0;                           // of the paper's Algorithm 1
+  std::string_view rule = kFixedPointRule;  // of a fixed point with nothing else behind it
 
   // Throws UsageError for what is not in the list.
   [[nodiscard]] static SolverWish read(const std::string& text);

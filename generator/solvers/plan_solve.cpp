@@ -300,8 +300,10 @@ SolvePlan plan_member(const StepEquations& equations, const SolverWish& wish) {
 }  // namespace
 
 SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver) {
-  if (!equations.scheme.has_member()) return plan_without_member(equations, solver);
-  SolvePlan plan = plan_member(equations, *solver);
+  const bool is_member = equations.scheme.has_member();
+  SolvePlan plan =
+      is_member ? plan_member(equations, *solver) : plan_without_member(equations, solver);
+  plan.rule = solver->rule;
   if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {
     plan.solver = fmt::format("{} substeps, each: {}", composition->substeps.size(), plan.solver);
   }

@@ -70,6 +70,7 @@ struct SolvePlan {
   std::optional<int> sweeps = {};        // the paper's Algorithm 1 with this many corrector sweeps
   std::optional<ArrayPlan> arrays = {};  // set if the sums stay loops; then there are no blocks
   std::optional<StageSolver> stage_solver = {};  // of an implicit Runge-Kutta method
+  std::string_view rule = kFixedPointRule;       // by which a fixed point ends that is alone
   std::string solver = {};  // one line for people: "Newton of size 1; p torn out"
   std::vector<std::string> left_out = {};
   [[nodiscard]] bool is_explicit() const;

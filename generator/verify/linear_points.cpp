@@ -78,9 +78,9 @@ std::string flow_text(const LinearStability& found) {
   const auto& w = found.frequencies;
   std::string text;
   if (w.size() == 1) {
-    text = fmt::format("one oscillation, `w = {:.6g}`, `h w = {:.6g}`", w[0], found.h * w[0]);
+    text = fmt::format("one oscillation, `omega = {:.6g}`, `h omega = {:.6g}`", w[0], found.h * w[0]);
   } else if (!w.empty()) {
-    text = fmt::format("{} oscillations, `w = {:.6g}` to `{:.6g}`, `h w` up to `{:.6g}`", w.size(),
+    text = fmt::format("{} oscillations, `omega = {:.6g}` to `{:.6g}`, `h omega` up to `{:.6g}`", w.size(),
                        w.front(), w.back(), found.h * w.back());
   }
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
@@ -92,7 +92,7 @@ std::string flow_text(const LinearStability& found) {
   return text;
 }
 
-// "up to h = 1.0067 (h w = 1.3), and from 1.036 to 1.185"
+// "up to h = 1.0067 (h omega = 1.3), and from 1.036 to 1.185"
 std::string bound_text(const LinearStability& found) {
   if (found.verdict == Verdict::refuted || found.frequencies.empty()) return "";
   std::string text;
@@ -113,7 +113,7 @@ std::string bound_text(const LinearStability& found) {
       if (std::isinf(to)) {
         text += "on";
       } else {
-        text += fmt::format("{} `h = {:.8g}` (`h w = {:.6g}`)", from > 0.0 ? "to" : "up to", to,
+        text += fmt::format("{} `h = {:.8g}` (`h omega = {:.6g}`)", from > 0.0 ? "to" : "up to", to,
                             to * w);
         if (to >= found.looked_to) text += ", as far as was looked";
       }
@@ -140,7 +140,7 @@ std::string resonance_text(const LinearStability& found) {
       const double off = std::abs(found.angles[k] * m / turn - 1.0);
       if (off >= nearest) continue;
       nearest = off;
-      near = fmt::format("`w = {:.6g}` is {:.2g}% off `2 pi/{}`", found.frequencies[k], 100.0 * off,
+      near = fmt::format("`omega = {:.6g}` is {:.2g}% off `2 pi/{}`", found.frequencies[k], 100.0 * off,
                          m);
     }
   }

@@ -44,7 +44,7 @@ std::string cayley_text(const Scheme& scheme) {
   const int order = scheme.member().generating_order;
   if (order > 2) return fmt::format("the Cayley transform of `2 tanh(hA/2)` to order {}", order);
   return "the Cayley transform `(1 - hA/2)^-1 (1 + hA/2)` of `A = J S`, and `theta = 2 atan(h "
-         "w/2)`";
+         "omega/2)`";
 }
 
 // Is M a function of h A alone, in the coordinates of the modes?
@@ -62,7 +62,7 @@ std::string closed_form(const Scheme& scheme, const LinearStep& step, const Matr
   const double alpha = 0.5 + c(0, 0);
   const double x = (1.0 - h * c(1, 0) * s(1, 1)) * (1.0 + h * s(0, 0) * c(0, 1));
   const double square = h * h * s(0, 0) * s(1, 1);
-  return fmt::format("; `X = {:.6g}`, bounded iff `X > h^2 w^2 (alpha - 1/2)^2 = {:.6g}`", x,
+  return fmt::format("; `X = {:.6g}`, bounded iff `X > h^2 omega^2 (alpha - 1/2)^2 = {:.6g}`", x,
                      square * (alpha - 0.5) * (alpha - 0.5));
 }
 
@@ -141,7 +141,7 @@ std::string mode_text(const Question& question, const LinearStep& step, const Mo
   const std::string size =
       symplectic ? fmt::format("`|trace M|/2 = {:.8g}`", std::abs(m.trace()) / 2.0)
                  : fmt::format("spectral radius of `M` = {:.8g}", std::sqrt(m.determinant()));
-  return fmt::format("{} of `w = {:.6g}`", size, modes.frequency(k)) +
+  return fmt::format("{} of `omega = {:.6g}`", size, modes.frequency(k)) +
          closed_form(step.scheme(), step, modes.planes()[k], h);
 }
 

@@ -1,6 +1,8 @@
 // What the installation makes of the command's own definition.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -42,6 +44,60 @@ TEST(Completion, ProposesCommandsOptionsAndNames) {
   EXPECT_EQ(completed({"run", "a.ham", "--plot", HAMGEN_SOURCE_DIR "/README"}),
             std::vector<std::string>{HAMGEN_SOURCE_DIR "/README.md"});
   EXPECT_EQ(hamgen({"completion", "fish"}).status, 2);
+}
+
+// What zsh proposes at the end of each of these lines, in the alphabet's order.
+std::vector<std::vector<std::string>> completed_by_zsh(const std::vector<std::string>& typed) {
+  const Scratch scratch;
+  runtime::ProcessRequest request;
+  request.command = {"zsh", "-f", HAMGEN_SOURCE_DIR "/tests/app/completion.zsh",
+                     scratch.write("_hamgen", hamgen({"completion", "zsh"}).out)};
+  request.command.insert(request.command.end(), typed.begin(), typed.end());
+  const runtime::ProcessResult result = runtime::run_process(request);
+  EXPECT_TRUE(result.succeeded()) << result.output;
+  std::vector<std::vector<std::string>> all(1);
+  for (const std::string& line : lines(result.output)) {
+    if (line == ".") {
+      std::ranges::sort(all.back());
+      all.emplace_back();
+    } else {
+      all.back().push_back(line);
+    }
+  }
+  all.pop_back();
+  return all;
+}
+
+TEST(Completion, ProposesTheSameInBothShells) {
+  const std::vector<std::vector<std::string>> typed = {
+      {"che"},
+      {""},
+      {"-"},
+      {"help", "tun"},
+      {"check", "a.ham", "--"},
+      {"generate", "a.ham", "--watch"},
+      {"run", "a.ham", "--scheme", "gauss-1"},
+      {"chaos", "a.ham", "--indicator", "m"},
+      {"show", "a.ham", "--stage", "p"},
+      {"cache", "p"},
+      {"list", ""},
+      {"run", "a.ham", "--plot", HAMGEN_SOURCE_DIR "/README"}};
+  std::vector<std::string> typed_lines;
+  for (const std::vector<std::string>& words : typed)
+    typed_lines.push_back(fmt::format("hamgen {}", fmt::join(words, " ")));
+  const auto by_zsh = completed_by_zsh(typed_lines);
+  ASSERT_EQ(by_zsh.size(), typed.size());
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    std::vector<std::string> by_bash = completed(typed[i]);
+    // At the beginning bash proposes the options beside the commands, zsh once a minus is typed.
+    if (typed[i] == std::vector<std::string>{""})
+      std::erase_if(by_bash, [](const std::string& word) { return word.starts_with('-'); });
+    for (std::string& word : by_bash) word = fs::path(word).filename().string();
+    std::ranges::sort(by_bash);
+    EXPECT_EQ(by_zsh[i], by_bash) << typed_lines[i];
+  }
+  EXPECT_EQ(completed_by_zsh({"hamgen run a.ham --scheme=stormer"})[0],
+            std::vector<std::string>{"stormer-verlet"});
 }
 
 TEST(Completion, AndManualNameEveryCommandAndNoHiddenOne) {

@@ -165,6 +165,7 @@ TEST(Ensemble, HasTheRowsOfRunsOfTheirOwn) {
     EXPECT_EQ(value("q"), json["state"]["q"][0].get<double>()) << run.out;
     EXPECT_EQ(value("p"), json["state"]["p"][0].get<double>());
     EXPECT_EQ(value("H_error"), json["energy"]["max_error"].get<double>());
+    EXPECT_EQ(value("H_scale"), json["energy"]["scale"].get<double>());
     for (const auto& [column, name] :
          {std::pair{"H", "energy"}, std::pair{"c", "c"}, std::pair{"p", "p"}}) {
       double least = 1e300, largest = -1e300, sum = 0.0;
@@ -222,6 +223,9 @@ TEST(Ensemble, SaysHowEachTrajectoryEnded) {
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["trajectories"], 3);
   EXPECT_EQ(json["ended"]["done"], 1);
+  // Of the one that is done.
+  EXPECT_DOUBLE_EQ(json["max_relative_energy_error"].get<double>(),
+                   std::stod(rows[2].at("H_error")) / std::stod(rows[2].at("H_scale")));
   EXPECT_EQ(json["ended"]["undefined"], 1);
 }
 

@@ -1,6 +1,8 @@
 // What docs/extending.md shows compiles where it says that it belongs.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/page_examples.hpp"
 
@@ -34,14 +36,17 @@ class Edited {
     text_.erase(text_.find(mark, text_.find(text) + text.size()), mark.size());
     return *this;
   }
-  void compiles() const {
+  void compiles() const { compiles_with(Scratch()); }
+  // With the headers in this folder before those of the tree.
+  void compiles_with(const Scratch& headers) const {
     const Scratch scratch;
     scratch.write("edited.cpp", text_);
-    const Result result =
-        shell("g++ -std=gnu++20 -fsyntax-only -Wall -Wextra -Werror -I '" + tree + "' edited.cpp",
-              scratch.path("."));
+    const Result result = shell("g++ -std=gnu++20 -fsyntax-only -Wall -Wextra -Werror -I '" +
+                                    headers.path(".") + "' -I '" + tree + "' edited.cpp",
+                                scratch.path("."));
     EXPECT_EQ(result.status, 0) << result.out << result.err;
   }
+  [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
   std::string text_;
@@ -73,6 +78,28 @@ TEST(ExtendingPage, AFunctionIsARowAndItsValueInGinac) {
       .before("}  // namespace hamgen", "namespace {\n" + block_of("cbrt_value") +
                                             "}\nunsigned serial() { return cbrt_serial; }\n")
       .compiles();
+}
+
+TEST(ExtendingPage, ARuleOfFixedPointsIsABlockAndItsRows) {
+  Edited("generator/solvers/all_solvers.cpp")
+      .before("    NamedSolver{\"sweeps:K\"", block_of("NamedSolver{\"stagnation\""))
+      .compiles();
+  Edited("generator/base/fixed_blocks.cpp")
+      .before("    {\"simplified_newton_rule\"", block_of("{\"stagnation_rule\""))
+      .compiles();
+  const Scratch headers;
+  const std::filesystem::path folder = std::filesystem::path(headers.path("")) / "generator";
+  std::filesystem::create_directories(folder / "numerics");
+  std::filesystem::create_directories(folder / "interpreter");
+  headers.write("generator/numerics/stagnation_rule.hpp",
+                block_of("// When to stop a fixed point"));
+  headers.write("generator/interpreter/numerics.inc",
+                Edited("generator/interpreter/numerics.inc")
+                    .before("#include \"generator/numerics/impatient_rule.hpp\"",
+                            "#include \"generator/numerics/stagnation_rule.hpp\"\n")
+                    .before("    use(\"ImpatientRule\"", block_of("use(\"StagnationRule\""))
+                    .text());
+  Edited("generator/interpreter/numerics.cpp").compiles_with(headers);
 }
 
 }  // namespace

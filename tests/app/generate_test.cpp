@@ -138,6 +138,7 @@ TEST(Generate, RefusesContradictions) {
   EXPECT_EQ(hamgen({"generate", model, "--format", "fortran"}).status, 2);
   EXPECT_EQ(hamgen({"generate", model, "--scheme", "implicit-midpoint", "--alpha", "1"}).status, 2);
   EXPECT_EQ(hamgen({"generate", model, "--fold", "epz"}).status, 2);
+  EXPECT_TRUE(contains(hamgen({"generate", model, "--fold", "eps=1"}).err, "--fold eps burns"));
   for (const std::string name : {"double", "a b", "a::", "x{};y", "1a", "a::std::"})
     EXPECT_EQ(hamgen({"generate", model, "--namespace", name}).status, 2) << name;
 }
