@@ -729,9 +729,9 @@ void forget(History<Unknowns>& history) {
 }  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x99347a84
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xf19b185a
 namespace fput::implicit_midpoint {
-inline namespace emitted_99347a84 {
+inline namespace emitted_f19b185a {
 
 namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -755,33 +755,35 @@ inline Coefficients prepare(const Parameters&, Real h) {
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
-  Real value[32] = {};     // the coordinates of zbar
-  bool known = false;      // else the state itself is the start
-  Real momentum[32] = {};  // of zbar
-  Real slope[64] = {};     // grad H(zbar), dH/dq first
-  Real lack[32] = {};      // of the equations at zbar, then the increment
+  Real value[32] = {};  // the coordinates of zbar
+  bool known = false;   // else the state itself is the start
+  Real slope[64] = {};  // grad H(zbar), dH/dq first
+  Real lack[32] = {};   // of the equations at zbar, then the increment
   Matrix matrix;
   WaitingNewtonRule<2> newton_rule;
-  int patience = 0;        // steps left to Newton
+  int patience = 0;     // steps left to Newton
   ContractionRule rule;
   Refinement<32, 64> refinement;
 };
 
-// grad H at the stage, whose momenta follow from its coordinates.
+// grad H at the stage, whose momenta follow from its coordinates, and what the equations
+// lack there.
 inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
-                     const State& carry, Start& start) {
+                     const State& carry, Start& __restrict start) {
   potential_gradient(par, start.value, start.slope);
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.slope[i];
     const Real change = carry.p[i] - p_push;
-    start.momentum[i] = z.p[i] + change;
+    const Real p_i = z.p[i] + change;
+    start.slope[n + i] = p_i;
+    const Real q_push = k.half_h * p_i;
+    start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
   }
-  kinetic_gradient(par, start.momentum, start.slope + n);
 }
 
 // The derivative of the equations' residual, q first, at a stage.
 inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at,
-                          Matrix& matrix) {
+                          Matrix& __restrict matrix) {
   matrix.clear();
   for (int i = 0; i < n; ++i) matrix.put(i, i, 1.0);
   for (int i = 1; i <= 31; ++i) {
@@ -803,15 +805,12 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
 inline bool contract(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                     const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
+                     const State& carry, Start& __restrict start, State& __restrict dz,
+                     State& __restrict rest, StepReport& __restrict report) {
   // Fixed-point iteration.
   start.rule.begin(6);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
-    for (int i = 0; i < n; ++i) {
-      const Real q_push = k.half_h * start.slope[n + i];
-      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
-    }
     Distance distance;
     distance.add(start.lack, start.value, z.q, n);
     for (int i = 0; i < n; ++i) {
@@ -827,10 +826,6 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
   // What the equations lack at the rounded unknowns is solved for, too.
   for (bool more = true; more;) {
     evaluate(par, k, z, carry, start);
-    for (int i = 0; i < n; ++i) {
-      const Real q_push = k.half_h * start.slope[n + i];
-      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
-    }
     more = start.refinement(start.rule, start.value, start.lack, start.slope);
   }
   for (int i = 0; i < n; ++i) {
@@ -848,15 +843,12 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
 }
 
 inline bool newton(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                   const State& carry, Start& start, State& dz, State& rest, StepReport& report) {
+                   const State& carry, Start& __restrict start, State& __restrict dz,
+                   State& __restrict rest, StepReport& __restrict report) {
   // Newton's iteration on what the equations lack.
   start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
-    for (int i = 0; i < n; ++i) {
-      const Real q_push = k.half_h * start.slope[n + i];
-      start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
-    }
     differentiate(par, k, start.value, start.matrix);
     if (!start.matrix.factorise()) {
       report.iterations += iteration;
@@ -898,8 +890,8 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, Start& start, State& dz,
-                                      State& rest) {
+                                      const State& z, const State& carry, Start& __restrict start,
+                                      State& __restrict dz, State& __restrict rest) {
   StepReport report;
   if (!start.known) {
     for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
@@ -1005,9 +997,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_99347a84
+}  // namespace emitted_f19b185a
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x99347a84
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xf19b185a
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -312,7 +312,7 @@ class IterationWriter : public StatementWriter {
   }
 
   // What the rule says of an iteration that has moved, and what follows from it.
-  void judge(const char* type, const Place& rule, std::vector<Value> given) {
+  void judge(const std::string& type, const Place& rule, std::vector<Value> given) {
     Value verdict = action(type, rule, "", std::move(given));
     if (form_.lanes) return break_unless_any(std::move(verdict));
     add(Define{"Verdict", "verdict ", std::move(verdict)});
