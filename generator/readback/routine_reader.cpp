@@ -205,7 +205,8 @@ void RoutineReader::read(const written::Loop& node) {
   bool limited = !found.value;
   if (!node.limit.empty()) {
     limited = found.value && found.value->is_binary("<") &&
-              found.value->parts[0].is_name(begin.name) && found.value->parts[1].text == node.limit;
+              found.value->parts[0].is_name(begin.name) &&
+              scope_.is_count(found.value->parts[1], node.limit);
   }
   const bool first = begin.value->kind == CppExpression::Kind::number &&
                      begin.value->text == std::to_string(node.first);

@@ -59,6 +59,12 @@ const Meaning* TextScope::find(const std::string& name) const {
   return nullptr;
 }
 
+bool TextScope::is_count(const CppExpression& e, const std::string& count) const {
+  if (e.kind != TermKind::name) return e.text == count;
+  const Meaning* meaning = find(e.text);
+  return meaning != nullptr && meaning->kind == Meaning::Kind::index && meaning->name == count;
+}
+
 AffineIndex TextScope::index(const CppExpression& e) const {
   if (e.kind == TermKind::number) return {.constant = integer(e), .factors = {}};
   if (e.kind == TermKind::name) {

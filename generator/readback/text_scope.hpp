@@ -37,6 +37,8 @@ class TextScope {
   [[nodiscard]] MachineValue value(const CppExpression& e) const;
   // Of an index.  Throws TextNotUnderstood for what is none.
   [[nodiscard]] AffineIndex index(const CppExpression& e) const;
+  // So many times: a number, or the name that stands for it here.
+  [[nodiscard]] bool is_count(const CppExpression& e, const std::string& count) const;
   // Of a loop over stages in lanes, until it is set to nothing: its numbers are packs.
   void set_lanes(const std::string& index) { lane_index_ = index; }
   [[nodiscard]] bool in_lanes() const { return !lane_index_.empty(); }
