@@ -62,15 +62,19 @@ runtime::PluginSource to_compile(const PluginSource& plugin) {
 
 // What is written out has few equal operations side by side: long registers cost it more than they
 // give (Henon-Heiles 36 ns a step with them, 31 without).  Where it is longer g++ 12 mixes numbers
-// up that it packs into 512 bits, as in steps of chains of 16 to 24.
+// up that it packs into 512 bits, as in steps of chains of 16 to 24.  Stages are packed as they are
+// emitted, and what is packed besides costs time (double pendulum, gauss-16: 2.2 us a step, 1.6
+// without).
 runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice& choice) {
   runtime::Compiler compiler = chosen_compiler(choice);
 #if defined(__x86_64__) || defined(__i386__)
   const bool has_width = std::ranges::any_of(compiler.command, [](const std::string& word) {
     return word.starts_with("-mprefer-vector-width=");
   });
-  if (names_processor(compiler) && !plugin.in_loops && !has_width)
-    compiler.command.emplace_back("-mprefer-vector-width=128");
+  if (names_processor(compiler) && !plugin.in_loops && !has_width) {
+    compiler.command.emplace_back(plugin.has_stages ? "-fno-tree-slp-vectorize"
+                                                    : "-mprefer-vector-width=128");
+  }
 #endif
   return compiler;
 }

@@ -48,6 +48,7 @@ RoutineReader::RoutineReader(const CppFunction& function, const Routine& routine
       scope_.declare(field.name + "_", {Meaning::Kind::object, "self." + field.name},
                      function.line);
   }
+  if (!c_) scope_.declare("substeps", {Meaning::Kind::index, "substeps"}, function.line);
 }
 
 void RoutineReader::compare() {
