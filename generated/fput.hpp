@@ -729,9 +729,9 @@ void forget(History<Unknowns>& history) {
 }  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xf19b185a
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xa506a32d
 namespace fput::implicit_midpoint {
-inline namespace emitted_f19b185a {
+inline namespace emitted_a506a32d {
 
 namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -878,13 +878,13 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
   for (int i = 0; i < n; ++i) start.value[i] += start.lack[i];
   evaluate(par, k, z, carry, start);
   for (int i = 0; i < n; ++i) {
-    dz.q[i] = carry.q[i] + h * start.slope[n + i];
-    rest.q[i] = 0.0;
-    dz.p[i] = carry.p[i] - h * start.slope[i];
-    rest.p[i] = 0.0;
+    dz.q[i] = h * start.slope[n + i];
+    rest.q[i] = carry.q[i];
+    dz.p[i] = -h * start.slope[i];
+    rest.p[i] = carry.p[i];
   }
   // False for infinities and NaN alike.
-  const Real length = squares_of(dz.q) + squares_of(dz.p);
+  const Real length = squares_of(dz.q) + squares_of(rest.q) + squares_of(dz.p) + squares_of(rest.p);
   return length <= 1.0e308;
 }
 
@@ -997,9 +997,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_f19b185a
+}  // namespace emitted_a506a32d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xf19b185a
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xa506a32d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

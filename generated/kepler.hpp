@@ -313,9 +313,9 @@ void forget(History<Unknowns>& history) {
 }  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0xb9c5b317
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0xc1c96105
 namespace kepler::implicit_midpoint {
-inline namespace emitted_b9c5b317 {
+inline namespace emitted_c1c96105 {
 
 namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
@@ -350,9 +350,11 @@ struct Start {
   const Real p1 = z.p1;
   const Real p2 = z.p2;
   Real H_q1 = 0.0;
+  Real t1 = 0.0;
   Real H_q1_q1 = 0.0;
   Real H_q1_q2 = 0.0;
   Real H_q2 = 0.0;
+  Real t2 = 0.0;
   Real H_q2_q2 = 0.0;
   Real delta_q1 = 0.0;
   Real delta_q2 = 0.0;
@@ -361,26 +363,28 @@ struct Start {
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
   start.rule_0.begin(start.known);
   for (int iteration = 1;; ++iteration) {
-    const Real t1 = q1_bar * q1_bar;
-    const Real t2 = q2_bar * q2_bar;
-    const Real t3 = t1 + t2;
-    const Real t4 = 1.0 / t3;
-    const Real t5 = std::sqrt(t3);
-    const Real t6 = t4 * t5;
-    const Real t7 = t4 * t6;
-    H_q1 = q1_bar * t7;
-    const Real rest_p1 = carry.p1 + k.c1 * H_q1;
-    const Real p1_bar = p1 + rest_p1;
-    const Real t8 = t4 * t4;
+    const Real t3 = q1_bar * q1_bar;
+    const Real t4 = q2_bar * q2_bar;
+    const Real t5 = t3 + t4;
+    const Real t6 = 1.0 / t5;
+    const Real t7 = std::sqrt(t5);
+    const Real t8 = t6 * t7;
     const Real t9 = t6 * t8;
-    H_q1_q1 = t7 - 3.0 * t1 * t9;
+    H_q1 = q1_bar * t9;
+    t1 = k.c1 * H_q1;
+    const Real rest_p1 = t1 + carry.p1;
+    const Real p1_bar = p1 + rest_p1;
+    const Real t10 = t6 * t6;
+    const Real t11 = t8 * t10;
+    H_q1_q1 = t9 - 3.0 * t3 * t11;
     const Real d_p1_d_q1 = k.c1 * H_q1_q1;
-    H_q1_q2 = -3.0 * q1_bar * q2_bar * t9;
+    H_q1_q2 = -3.0 * q1_bar * q2_bar * t11;
     const Real d_p1_d_q2 = k.c1 * H_q1_q2;
-    H_q2 = q2_bar * t7;
-    const Real rest_p2 = carry.p2 + k.c1 * H_q2;
+    H_q2 = q2_bar * t9;
+    t2 = k.c1 * H_q2;
+    const Real rest_p2 = t2 + carry.p2;
     const Real p2_bar = p2 + rest_p2;
-    H_q2_q2 = t7 - 3.0 * t2 * t9;
+    H_q2_q2 = t9 - 3.0 * t4 * t11;
     const Real d_p2_d_q2 = k.c1 * H_q2_q2;
     const Real rest_q1 = carry.q1 + p1_bar * k.c2;
     const Real rest_q2 = carry.q2 + p2_bar * k.c2;
@@ -412,12 +416,12 @@ struct Start {
   start.value[1] = q2_bar + delta_q2;
   // The last increments correct the gradient to first order: no evaluation at the solution.
   const Real change_H_q1 = delta_q1 * H_q1_q1 + delta_q2 * H_q1_q2;
-  const Real H_q1_new = H_q1 + change_H_q1;
   const Real change_H_q2 = delta_q1 * H_q1_q2 + delta_q2 * H_q2_q2;
-  const Real H_q2_new = change_H_q2 + H_q2;
-  const Real rest_p1_new = carry.p1 + k.c1 * H_q1_new;
+  const Real rest_beside_p1 = carry.p1 + k.c1 * change_H_q1;
+  const Real rest_p1_new = t1 + rest_beside_p1;
   const Real p1_bar_new = p1 + rest_p1_new;
-  const Real rest_p2_new = carry.p2 + k.c1 * H_q2_new;
+  const Real rest_beside_p2 = carry.p2 + k.c1 * change_H_q2;
+  const Real rest_p2_new = t2 + rest_beside_p2;
   const Real p2_bar_new = p2 + rest_p2_new;
   const Real rest_dp1 = carry.p1 - h * change_H_q1;
   const Real rest_dp2 = carry.p2 - h * change_H_q2;
@@ -520,9 +524,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_b9c5b317
+}  // namespace emitted_c1c96105
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xb9c5b317
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xc1c96105
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -287,9 +287,9 @@ void forget(History<Unknowns>& history) {
 }  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x11f67591
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xb6df9578
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_11f67591 {
+inline namespace emitted_b6df9578 {
 
 namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
@@ -322,6 +322,7 @@ struct Start {
   const Real q = z.q;
   const Real p = z.p;
   Real H_q = 0.0;
+  Real t1 = 0.0;
   Real H_q_q = 0.0;
   Real delta_q = 0.0;
   Real q_bar = start.known ? start.value[0] : q;
@@ -329,7 +330,8 @@ struct Start {
   start.rule_0.begin(start.known);
   for (int iteration = 1;; ++iteration) {
     H_q = par.eps * std::sin(q_bar);
-    const Real rest_p = carry.p + k.c1 * H_q;
+    t1 = k.c1 * H_q;
+    const Real rest_p = t1 + carry.p;
     const Real p_bar = p + rest_p;
     H_q_q = par.eps * std::cos(q_bar);
     const Real d_p_d_q = k.c1 * H_q_q;
@@ -354,8 +356,8 @@ struct Start {
   start.value[0] = q_bar + delta_q;
   // The last increments correct the gradient to first order: no evaluation at the solution.
   const Real change_H_q = delta_q * H_q_q;
-  const Real H_q_new = H_q + change_H_q;
-  const Real rest_p_new = carry.p + k.c1 * H_q_new;
+  const Real rest_beside_p = carry.p + k.c1 * change_H_q;
+  const Real rest_p_new = t1 + rest_beside_p;
   const Real p_bar_new = p + rest_p_new;
   const Real rest_dp = carry.p - h * change_H_q;
   dz.q = carry.q + h * p_bar_new;
@@ -451,9 +453,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_11f67591
+}  // namespace emitted_b6df9578
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x11f67591
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xb6df9578
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -173,7 +173,8 @@ std::vector<Row> all_rows() {
   const Problem soft{.name = "chain of 6, Newton", .model = soft_chain(6)};
   add_members(rows, soft, 6);
   const Problem six_at_large{.name = "chain of 6, h = 0.3", .model = chain(6), .h = 0.3};
-  for (const char* scheme : {"gauss-4", "gauss-6"}) {
+  add_members(rows, six_at_large, 6);
+  for (const char* scheme : {"gauss-4", "gauss-6", "gauss-8"}) {
     add(rows, six_at_large, scheme, {.scheme = scheme});
     add(rows, six_at_large, std::string(scheme) + ", Newton",
         {.scheme = scheme, .solver = "newton"});

@@ -8,12 +8,13 @@ namespace hamgen {
 namespace {
 
 // What z + carry + row lacks of bar: z, bar and what is large cancel without an error, and come
-// first.
-Expression lacking(const Expression& z, const Expression& bar, const Expression& carry,
-                   const StageRow& row) {
+// first; what is small is one number.
+Expression lacking(RoutineBuilder& b, Body& body, const Expression& z, const Expression& bar,
+                   const Expression& carry, const StageRow& row, const std::string& small) {
   Expression sum = z - bar;
   for (const Expression& term : row.large) sum += term;
-  return row.large.empty() ? sum : sum + (carry + row.small);
+  if (row.large.empty()) return sum;
+  return sum + (row.small.is_zero() ? carry : b.let(body, small, carry + row.small));
 }
 
 // z + (carry + row), what is small first; z alone where nothing moves it.
@@ -141,7 +142,8 @@ Routine LoopStage::evaluate() const {
   b.body().push_back(velocity);
   Body again;
   const StageRow row = weights_.row_of_p(b, again, at);
-  const Expression missing = b.let(again, "missing", lacking(z, bar, carry, row));
+  const Expression missing =
+      b.let(again, "missing", lacking(b, again, z, bar, carry, row, "p_small"));
   again.push_back({Assign{bar.name(), bar + missing * own}});
   b.body().push_back(for_each(elements(), std::move(again)));
   b.body().back().remark = {"What their rows lack there, rounded as they are."};
@@ -216,7 +218,9 @@ Body LoopStage::lacks(RoutineBuilder& b, const Gradient& at) const {
     const Expression z = state(b, "z", field);
     const Expression bar = is_p ? momentum(b) : coordinate(b);
     const StageRow row = is_p ? weights_.row_of_p(b, each, at) : weights_.row_of_q(b, each, at);
-    each.push_back({Assign{lack(b, is_p).name(), lacking(z, bar, state(b, "carry", field), row)}});
+    const Expression missing =
+        lacking(b, each, z, bar, state(b, "carry", field), row, is_p ? "p_small" : "q_small");
+    each.push_back({Assign{lack(b, is_p).name(), missing}});
   }
   return each;
 }

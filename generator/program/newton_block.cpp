@@ -207,7 +207,7 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
   }
   for (const int v : newton.members) {
     const Expression value =
-        anew.contains(v) ? row(v, newton.outside) : stage_value_[index(v)] + moved[v];
+        anew.contains(v) ? row_at_solution(v, newton.outside) : stage_value_[index(v)] + moved[v];
     renew(stage_value_[index(v)], equations_.stage(v).name(), value, newton.outside);
   }
   for (const int k : newton.evaluated) {

@@ -104,9 +104,12 @@ class StageRoutines : StageParts {
     Body each;
     const Expression from = state(b);
     const Expression value = of_start(b, "value", row());
-    const Expression sum = b.let(each, "moved", combination(b, "coupling"));
+    // Term after term: the difference cancels with them, and what is left loses less than a sum of
+    // them would.  At h = 0.3, where L_i are twelfths, that sum had the form of a chain of 6 drift
+    // by 1.2e-3 units of rounding a step of gauss-6.
+    const Expression moved = combination(b, "coupling");
     const Expression small = of_start(b, "small", affine("j"));
-    each.push_back({Assign{of_start(b, "lack", row()).name(), from - value + sum + small}});
+    each.push_back({Assign{of_start(b, "lack", row()).name(), from - value + moved + small}});
     b.body().push_back(for_all(std::move(each)));
     return b.take();
   }

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-
-#include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
 
@@ -18,11 +15,6 @@ std::vector<Expression> terms_of(const Expression& e) {
   std::vector<Expression> terms;
   for (const Expression& term : rest.operands()) terms.push_back(Expression(coefficient) * term);
   return terms;
-}
-
-bool is_exact_weight(const Expression& e) {
-  return e.is_one() || e == Expression(Rational(1, 2)) || e == Expression(-1) ||
-         e == Expression(Rational(-1, 2));
 }
 
 std::vector<Section> sections(const SolvePlan& plan) {
@@ -51,6 +43,15 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   }
   keeps_gradients_ = std::ranges::any_of(
       equations_.stage_matrix, [](const auto& entry) { return !is_exact_weight(entry.second); });
+  const auto is_solved = [](const Block& block) {
+    return block.kind == BlockKind::linear || block.kind == BlockKind::newton;
+  };
+  const auto is_contracted = [](const Block& block) {
+    return block.kind == BlockKind::fixed_point;
+  };
+  keeps_losses_ = keeps_gradients_ && std::ranges::any_of(plan_.blocks, is_solved) &&
+                  std::ranges::none_of(plan_.blocks, is_contracted) && !plan_.sweeps;
+  sums_exactly_ = keeps_losses_;
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -107,13 +108,20 @@ std::string StepBuilder::name_of(int i) const {
 
 std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
   if (gradient_[index(k)].is_zero()) return {Expression(0), Expression(0)};
-  const Expression h = i < n_ ? step_size() : -step_size();
+  const Expression sign(i < n_ ? 1 : -1);
   const auto& [main, correction] = correction_[index(k)];
-  if (correction.is_zero()) return {h * gradient_[index(k)], carry_symbol(i)};
+  const Expression& gradient = correction.is_zero() ? gradient_[index(k)] : main;
   std::vector<Expression> terms{carry_symbol(i)};
-  for (const Expression& term : terms_of(correction)) terms.push_back(h * term);
+  Expression large = sign * step_size() * gradient;
+  if (keeps_losses_) {
+    const auto [flow, lost] = flow_of(k, gradient, straight());
+    large = sign * flow;
+    terms.push_back(sign * lost);
+  }
+  for (const Expression& term : terms_of(correction)) terms.push_back(sign * step_size() * term);
+  if (terms.size() == 1) return {large, terms[0]};
   const Expression small = Expression::sum(std::move(terms));
-  return {h * main, sums_exactly_ ? small : named_rest("d" + name_of(i), small, straight())};
+  return {large, sums_exactly_ ? small : named_rest("d" + name_of(i), small, straight())};
 }
 
 Expression StepBuilder::named_rest(const std::string& of, const Expression& value, int section) {
@@ -139,77 +147,11 @@ Expression StepBuilder::at_stage(const Expression& e) const {
   return replacements.empty() ? e : substitute(e, replacements);
 }
 
-Expression StepBuilder::row(int i, int section) {
-  std::vector<Expression> terms{carry_symbol(i)};
-  std::vector<Expression> small = terms;
-  for (const int k : equations_.row_gradients(i)) {
-    const auto [large, lost] = row_terms(i, k, section);
-    terms.push_back(large);
-    small.push_back(lost);
-  }
-  if (keeps_gradients_) {
-    terms[0] = named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
-  }
-  return equations_.mechanics.variable(i) +
-         named_rest(name_of(i), Expression::sum(std::move(terms)), section);
-}
-
-Expression StepBuilder::weight(int i, int k) const {
-  return step_size() * equations_.stage_matrix.at({i, k});
-}
-
 Expression StepBuilder::name_once(const std::string& name, const Expression& value, int section,
                                   Lowering::Keep keep) {
   const Expression symbol = Expression::symbol(name, kRankOfTemporary);
   if (named_.insert(name).second) lowering_.define(name, value, section, keep);
   return symbol;
-}
-
-Expression StepBuilder::lacking(int i, const Expression& value, int section) {
-  if (!keeps_gradients_) return value - row(i, section);
-  // The largest weights first: these differences cancel, and have no error.
-  std::vector<int> components = equations_.row_gradients(i);
-  std::ranges::stable_sort(components, std::greater<>(), [&](int k) {
-    const Expression& entry = equations_.stage_matrix.at({i, k});
-    return entry.is_number() ? Rational(abs(entry.number())) : Rational(1, 4);
-  });
-  Expression difference =
-      named_rest("lack " + name_of(i), value - equations_.mechanics.variable(i), section);
-  std::vector<Expression> small{carry_symbol(i)};
-  for (const int k : components) {
-    const auto [large, lost] = row_terms(i, k, section);
-    difference = named_rest("lack " + name_of(i), difference - large, section);
-    small.push_back(lost);
-  }
-  return difference -
-         named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
-}
-
-std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, int section) {
-  const Expression entry = equations_.stage_matrix.at({i, k});
-  if (!keeps_gradients_) return {weight(i, k) * gradient_[index(k)], Expression(0)};
-  const std::string& of = gradient_[index(k)].name();
-  const Expression flow = name_once("h*" + of, step_size() * gradient_[index(k)], section);
-  if (is_exact_weight(entry)) return {entry * flow, Expression(0)};
-  // The larger of two weights that sum to one is multiplied, the smaller is what is left.
-  const Expression sign(i < n_ ? 1 : -1);
-  const bool diagonal = k == (i < n_ ? i + n_ : i - n_);
-  const Expression own = sign * entry;
-  const Expression other = Expression(1) - own;
-  const bool is_smaller = own.is_number() ? own.number() < Rational(1, 2) : i >= n_;
-  const bool is_left = diagonal && is_smaller;
-  Expression factor = is_left ? other : own;
-  if (!factor.is_number()) {
-    factor = name_once("(" + to_text(factor) + ")", factor, kCoefficients);
-  }
-  const std::string text = to_text(factor) + "*" + of;
-  const Expression part =
-      name_once("part(" + text + ")", factor * flow, section, Lowering::Keep::apart);
-  const Expression lost =
-      name_once("lost(" + text + ")", Expression::apply(kProductError, {factor, flow}), section);
-  if (!is_left) return {sign * part, sign * lost};
-  const Expression left = name_once("left(" + text + ")", flow - part, section);
-  return {sign * left, -(sign * lost)};
 }
 
 void StepBuilder::define_gradient(int k, int section) {

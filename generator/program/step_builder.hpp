@@ -90,8 +90,15 @@ class StepBuilder {
   // the smaller it is what is left, a difference without an error for weights from -1 to 2.
   // Weights that are exact, 1/2 and 1, need none of this.
   //
+  static bool is_exact_weight(const Expression& e);
   // The term of row i with dH/dz_k, and what rounding took from it.
-  [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k, int section);
+  [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k,
+                                                            const Expression& gradient,
+                                                            int section);
+  // h times this, and what rounding took from it: where h is a simple fraction a pattern again.
+  std::pair<Expression, Expression> flow_of(int k, const Expression& gradient, int section);
+  // Does dH/dz_k depend on the stage?
+  [[nodiscard]] bool is_of_state(int k) const;
   // A number of its own, defined once by this name.
   Expression name_once(const std::string& name, const Expression& value, int section,
                        Lowering::Keep keep = Lowering::Keep::yes);
@@ -103,6 +110,11 @@ class StepBuilder {
   [[nodiscard]] Expression at_stage(const Expression& e) const;
   // zbar_i = z_i + h sum_k B_ik dH/dz_k with the gradient's present symbols.
   [[nodiscard]] Expression row(int i, int section);
+  // The same, of gradients with their corrections beside them.
+  [[nodiscard]] Expression row_at_solution(int i, int section);
+  // `terms_of` a gradient of the row: what is large, what is small.
+  template <class TermsOf>
+  [[nodiscard]] Expression row_of(int i, int section, const TermsOf& terms_of);
   // A stage value less its row.
   [[nodiscard]] Expression lacking(int i, const Expression& value, int section);
   // h B_ik
@@ -163,6 +175,7 @@ class StepBuilder {
   int stage_ = 0;
   bool solving_done_ = false;
   std::set<std::string> solved_;  // stage values of the blocks so far
+  bool keeps_losses_ = false;     // and what rounding takes from h times them
   bool sums_exactly_ = false;     // increments and their rests, see Note [affine blocks]
   bool keeps_gradients_ = false;  // each as a number, see Note [weights that sum to one]
   std::set<std::string> named_;

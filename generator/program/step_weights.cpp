@@ -69,6 +69,8 @@ void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool i
   }
   const Expression flow = b.let(body, stem + "flow", step_size() * slope);
   const Expression share = weight("share");
+  // Sums take it before what it was lost of: of a small number beside a large one they lose more.
+  (void)b.local(stem + "lost");
   const Expression part = b.let(body, stem + "part", share * flow);
   const Expression lost =
       b.let(body, stem + "lost", Expression::apply(kProductError, {share, flow}));

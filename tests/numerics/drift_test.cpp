@@ -84,6 +84,31 @@ TEST(Drift, TheEquationsOfLoopsStartFromTheCarry) {
                          {.model = chain(25), .request = {}});
 }
 
+// What is small goes into a sum before what is large.
+TEST(Drift, WhatAProductLostComesBeforeIt) {
+  expect_drift_only_with({{"carry.p[i] - p_lost - p_part", "carry.p[i] - p_part - p_lost"}},
+                         {.model = soft_chain(25), .request = {.alpha = "3/10"}, .h = 0.3},
+                         {.steps = 50'000});
+}
+
+// What a sum of h slope and the carry loses is a pattern where h is a simple fraction.
+TEST(Drift, WhatNewtonFindsInLoopsHasTheCarryBesideIt) {
+  expect_drift_only_with({{"dz.q[i] = h *", "dz.q[i] = carry.q[i] + h *"},
+                          {"rest.q[i] = carry.q[i]", "rest.q[i] = 0"},
+                          {"dz.p[i] = -h *", "dz.p[i] = carry.p[i] - h *"},
+                          {"rest.p[i] = carry.p[i]", "rest.p[i] = 0"}},
+                         {.model = soft_chain(25), .request = {.solver = "newton"}, .h = 0.3});
+}
+
+// Of twelfths, as h b_i are here, a sum loses a pattern.
+TEST(Drift, WhatGaussStagesLackIsSummedFromTheirDifference) {
+  expect_drift_only_with({{"start.small[j] +\n                 Lanes::at(k.coupling[0] + i)",
+                           "start.small[j] + (\n                 Lanes::at(k.coupling[0] + i)"},
+                          {"start.slope[4 * j + 2]);\n", "start.slope[4 * j + 2]));\n"}},
+                         {.model = chain(6), .request = {.scheme = "gauss-6"}, .h = 0.3},
+                         {.steps = 50'000});
+}
+
 // Which of two neighbours the rounded stages are depends on where they came from.
 TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
   expect_drift_only_with({{"start.refinement.change[", "0 * start.refinement.change["}},

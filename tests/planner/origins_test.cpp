@@ -44,18 +44,19 @@ step                  |  q = z.q
 step                  |  p = z.p
 step                  |  iterate with Newton's rule:
 iteration H 2 3       |    H(q) = c*sin(bar(q)) + bar(q)*#0
-iteration H 2 3       |    rest(p) = carry(p) + #1*H(q)
+iteration H 2 3       |    #2 = #1*H(q)
+iteration H 2 3       |    rest(p) = #2 + carry(p)
 iteration H 2 3       |    bar(p) = p + rest(p)
 iteration H 2 3       |    H(q,q) = #0 + c*cos(bar(q))
 iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
-iteration             |    rest(q) = carry(q) + bar(p)*#2
+iteration             |    rest(q) = carry(q) + bar(p)*#3
 iteration             |    R(q) = bar(q) - q - rest(q)
 iteration H 2 3       |    R(q,q) = 1 + #1*d(p)/d(q)
 iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
-step      H 2 3       |  H(q)* = H(q) + change(H(q))
-step      H 2 3       |  rest(p)* = carry(p) + #1*H(q)*
+step      H 2 3       |  rest(beside p) = carry(p) + #1*change(H(q))
+step      H 2 3       |  rest(p)* = #2 + rest(beside p)
 step      H 2 3       |  bar(p)* = p + rest(p)*
 step      H 2 3       |  rest(dp) = carry(p) - h*change(H(q))
 step      H 1         |  dz.q <- carry(q) + h*bar(p)*
@@ -69,7 +70,7 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
             R"(prepare(par, h):
 run                   |  #0 <- w^2
 step size             |  #1 <- -h/2
-step size             |  #2 <- h/2
+step size             |  #3 <- h/2
 )");
 }
 
