@@ -729,9 +729,9 @@ void forget(History<Unknowns>& history) {
 }  // namespace hamgen_007a8b99::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xa506a32d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x38f2671c
 namespace fput::implicit_midpoint {
-inline namespace emitted_a506a32d {
+inline namespace emitted_38f2671c {
 
 namespace numerics = ::hamgen_007a8b99::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -829,10 +829,10 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     more = start.refinement(start.rule, start.value, start.lack, start.slope);
   }
   for (int i = 0; i < n; ++i) {
-    dz.q[i] = h * start.refinement.slope[n + i];
     const Real p_push = k.half_h * start.refinement.slope[i];
     const Real moved = carry.p[i] - p_push;
     const Real bar = z.p[i] + moved;
+    dz.q[i] = h * start.refinement.slope[n + i];
     rest.q[i] = carry.q[i] + h * start.refinement.change[n + i] + h * (z.p[i] - bar + moved);
     dz.p[i] = -h * start.refinement.slope[i];
     rest.p[i] = carry.p[i] - h * start.refinement.change[i];
@@ -997,9 +997,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_a506a32d
+}  // namespace emitted_38f2671c
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xa506a32d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x38f2671c
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -315,9 +315,7 @@ class LoopMember : LoopStage {
     const Expression carry = state(b, "carry", "p");
     const Gradient at = {b.at("start", "refinement.slope", {affine("i")}), Expression(0)};
     const StageRow row = weights_.row_of_p(b, each, at);
-    Expression sum = carry + row.small;
-    for (const Expression& term : row.large) sum += term;
-    const Expression moved = b.let(each, "moved", sum);
+    const Expression moved = b.let(each, "moved", sum_of_row(b, each, carry, row, "small"));
     each.push_back({Let{bar.name(), z + moved}});
     return z - bar + moved;
   }
@@ -343,11 +341,22 @@ class LoopMember : LoopStage {
         continue;
       }
       Expression small = carry;
-      each.push_back({Assign{dz.name(), flow(refined ? "refinement.slope" : "slope")}});
+      Expression large = flow(refined ? "refinement.slope" : "slope");
       if (refined) small += flow("refinement.change");
-      if (refined && !is_p && knows_momentum_error()) {
+      const bool tells_momenta = refined && knows_momentum_error();
+      if (tells_momenta && !is_p) {
         small += step_size() * *arrays_.mass * lost_of_momentum(b, each);
       }
+      if (weights_.shares) {
+        const Expression slope =
+            b.at("start", refined ? "refinement.slope" : "slope", {affine("i", from)});
+        const auto [product, lost] = tells_momenta && is_p
+                                         ? std::pair(b.local("p_flow"), b.local("p_flow_lost"))
+                                         : StepWeights::flow_of(b, each, !is_p, slope);
+        large = is_p ? -product : product;
+        small += is_p ? -lost : lost;
+      }
+      each.push_back({Assign{dz.name(), large}});
       const Expression rest = state(b, "rest", field);
       each.push_back({Assign{rest.name(), small}});
       end.finite.push_back(rest.name());

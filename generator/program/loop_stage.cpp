@@ -21,12 +21,19 @@ Expression lacking(RoutineBuilder& b, Body& body, const Expression& z, const Exp
 Expression moved(RoutineBuilder& b, Body& body, const Expression& z, const Expression& carry,
                  const StageRow& row, const std::string& change) {
   if (row.large.empty()) return z;
-  Expression sum = carry + row.small;
-  for (const Expression& term : row.large) sum += term;
-  return z + b.let(body, change, sum);
+  const std::string small = std::string(change, 0, change.find("change")) + "small";
+  return z + b.let(body, change, sum_of_row(b, body, carry, row, small));
 }
 
 }  // namespace
+
+Expression sum_of_row(RoutineBuilder& b, Body& body, const Expression& carry, const StageRow& row,
+                      const std::string& small) {
+  Expression sum = carry;
+  if (!row.small.is_zero()) sum = b.let(body, small, carry + row.small);
+  for (const Expression& term : row.large) sum += term;
+  return sum;
+}
 
 void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
                const Expression& carry, const StageRow& row, const std::string& change) {

@@ -14,7 +14,10 @@
 
 namespace hamgen {
 
-// bar = z + (carry + row), what is small first; z alone where nothing moves it.
+// carry + row, with what is small as a local of the body of this name, for it is added first.
+Expression sum_of_row(RoutineBuilder& b, Body& body, const Expression& carry, const StageRow& row,
+                      const std::string& small);
+// bar = z + (carry + row); z alone where nothing moves it.
 void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
                const Expression& carry, const StageRow& row, const std::string& change);
 

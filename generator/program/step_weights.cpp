@@ -67,20 +67,26 @@ void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool i
     row.large.push_back(sign * b.let(body, stem + "push", *by * slope));
     return;
   }
-  const Expression flow = b.let(body, stem + "flow", step_size() * slope);
+  const auto [flow, flow_lost] = flow_of(b, body, is_q, slope);
   const Expression share = weight("share");
-  // Sums take it before what it was lost of: of a small number beside a large one they lose more.
-  (void)b.local(stem + "lost");
   const Expression part = b.let(body, stem + "part", share * flow);
   const Expression lost =
       b.let(body, stem + "lost", Expression::apply(kProductError, {share, flow}));
   if (is_q == q_takes_more) {
     row.large.push_back(sign * part);
-    row.small += sign * lost;
+    row.small += sign * (lost + share * flow_lost);
   } else {
     row.large.push_back(sign * b.let(body, stem + "left", flow - part));
-    row.small += -sign * lost;
+    row.small += sign * (flow_lost - share * flow_lost - lost);
   }
+}
+
+std::pair<Expression, Expression> StepWeights::flow_of(RoutineBuilder& b, Body& body, bool is_q,
+                                                       const Expression& slope) {
+  const std::string stem = is_q ? "q_" : "p_";
+  const Expression flow = b.let(body, stem + "flow", step_size() * slope);
+  return {flow,
+          b.let(body, stem + "flow_lost", Expression::apply(kProductError, {step_size(), slope}))};
 }
 
 StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at) const {

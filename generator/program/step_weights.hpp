@@ -46,6 +46,9 @@ struct StepWeights {
   // The row's products as locals of the body.
   [[nodiscard]] StageRow row_of_q(RoutineBuilder& b, Body& body, const Gradient& at) const;
   [[nodiscard]] StageRow row_of_p(RoutineBuilder& b, Body& body, const Gradient& at) const;
+  // h times a slope as a local of the body, and what rounding took from it.
+  static std::pair<Expression, Expression> flow_of(RoutineBuilder& b, Body& body, bool is_q,
+                                                   const Expression& slope);
 
  private:
   void add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q,

@@ -86,7 +86,7 @@ TEST(Drift, TheEquationsOfLoopsStartFromTheCarry) {
 
 // What is small goes into a sum before what is large.
 TEST(Drift, WhatAProductLostComesBeforeIt) {
-  expect_drift_only_with({{"carry.p[i] - p_lost - p_part", "carry.p[i] - p_part - p_lost"}},
+  expect_drift_only_with({{"= -(p_part - small)", "= carry.p[i] - p_part - p_lost"}},
                          {.model = soft_chain(25), .request = {.alpha = "3/10"}, .h = 0.3},
                          {.steps = 50'000});
 }
