@@ -67,6 +67,13 @@ std::string tableau_text(const RungeKutta& tableau) {
   return text + "b: " + list_text(tableau.b) + "\nc: " + list_text(tableau.c) + "\n";
 }
 
+// The degrees of freedom of a system in loops all have the same C: that of one of them.
+SparseMatrix gauge_of_series(const Mechanics& mechanics, const Member& member) {
+  if (!mechanics.keeps_sums()) return member.c;
+  const auto [alpha, beta, gamma] = uniform_parameters(member).value();
+  return family_member(1, {{alpha}}, {{beta}}, {{gamma}}).member().c;
+}
+
 }  // namespace
 
 Expression step_size() { return Expression::symbol("h", kRankOfStep); }
@@ -159,7 +166,8 @@ StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme, Hessi
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   if (scheme.is_member() && scheme.member().generating_order > 0) {
     equations.function =
-        generating_function(mechanics, scheme.member().c, scheme.member().generating_order, wish);
+        generating_function(mechanics, gauge_of_series(mechanics, scheme.member()),
+                            scheme.member().generating_order, wish);
     equations.energy_gradient = mechanics.gradient;
     equations.energy_kernels = mechanics.kernels;
     equations.mechanics.gradient = equations.function->gradient;

@@ -19,6 +19,11 @@ const QuantityList::Run& run_around(const QuantityList& list, long place) {
   return *found;
 }
 
+// By place, whatever the length of the system.
+int rank_of(const AffineIndex& position, const std::vector<KernelRange>& ranges) {
+  return kRankOfVariable + static_cast<int>(least_value(position, ranges));
+}
+
 }  // namespace
 
 AffineIndex composed(const AffineIndex& index, const std::string& name, const AffineIndex& value) {
@@ -42,7 +47,7 @@ KernelFrame::KernelFrame(const Mechanics& mechanics, std::optional<KernelRange> 
 
 Expression KernelFrame::element(const AffineIndex& position) {
   const long first = least_value(position, kernel_.ranges);
-  const int rank = kRankOfVariable + static_cast<int>(first);
+  const int rank = rank_of(position, kernel_.ranges);
   const auto known = std::ranges::find(kernel_.slots, position, &Slot::position);
   if (known != kernel_.slots.end()) return Expression::symbol(known->symbol, rank);
   std::string symbol = mechanics_->variables.name(static_cast<std::size_t>(first));
@@ -92,33 +97,49 @@ Expression KernelFrame::seen(const Kernel& kernel, const AffineIndex& at, const 
   return substitute(e, names);
 }
 
-const Slot* KernelFrame::slot(const std::string& symbol) const {
+std::optional<AffineIndex> KernelFrame::place(const std::string& symbol) const {
   const auto found = std::ranges::find(kernel_.slots, symbol, &Slot::symbol);
-  return found == kernel_.slots.end() ? nullptr : &*found;
+  return found == kernel_.slots.end() ? std::nullopt : std::optional(found->position);
 }
 
+namespace {
+
+std::vector<Expression> symbols_of(const Kernel& kernel) {
+  std::vector<Expression> result;
+  for (const Slot& slot : kernel.slots)
+    result.push_back(Expression::symbol(slot.symbol, rank_of(slot.position, kernel.ranges)));
+  return result;
+}
+
+}  // namespace
+
 Kernel KernelFrame::kernel(const Expression& value, std::set<int> terms) const {
-  Kernel result{.ranges = kernel_.ranges, .slots = {}, .parameters = {}, .value = value};
+  Kernel result{.ranges = kernel_.ranges,
+                .slots = {},
+                .parameters = {},
+                .value = value,
+                .gradient = {},
+                .hessian = {},
+                .terms = std::move(terms)};
   const std::set<std::string> used = symbols(value);
   const auto is_used = [&](const auto& slot) { return used.contains(slot.symbol); };
   std::ranges::copy_if(kernel_.slots, std::back_inserter(result.slots), is_used);
   std::ranges::copy_if(kernel_.parameters, std::back_inserter(result.parameters), is_used);
   std::ranges::sort(result.slots, {},
-                    [&](const Slot& slot) { return least_value(slot.position, result.ranges); });
-  std::vector<Expression> variables;
-  for (const Slot& slot : result.slots) {
-    const long first = least_value(slot.position, result.ranges);
-    variables.push_back(Expression::symbol(slot.symbol, kRankOfVariable + static_cast<int>(first)));
-  }
-  result.gradient = gradient(value, variables);
+                    [&](const Slot& slot) { return rank_of(slot.position, result.ranges); });
+  result.gradient = gradient(value, symbols_of(result));
+  return result;
+}
+
+Kernel with_second_derivatives(Kernel kernel) {
+  const std::vector<Expression> variables = symbols_of(kernel);
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const std::vector<Expression> row = gradient(result.gradient[i], variables);
+    const std::vector<Expression> row = gradient(kernel.gradient[i], variables);
     for (std::size_t j = i; j < variables.size(); ++j) {
-      if (!row[j].is_zero()) result.hessian.emplace(std::pair(i, j), row[j]);
+      if (!row[j].is_zero()) kernel.hessian.emplace(std::pair(i, j), row[j]);
     }
   }
-  result.terms = std::move(terms);
-  return result;
+  return kernel;
 }
 
 }  // namespace hamgen

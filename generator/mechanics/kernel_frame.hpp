@@ -24,9 +24,9 @@ class KernelFrame {
   // The symbol of an element of the state.
   [[nodiscard]] Expression element(const AffineIndex& position);
   // Where the symbol stands in the state; empty for others.
-  [[nodiscard]] const Slot* slot(const std::string& symbol) const;
+  [[nodiscard]] std::optional<AffineIndex> place(const std::string& symbol) const;
 
-  // The sum of what is added here, with its first and second derivatives.
+  // The sum of an expression in these symbols, with its first derivatives.
   [[nodiscard]] Kernel kernel(const Expression& value, std::set<int> terms) const;
 
  private:
@@ -35,5 +35,7 @@ class KernelFrame {
   const Mechanics* mechanics_;
   Kernel kernel_;
 };
+
+[[nodiscard]] Kernel with_second_derivatives(Kernel kernel);
 
 }  // namespace hamgen

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/generating_series.hpp"
 #include "generator/mechanics/kernel_frame.hpp"
@@ -24,37 +25,78 @@ struct NotLocal {
   std::string why;
 };
 
-// Single instances with so many elements are one kernel.
+// Single instances with elements in common are one kernel, of at most so many.
 constexpr std::size_t kMostInOne = 8;
 
 long factor_of(const AffineIndex& index) {
   return index.factors.empty() ? 0 : index.factors.begin()->second;
 }
-
-// A single instance is a range without an index.
-constexpr const char* kSingle = "";
-std::optional<KernelRange> range_of(const KernelRange& range) {
-  return range.index == kSingle ? std::nullopt : std::optional(range);
+// How far apart the elements of neighbouring instances are.
+long stride_of(const Kernel& kernel) {
+  return kernel.ranges.empty() ? 1 : std::abs(factor_of(kernel.slots.front().position));
 }
+
+// Where each instance meets a fixed number of others.
+void require_neighbours(const Kernel& kernel) {
+  if (kernel.ranges.size() > 1) throw NotLocal{"a sum over several indices"};
+  for (const Slot& slot : kernel.slots) {
+    const bool moves = !slot.position.factors.empty();
+    if (!kernel.ranges.empty() && !moves)
+      throw NotLocal{fmt::format("{} in every summand of a sum", slot.symbol)};
+    if (moves && std::abs(factor_of(slot.position)) != stride_of(kernel))
+      throw NotLocal{fmt::format("{} beside {}, whose distance grows", kernel.slots.front().symbol,
+                                 slot.symbol)};
+  }
+}
+
+// What a kernel runs over: a single instance has no index.
 KernelRange run(const std::string& index, long first, long last) {
   return {index, {.constant = first, .factors = {}}, {.constant = last, .factors = {}}};
 }
-KernelRange only_range(const Kernel& kernel) {
-  return kernel.ranges.empty() ? run(kSingle, 0, 0) : kernel.ranges.front();
+KernelRange range_of(const Kernel& kernel) {
+  return kernel.ranges.empty() ? run("", 0, 0) : kernel.ranges.front();
+}
+AffineIndex unit(const KernelRange& range) {
+  if (range.index.empty()) return {};
+  return {.constant = 0, .factors = {{range.index, 1}}};
 }
 
-// A slot of another kernel that stands at an element seen from a range: at which index of the
-// other, and for which indices of the range.
+// Instances of a kernel, by an index of their own.
+struct Instances {
+  const Kernel& kernel;
+  KernelRange range;
+  AffineIndex own;  // the kernel's index in that of the range
+};
+
+// They as a new kernel, to which the instances of others that they meet add.
+struct Part {
+  explicit Part(const Mechanics& mechanics, const Instances& instances)
+      : of(instances),
+        frame(mechanics, of.range.index.empty() ? std::nullopt : std::optional(of.range)),
+        terms(of.kernel.terms) {}
+  const Instances& of;
+  KernelFrame frame;
+  std::set<int> terms;
+  std::set<long> cuts = {};  // where instances begin that meet others than those before
+
+  [[nodiscard]] Expression own(const Expression& e) { return frame.seen(of.kernel, of.own, e); }
+  [[nodiscard]] AffineIndex place(const Slot& slot) const {
+    return of.kernel.ranges.empty() ? slot.position
+                                    : composed(slot.position, range_of(of.kernel).index, of.own);
+  }
+};
+
+// Which instances of a range have a slot of another kernel at an element of theirs, and at which
+// index of that kernel.
 struct Meeting {
   AffineIndex at;
   long first, last;
 };
-
 std::optional<Meeting> meeting(const AffineIndex& element, const KernelRange& range,
-                               const AffineIndex& position, const KernelRange& of) {
+                               const AffineIndex& slot, const KernelRange& of_slot) {
   const long mine = factor_of(element);
-  const long its = factor_of(position);
-  const long apart = element.constant - position.constant;
+  const long its = factor_of(slot);
+  const long apart = element.constant - slot.constant;
   Meeting found{{}, range.lower.constant, range.upper.constant};
   const auto keep = [&found](long first, long last) {
     found.first = std::max(found.first, first);
@@ -65,7 +107,7 @@ std::optional<Meeting> meeting(const AffineIndex& element, const KernelRange& ra
     found.at.constant = apart / its;
     if (mine != 0) found.at.factors[range.index] = mine / its;
     const IndexInterval inside =
-        indices_between(found.at, range.index, of.lower.constant, of.upper.constant);
+        indices_between(found.at, range.index, of_slot.lower.constant, of_slot.upper.constant);
     keep(inside.first, inside.last);
   } else if (mine != 0) {
     if (apart % mine != 0) return {};
@@ -74,6 +116,19 @@ std::optional<Meeting> meeting(const AffineIndex& element, const KernelRange& ra
     return {};
   }
   return found.first <= found.last ? std::optional(found) : std::nullopt;
+}
+
+// Over the same instances; of single ones, with elements in common and few in all.
+bool belong_together(const Kernel& a, const Kernel& b) {
+  if (a.ranges.size() != b.ranges.size()) return false;
+  if (!a.ranges.empty())
+    return range_of(a).lower == range_of(b).lower && range_of(a).upper == range_of(b).upper &&
+           stride_of(a) == stride_of(b);
+  const auto common = std::ranges::count_if(a.slots, [&](const Slot& slot) {
+    return std::ranges::find(b.slots, slot.position, &Slot::position) != b.slots.end();
+  });
+  const std::size_t both = a.slots.size() + b.slots.size() - static_cast<std::size_t>(common);
+  return common > 0 && both <= kMostInOne;
 }
 
 // S_1 = H, S_2, ... with S = sum of h^k S_k, each as kernels.
@@ -96,192 +151,154 @@ class KernelSeries {
     std::vector<Kernel> next;
     const Expression share(Rational(1, k + 1));
     const auto add = [&](const Kernel& kernel, const Summand& value) {
-      for (const auto& [range, own] : by_stride(kernel))
-        add_part(
-            {kernel, range, own}, [&](Part& part) { return share * value(part); }, next);
+      for (const Instances& all : by_stride(kernel))
+        add_instances(
+            all, [&](Part& part) { return share * value(part); }, next);
     };
-    for (const Kernel& kernel : vanishes ? std::vector<Kernel>{} : mechanics_.kernels)
-      add(kernel, [&](Part& part) { return moved(part, k); });
-    for (int l = 0; l + 2 <= k && !vanishes; ++l) {
-      for (int i = 1; i + l < k; ++i) {
-        for (const Kernel& kernel : terms_[at(i)])
-          add(kernel, [&, i](Part& part) { return turned(part, l, k - l - i); });
+    if (!vanishes) {
+      for (const Kernel& kernel : mechanics_.kernels)
+        add(kernel, [&](Part& part) { return moved(part, k); });
+      for (int l = 0; l + 2 <= k; ++l) {
+        for (int i = 1; i + l < k; ++i) {
+          for (const Kernel& kernel : terms_[at(i)])
+            add(kernel, [&](Part& part) { return turned(part, l, k - l - i); });
+        }
       }
     }
+    require_few_operations(next);
     terms_.push_back(std::move(next));
   }
 
-  // S/h, loops over the same instances as one.
+  // S/h, what runs over the same instances as one.
   [[nodiscard]] std::vector<Kernel> sum() const {
-    struct Together {
-      KernelFrame frame;
-      Kernel kernel;  // so far
-    };
-    std::vector<Together> list;
+    std::vector<std::pair<KernelFrame, Kernel>> list;
     for (std::size_t k = 1; k < terms_.size(); ++k) {
       const Expression power = Expression::power(Expression::symbol("h", kRankOfStep),
                                                  Expression(static_cast<long>(k) - 1));
       for (const Kernel& kernel : terms_[k]) {
-        const KernelRange range = only_range(kernel);
         auto found = std::ranges::find_if(
-            list, [&](const Together& other) { return belong_together(other.kernel, kernel); });
-        if (found == list.end())
-          found = list.insert(found, {KernelFrame(mechanics_, range_of(range)), {}});
-        const AffineIndex own =
-            found->kernel.ranges.empty() ? unit(range) : unit(only_range(found->kernel));
-        const Expression value = found->frame.seen(kernel, own, kernel.value);
-        std::set<int> terms = found->kernel.terms;
-        terms.insert(kernel.terms.begin(), kernel.terms.end());
-        found->kernel = found->frame.kernel(found->kernel.value + power * value, std::move(terms));
+            list, [&](const auto& other) { return belong_together(other.second, kernel); });
+        if (found == list.end()) {
+          const Instances all{kernel, range_of(kernel), {}};
+          found =
+              list.insert(found, {Part(mechanics_, all).frame, Kernel{.ranges = kernel.ranges}});
+        }
+        auto& [frame, sum] = *found;
+        const Expression value = frame.seen(kernel, unit(range_of(sum)), kernel.value);
+        sum.terms.insert(kernel.terms.begin(), kernel.terms.end());
+        sum = frame.kernel(sum.value + power * value, sum.terms);
       }
     }
     std::vector<Kernel> result;
-    for (Together& each : list) result.push_back(std::move(each.kernel));
+    for (auto& [frame, kernel] : list) result.push_back(with_second_derivatives(std::move(kernel)));
     return result;
   }
 
  private:
+  using Summand = std::function<Expression(Part&)>;
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-  static void require_neighbours(const Kernel& kernel) {
-    if (kernel.ranges.size() > 1) throw NotLocal{"a sum over several indices"};
-    if (kernel.ranges.empty()) return;
-    for (const Slot& slot : kernel.slots) {
-      if (slot.position.factors.empty())
-        throw NotLocal{fmt::format("{}, which stands in every summand", slot.symbol)};
-      if (std::abs(factor_of(slot.position)) != stride_of(kernel))
-        throw NotLocal{
-            fmt::format("{} and {}, which are no neighbours", kernel.slots[0].symbol, slot.symbol)};
+  static void require_few_operations(const std::vector<Kernel>& kernels) {
+    long total = 0;
+    for (const Kernel& kernel : kernels) {
+      std::set<std::string> varying;
+      for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
+      total += operation_count(kernel.gradient, varying);
     }
-  }
-  static long stride_of(const Kernel& kernel) {
-    if (kernel.ranges.empty() || kernel.slots.empty()) return 1;
-    return std::abs(factor_of(kernel.slots.front().position));
+    if (total > kMostOperations) throw TooManyTerms();
   }
 
-  // Instances of a kernel, by an index of their own.
-  struct Part {
-    Part(const Mechanics& mechanics, const Kernel& of, KernelRange over, AffineIndex own_index)
-        : kernel(of),
-          range(std::move(over)),
-          own(std::move(own_index)),
-          frame(mechanics, range_of(range)) {}
-    const Kernel& kernel;
-    KernelRange range;
-    AffineIndex own;  // the kernel's index in that of the range
-    KernelFrame frame;
-    std::set<int> terms = {};  // of H that others add
-    std::set<long> cuts = {};  // where instances begin that meet others than those before
-  };
-  struct Instances {
-    const Kernel& kernel;
-    KernelRange range;
-    AffineIndex own;
-  };
-  using Summand = std::function<Expression(Part&)>;
-
-  static AffineIndex unit(const KernelRange& range) {
-    if (range.index == kSingle) return {};
-    return {.constant = 0, .factors = {{range.index, 1}}};
-  }
-
-  // The kernel's range, or every m-th instance of it, such that its elements are as far apart as
-  // those of all others.
-  [[nodiscard]] std::vector<std::pair<KernelRange, AffineIndex>> by_stride(
-      const Kernel& kernel) const {
-    const KernelRange range = only_range(kernel);
+  // All instances, or every m-th of them, such that their elements are as far apart as those of all
+  // other kernels.
+  [[nodiscard]] std::vector<Instances> by_stride(const Kernel& kernel) const {
+    const KernelRange range = range_of(kernel);
     const long m = kernel.ranges.empty() ? 1 : stride_ / stride_of(kernel);
-    if (m == 1) return {{range, unit(range)}};
-    std::vector<std::pair<KernelRange, AffineIndex>> result;
+    if (m == 1) return {{kernel, range, unit(range)}};
+    std::vector<Instances> result;
     const long last = range.upper.constant;
-    for (long from = range.lower.constant; from <= std::min(last, range.lower.constant + m - 1);
-         ++from)
-      result.emplace_back(run(range.index, 0, (last - from) / m),
-                          AffineIndex{from, {{range.index, m}}});
+    for (long first = range.lower.constant; first < range.lower.constant + m; ++first)
+      result.push_back({kernel,
+                        run(range.index, 0, (last - first + m) / m - 1),
+                        {.constant = first, .factors = {{range.index, m}}}});
     return result;
   }
 
-  void add_part(const Instances& of, const Summand& value, std::vector<Kernel>& list) const {
-    const auto& [kernel, range, own] = of;
-    if (range.lower.constant > range.upper.constant) return;
-    if (range.index != kSingle && range.lower == range.upper) {
-      const AffineIndex fixed = composed(own, range.index, range.lower);
-      return add_part({kernel, run(kSingle, 0, 0), fixed}, value, list);
+  // Cut into parts that meet the same others throughout.
+  void add_instances(const Instances& of, const Summand& value, std::vector<Kernel>& list) const {
+    const long last = of.range.upper.constant;
+    long first = of.range.lower.constant;
+    if (last < first) return;
+    if (!of.range.index.empty() && first == last) {
+      const AffineIndex only = composed(of.own, of.range.index, of.range.lower);
+      return add_instances({of.kernel, run("", 0, 0), only}, value, list);
     }
-    Part part(mechanics_, kernel, range, own);
+    Part part(mechanics_, of);
     const Expression sum = value(part);
     if (part.cuts.empty()) {
-      part.terms.insert(kernel.terms.begin(), kernel.terms.end());
       if (!sum.is_zero()) list.push_back(part.frame.kernel(sum, std::move(part.terms)));
       return;
     }
-    long first = range.lower.constant;
-    part.cuts.insert(range.upper.constant + 1);
+    part.cuts.insert(last + 1);
     for (const long next : part.cuts) {
-      add_part({kernel, run(range.index, first, next - 1), own}, value, list);
+      add_instances({of.kernel, run(of.range.index, first, next - 1), of.own}, value, list);
       first = next;
     }
   }
 
   // The coefficient of h^k of the kernel at the displaced point z + w.
   [[nodiscard]] Expression moved(Part& part, int k) const {
-    const Expression here = part.frame.seen(part.kernel, part.own, part.kernel.value);
     TaylorSeries taylor([&](const Expression& symbol, int power) {
-      const Slot* slot = part.frame.slot(symbol.name());
-      return slot == nullptr ? Expression(0)
-                             : displacement(part, AffineIndex(slot->position), power);
+      const std::optional<AffineIndex> element = part.frame.place(symbol.name());
+      return element ? displacement(part, *element, power) : Expression(0);
     });
-    return taylor.coefficient(here, k);
+    return taylor.coefficient(part.own(part.of.kernel.value), k);
   }
   // The coefficient of h^power of w.
-  Expression displacement(Part& part, const AffineIndex& element, int power) const {
+  [[nodiscard]] Expression displacement(Part& part, const AffineIndex& element, int power) const {
     std::vector<Expression> parts;
     for (int l = 0; l < power; ++l)
-      parts.push_back(row_of(tables_.displacements[at(l)], part, element, power - l));
+      parts.push_back(row_times_slope(tables_.displacements[at(l)], part, element, power - l));
     return Expression::sum(std::move(parts));
   }
-  // What the kernel has of  -(l + 1)/2 grad S_i^T C_(l+1) J grad S_power,  one of S_i.
-  Expression turned(Part& part, int l, int power) const {
+  // What a kernel of S_i has of  -(l + 1)/2 grad S_i^T C_(l+1) J grad S_power.
+  [[nodiscard]] Expression turned(Part& part, int l, int power) const {
+    const Kernel& kernel = part.of.kernel;
     std::vector<Expression> parts;
-    for (std::size_t s = 0; s < part.kernel.slots.size(); ++s) {
-      const AffineIndex element = place(part, part.kernel.slots[s]);
-      const Expression slope = part.frame.seen(part.kernel, part.own, part.kernel.gradient[s]);
-      parts.push_back(slope * row_of(tables_.gauges[at(l + 1)], part, element, power));
+    for (std::size_t s = 0; s < kernel.slots.size(); ++s) {
+      const Expression other =
+          row_times_slope(tables_.gauges[at(l + 1)], part, part.place(kernel.slots[s]), power);
+      if (!other.is_zero()) parts.push_back(part.own(kernel.gradient[s]) * other);
     }
     return Expression(Rational(-(l + 1), 2)) * Expression::sum(std::move(parts));
   }
-  static AffineIndex place(const Part& part, const Slot& slot) {
-    return part.kernel.ranges.empty()
-               ? slot.position
-               : composed(slot.position, part.kernel.ranges.front().index, part.own);
-  }
-  // The element's row of the table times grad S_power.
-  Expression row_of(const SparseMatrix& table, Part& part, const AffineIndex& element,
-                    int power) const {
+  // The element's row of a table of one degree of freedom, times grad S_power.
+  [[nodiscard]] Expression row_times_slope(const SparseMatrix& table, Part& part,
+                                           const AffineIndex& element, int power) const {
     std::vector<Expression> parts;
-    const int row = least_value(element, {part.range}) < n_ ? 0 : 1;
+    const int row = least_value(element, {part.of.range}) < n_ ? 0 : 1;
     for (int column = 0; column < 2; ++column) {
       const auto weight = table.find({row, column});
       if (weight == table.end() || weight->second.is_zero()) continue;
       AffineIndex other = element;
-      other.constant += (column - row) * static_cast<long>(n_);
+      other.constant += (column - row) * n_;
       parts.push_back(weight->second * slope(part, other, power));
     }
     return Expression::sum(std::move(parts));
   }
-  // dS_power by the element, where all instances of the part meet the same others.
-  Expression slope(Part& part, const AffineIndex& element, int power) const {
+  // dS_power by the element, of what all instances of the part meet.
+  [[nodiscard]] Expression slope(Part& part, const AffineIndex& element, int power) const {
+    const KernelRange& range = part.of.range;
     std::vector<Expression> parts;
     for (const Kernel& other : terms_[at(power)]) {
       for (std::size_t s = 0; s < other.slots.size(); ++s) {
         if (other.gradient[s].is_zero()) continue;
-        const auto found = meeting(element, part.range, other.slots[s].position, only_range(other));
+        const auto found = meeting(element, range, other.slots[s].position, range_of(other));
         if (!found) continue;
-        const long first = part.range.lower.constant;
-        const long last = part.range.upper.constant;
-        if (found->first > first) part.cuts.insert(found->first);
-        if (found->last < last) part.cuts.insert(found->last + 1);
-        if (found->first > first || found->last < last) continue;
+        const bool begins = found->first > range.lower.constant;
+        const bool ends = found->last < range.upper.constant;
+        if (begins) part.cuts.insert(found->first);
+        if (ends) part.cuts.insert(found->last + 1);
+        if (begins || ends) continue;  // looked at again where all do
         parts.push_back(part.frame.seen(other, found->at, other.gradient[s]));
         part.terms.insert(other.terms.begin(), other.terms.end());
       }
@@ -289,23 +306,10 @@ class KernelSeries {
     return Expression::sum(std::move(parts));
   }
 
-  // Over the same instances; of single ones, with elements in common and few in all.
-  static bool belong_together(const Kernel& a, const Kernel& b) {
-    if (a.ranges.size() != b.ranges.size()) return false;
-    if (!a.ranges.empty())
-      return a.ranges[0].lower == b.ranges[0].lower && a.ranges[0].upper == b.ranges[0].upper &&
-             stride_of(a) == stride_of(b);
-    const auto common = std::ranges::count_if(a.slots, [&](const Slot& slot) {
-      return std::ranges::find(b.slots, slot.position, &Slot::position) != b.slots.end();
-    });
-    return common > 0 &&
-           a.slots.size() + b.slots.size() - static_cast<std::size_t>(common) <= kMostInOne;
-  }
-
   const Mechanics& mechanics_;
   long n_;
-  Chart tables_;
-  long stride_ = 1;                         // of the elements of all loops
+  Chart tables_;                            // of one degree of freedom
+  long stride_ = 1;                         // a multiple of that of every kernel
   std::vector<std::vector<Kernel>> terms_;  // from S_1 on at place 1
 };
 
@@ -320,11 +324,17 @@ std::vector<Kernel> generating_kernels(const Mechanics& mechanics, const SparseM
     for (int k = 2; k <= order; ++k) series.solve_next(odd && k % 2 == 0);
     return series.sum();
   } catch (const NotLocal& not_local) {
-    throw UsageError(fmt::format(
-        "--order {}: {} has {} degrees of freedom, more than are written out, and the generating "
-        "function of what stays loops is a sum over neighbours, but H has {}\nhelp: a composition "
-        "of the same order keeps the sums as loops, see `hamgen list schemes`",
-        order, mechanics.name, mechanics.degrees_of_freedom, not_local.why));
+    throw UsageError(
+        fmt::format("--order {}: the generating function of {} couples all its {} degrees of "
+                    "freedom, more than are written out: H has {}\nhelp: a composition of the same "
+                    "order keeps the sums as loops, see `hamgen list schemes`",
+                    order, mechanics.name, mechanics.degrees_of_freedom, not_local.why));
+  } catch (const TooManyTerms&) {
+    throw UsageError(
+        fmt::format("--order {}: an element of the generating function of {} takes more than {} "
+                    "operations\nhelp: compositions and Gauss methods of this order cost more "
+                    "stages but no long formulas, see `hamgen list schemes`",
+                    order, mechanics.name, kMostOperations));
   }
 }
 
