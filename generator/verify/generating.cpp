@@ -77,7 +77,10 @@ class FunctionCheck {
     const auto gradients = is_differentiated() ? 0 : static_cast<long>(2 * size_);
     const long series = l * l / 2 + (cut == l ? 0 : gradients * (cut * cut + 1) / 2);
     const long work = function_.operations * (series + gradients);
-    return static_cast<int>(std::clamp(kMostWork / std::max(work, 1L), 3L, long{kMostPoints}));
+    // A point of a system in loops is one of each of its elements, which are of few kinds.
+    const long elements = is_differentiated() ? static_cast<long>(size_) / 2 : 1;
+    return static_cast<int>(
+        std::max(3L, std::min(kMostWork / std::max(work, 1L), kMostPoints / elements)));
   }
 
  private:
