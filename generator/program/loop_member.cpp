@@ -69,7 +69,7 @@ class LoopMember : LoopStage {
                               .type = "bool"});
     }
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
-    array("slope", 2 * n_, "grad H(zbar), dH/dq first");
+    array("slope", 2 * n_, raised() ? "grad K(zbar), dK/dq first" : "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
       array("lack", unknowns(), "of the equations at zbar, then the increment");
     if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
