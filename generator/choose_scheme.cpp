@@ -62,16 +62,7 @@ Scheme choose_scheme(const Model& model, const Mechanics& mechanics, const Reque
   check_gauge(request);
   Scheme scheme = scheme_of_own_order(model, mechanics, request);
   if (request.order == 0) return scheme;
-  scheme = raise_order(std::move(scheme), request.order);
-  if (mechanics.keeps_sums() && scheme.member().generating_order > 0) {
-    throw UsageError(fmt::format(
-        "--order {}: {} has {} degrees of freedom, more than the {} that are written out, and the "
-        "generating function couples them all\nhelp: a composition of the same order keeps the "
-        "sums as "
-        "loops, see `hamgen list schemes`",
-        request.order, mechanics.name, mechanics.degrees_of_freedom, kMostWrittenOut));
-  }
-  return scheme;
+  return raise_order(std::move(scheme), request.order);
 }
 
 }  // namespace hamgen

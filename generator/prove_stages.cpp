@@ -85,7 +85,8 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
     return smaller;
   };
   try {
-    const long size = least_size_in_loops(source, request, largest->name);
+    const long size = std::max(least_size_in_loops(source, request, largest->name),
+                               least_size_of_order(stages.equations));
     if (largest->value <= size + 2) return {};
     SmallerSystems smaller = made_by(request, size);
     // Where Newton's matrix is too large the larger system is left without it.
@@ -123,7 +124,7 @@ Proof prove(const SourceText& source, const Request& request, const Stages& stag
   // Then nothing of it need be written out.
   const bool inherits = smaller &&
                         (mechanics.invariants.empty() || says_nothing_of_invariants(mechanics)) &&
-                        !why_not_inherited(mechanics, stages.program, *smaller);
+                        !why_not_inherited(mechanics, stages.plan, stages.program, *smaller);
   Surroundings around = smaller ? smaller->first.around : surroundings_of(stages.model);
   if (scene) around.centres.insert(around.centres.begin(), centre_of(stages.model, *scene));
   const bool is_too_long = !inherits && instances_of_loops(mechanics) > kMostInstances;

@@ -67,6 +67,13 @@ std::string tableau_text(const RungeKutta& tableau) {
   return text + "b: " + list_text(tableau.b) + "\nc: " + list_text(tableau.c) + "\n";
 }
 
+// The degrees of freedom of a system in loops all have the same C: that of one of them.
+SparseMatrix gauge_of_series(const Mechanics& mechanics, const Member& member) {
+  if (!mechanics.keeps_sums()) return member.c;
+  const auto [alpha, beta, gamma] = uniform_parameters(member).value();
+  return family_member(1, {{alpha}}, {{beta}}, {{gamma}}).member().c;
+}
+
 }  // namespace
 
 Expression step_size() { return Expression::symbol("h", kRankOfStep); }
@@ -138,6 +145,12 @@ bool StepEquations::has_exact_hessian() const {
   return !function || function->hessian_order == function->order;
 }
 
+Mechanics StepEquations::of_energy() const {
+  Mechanics result = mechanics;
+  if (function) result.kernels = energy_kernels;
+  return result;
+}
+
 Expression StepEquations::increment(int i) const {
   const int n = mechanics.degrees_of_freedom;
   return i < n ? step_size() * gradient_symbol(i + n) : -(step_size() * gradient_symbol(i - n));
@@ -153,10 +166,13 @@ StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme, Hessi
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   if (scheme.is_member() && scheme.member().generating_order > 0) {
     equations.function =
-        generating_function(mechanics, scheme.member().c, scheme.member().generating_order, wish);
+        generating_function(mechanics, gauge_of_series(mechanics, scheme.member()),
+                            scheme.member().generating_order, wish);
     equations.energy_gradient = mechanics.gradient;
+    equations.energy_kernels = mechanics.kernels;
     equations.mechanics.gradient = equations.function->gradient;
     equations.mechanics.hessian = equations.function->hessian;
+    equations.mechanics.kernels = equations.function->kernels;
   }
   std::erase_if(equations.stage_matrix, [](const auto& entry) { return entry.second.is_zero(); });
   for (const Expression& component : equations.mechanics.gradient) {
@@ -180,12 +196,15 @@ std::string to_text(const StepEquations& equations) {
     text += "for h = " + list_text(composition->substeps) + " times the step size, in turn:\n";
   }
   if (equations.mechanics.keeps_sums()) {
-    return text + fmt::format(
-                      "for every degree of freedom i = 1..{}:\n"
-                      "  bar(q_i) = q_i + h*alpha*dH/dp_i + h*gamma*dH/dq_i\n"
-                      "  bar(p_i) = p_i - h*(1 - alpha)*dH/dq_i - h*beta*dH/dp_i\n"
-                      "  new q_i = q_i + h*dH/dp_i, new p_i = p_i - h*dH/dq_i\n",
-                      n);
+    const std::string of_k = equations.function ? to_text(*equations.function) : "";
+    return text +
+           fmt::format(
+               "for every degree of freedom i = 1..{0}:\n"
+               "  bar(q_i) = q_i + h*alpha*d{1}/dp_i + h*gamma*d{1}/dq_i\n"
+               "  bar(p_i) = p_i - h*(1 - alpha)*d{1}/dq_i - h*beta*d{1}/dp_i\n"
+               "  new q_i = q_i + h*d{1}/dp_i, new p_i = p_i - h*d{1}/dq_i\n",
+               n, equations.function ? "K" : "H") +
+           of_k;
   }
   for (int i = 0; i < 2 * n; ++i) {
     text +=

@@ -18,14 +18,19 @@
 namespace hamgen {
 
 struct StepEquations {
-  Mechanics mechanics;  // gradient and Hessian are those of K where there is one, the energy is H
+  // Gradient and Hessian, or the kernels, are those of K where there is one; the energy is H.
+  Mechanics mechanics;
   Scheme scheme;
   SparseMatrix stage_matrix;                        // B
   std::optional<GeneratingFunction> function = {};  // K and how it is written
-  std::vector<Expression> energy_gradient = {};     // grad H where K stands in for H
+  // Of H where K stands in for it: its gradient, or its kernels.
+  std::vector<Expression> energy_gradient = {};
+  std::vector<Kernel> energy_kernels = {};
   // By component of the gradient: symbols of which it is no polynomial.
   std::vector<std::set<std::string>> non_polynomial = {};
 
+  // The mechanics with H in its kernels.
+  [[nodiscard]] Mechanics of_energy() const;
   // Is the Hessian that of K itself, or of one cut off earlier?
   [[nodiscard]] bool has_exact_hessian() const;
 

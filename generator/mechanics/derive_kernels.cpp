@@ -313,21 +313,6 @@ class KernelBuilder {
     finish(std::move(kernel), value, table);
   }
 
-  static std::string subscript_text(const AffineIndex& a) {
-    std::string text;
-    for (const auto& [index, factor] : a.factors) {
-      if (factor == 1) {
-        text += (text.empty() ? "" : "+") + index;
-      } else {
-        text += fmt::format("{}{}*{}", text.empty() || factor < 0 ? "" : "+", factor, index);
-      }
-    }
-    if (a.constant != 0 || text.empty()) {
-      text += fmt::format("{}{}", text.empty() || a.constant < 0 ? "" : "+", a.constant);
-    }
-    return text;
-  }
-
   void finish(Kernel kernel, const GiNaC::ex& value, const SymbolTable& table) {
     std::set<std::string> slots;
     for (const Slot& slot : kernel.slots) slots.insert(slot.symbol);

@@ -8,6 +8,7 @@
 #include "generator/algebra/derivative.hpp"
 #include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/kernel_series.hpp"
 #include "generator/mechanics/operation_count.hpp"
 #include "generator/mechanics/quadratic_chart.hpp"
 
@@ -299,10 +300,30 @@ std::optional<GeneratingFunction> shortest_form(const Mechanics& mechanics, cons
   return best;
 }
 
+// K as sums like those of H.
+GeneratingFunction function_of_kernels(const Mechanics& mechanics, const SparseMatrix& c,
+                                       int order) {
+  GeneratingFunction function{.order = order,
+                              .gradient = {},
+                              .kernels = generating_kernels(mechanics, c, order),
+                              .hessian = {},
+                              .hessian_order = order,
+                              .form = "sums over neighbours, like H"};
+  for (const Kernel& kernel : function.kernels) {
+    Row all = kernel.gradient;
+    for (const auto& [slots, value] : kernel.hessian) all.push_back(value);
+    std::set<std::string> varying;
+    for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
+    function.operations += operation_count(all, varying);
+  }
+  return function;
+}
+
 }  // namespace
 
 GeneratingFunction generating_function(const Mechanics& mechanics, const SparseMatrix& c, int order,
                                        HessianWish wish) {
+  if (mechanics.keeps_sums()) return function_of_kernels(mechanics, c, order);
   if (auto function = shortest_form(mechanics, c, order, wish)) return std::move(*function);
   const int decrement = is_odd(gauge_series(c, order)) ? 2 : 1;
   std::string lower;

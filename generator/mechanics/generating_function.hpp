@@ -14,6 +14,8 @@ namespace hamgen {
 struct GeneratingFunction {
   int order = 0;
   std::vector<Expression> gradient;  // of K by z, 2n, in z, h and the parameters
+  // Of a system whose sums are kept: K as sums, and no expressions written out.
+  std::vector<Kernel> kernels = {};
   // Second derivatives, i <= j: of the K of `hessian_order`, which is lower where that saves more
   // than Newton's iteration loses by it.
   SparseMatrix hessian;

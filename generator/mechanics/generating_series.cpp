@@ -87,9 +87,19 @@ bool is_odd(const std::vector<SparseMatrix>& gauge) {
 }
 
 Chart coordinate_chart(const Mechanics& mechanics, const std::vector<SparseMatrix>& gauge) {
-  const int n = mechanics.degrees_of_freedom;
-  Chart chart;
-  for (int i = 0; i < 2 * n; ++i) chart.symbols.push_back(mechanics.variable(i));
+  std::vector<Expression> symbols;
+  for (int i = 0; i < 2 * mechanics.degrees_of_freedom; ++i)
+    symbols.push_back(mechanics.variable(i));
+  return coordinate_chart(std::move(symbols), gauge);
+}
+
+Chart coordinate_chart(std::vector<Expression> symbols, const std::vector<SparseMatrix>& gauge) {
+  const auto n = static_cast<int>(symbols.size() / 2);
+  Chart chart{.symbols = std::move(symbols),
+              .values = {},
+              .displacements = {},
+              .gauges = {},
+              .curvatures = {}};
   chart.values = chart.symbols;
   for (std::size_t l = 0; l < gauge.size(); ++l) {
     // D = 1/2 - C.

@@ -20,8 +20,10 @@ namespace hamgen {
 // No even powers: C(-h) = -C(h), the member is symmetric.
 [[nodiscard]] bool is_odd(const std::vector<SparseMatrix>& gauge);
 
-// The coordinates as a chart.
+// The coordinates as a chart, of all degrees of freedom or of these symbols, q first.
 [[nodiscard]] Chart coordinate_chart(const Mechanics& mechanics,
+                                     const std::vector<SparseMatrix>& gauge);
+[[nodiscard]] Chart coordinate_chart(std::vector<Expression> symbols,
                                      const std::vector<SparseMatrix>& gauge);
 
 // How much is multiplied out: nothing, so that subexpressions stay shared; or everything, so that

@@ -26,6 +26,21 @@ std::string to_text(const AffineIndex& index) {
   return text + fmt::format(" {} {}", index.constant < 0 ? '-' : '+', std::abs(index.constant));
 }
 
+std::string subscript_text(const AffineIndex& index) {
+  std::string text;
+  for (const auto& [name, factor] : index.factors) {
+    if (factor == 1) {
+      text += (text.empty() ? "" : "+") + name;
+    } else {
+      text += fmt::format("{}{}*{}", text.empty() || factor < 0 ? "" : "+", factor, name);
+    }
+  }
+  if (index.constant != 0 || text.empty()) {
+    text += fmt::format("{}{}", text.empty() || index.constant < 0 ? "" : "+", index.constant);
+  }
+  return text;
+}
+
 long value_at(const AffineIndex& index, const std::vector<KernelRange>& ranges,
               const std::vector<long>& indices) {
   long value = index.constant;

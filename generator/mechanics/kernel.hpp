@@ -77,6 +77,8 @@ struct KernelForm {
 
 // "2*i + 1"
 [[nodiscard]] std::string to_text(const AffineIndex& index);
+// As it stands in a slot's symbol: "2*i+1".
+[[nodiscard]] std::string subscript_text(const AffineIndex& index);
 // Its value where the indices of the ranges, in their order, are these.
 [[nodiscard]] long value_at(const AffineIndex& index, const std::vector<KernelRange>& ranges,
                             const std::vector<long>& indices);

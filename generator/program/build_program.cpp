@@ -88,7 +88,7 @@ Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
 void add_kernel_functions(Program& code, const Environment& environment,
                           const LoweredStep& lowered) {
   const SolvePlan& plan = lowered.plan;
-  const Mechanics& mechanics = plan.equations.mechanics;
+  const Mechanics mechanics = plan.equations.of_energy();
   const ArrayPlan& arrays = *plan.arrays;
   code.routines.push_back(kernel_energy(environment, mechanics));
   if (mechanics.is_separable()) {
@@ -100,6 +100,8 @@ void add_kernel_functions(Program& code, const Environment& environment,
   } else {
     code.routines.push_back(kernel_gradient(environment, mechanics, "gradient", Part::all));
   }
+  if (plan.equations.function)
+    code.routines.push_back(kernel_generating_gradient(environment, plan.equations.mechanics));
   const std::optional<StageLayout>& layout = lowered.stage_layout;
   if (layout && layout->by_component()) {
     std::vector<Routine> leaves =
@@ -194,7 +196,7 @@ void add_tangent(Program& code, const Environment& environment, const LoweredSte
   const SolvePlan& plan = lowered.plan;
   const Method& method = plan.equations.scheme.method;
   const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
-  if (plan.arrays) add(curvature_routine(environment, plan.equations.mechanics));
+  if (plan.arrays) add(curvature_routine(environment, plan.equations));
   if (std::holds_alternative<Splitting>(method))
     return add(splitting_tangent(environment, lowered));
   if (std::holds_alternative<RungeKutta>(method)) {

@@ -99,6 +99,13 @@ class KernelRoutine {
     return std::move(routine_);
   }
 
+  Routine generating_gradient() {
+    routine_.arguments.push_back({.name = "h"});
+    Routine result = gradient("generating_gradient");
+    result.remark = {"dq[i] = dK/dq_i, dp[i] = dK/dp_i of the K(z, h) that stands in for H."};
+    return result;
+  }
+
   Routine masses() {
     routine_.name = "masses";
     routine_.remark = {"dp[i] = d2H/dp_i^2, which is constant."};
@@ -368,6 +375,10 @@ Routine kernel_energy(const Environment& environment, const Mechanics& mechanics
 Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
                         std::string name, Part part) {
   return KernelRoutine(environment, mechanics, part).gradient(std::move(name));
+}
+
+Routine kernel_generating_gradient(const Environment& environment, const Mechanics& mechanics) {
+  return KernelRoutine(environment, mechanics, Part::all).generating_gradient();
 }
 
 Routine kernel_masses(const Environment& environment, const Mechanics& mechanics) {

@@ -19,6 +19,9 @@ enum class Part { all, potential, kinetic };
 [[nodiscard]] Routine kernel_energy(const Environment& environment, const Mechanics& mechanics);
 [[nodiscard]] Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
                                       std::string name, Part part);
+// generating_gradient(par, h, q, p, dq, dp), of the mechanics that has K in its kernels.
+[[nodiscard]] Routine kernel_generating_gradient(const Environment& environment,
+                                                 const Mechanics& mechanics);
 // Of a separable H: the two one after the other.
 [[nodiscard]] Routine both_gradients(const Environment& environment);
 // potential_gradients(par, q, dq) and the like: the routine, of arrays alone, at all stages in

@@ -69,7 +69,7 @@ class LoopMember : LoopStage {
                               .type = "bool"});
     }
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
-    array("slope", 2 * n_, "grad H(zbar), dH/dq first");
+    array("slope", 2 * n_, raised() ? "grad K(zbar), dK/dq first" : "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
       array("lack", unknowns(), "of the equations at zbar, then the increment");
     if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
@@ -104,7 +104,7 @@ class LoopMember : LoopStage {
          .result = {.type = "StepReport", .object = "report"}});
     std::vector<Argument>& list = b.routine().arguments;
     list = arguments(true);
-    if (!weights_.uses_h()) list.insert(list.end() - 3, {.name = "h"});
+    if (!uses_h()) list.insert(list.end() - 3, {.name = "h"});
     list.push_back(state_argument("dz", true));
     if (iterates(arrays_)) list.push_back(state_argument("rest", true));
     switch (arrays_.method) {
@@ -230,7 +230,7 @@ class LoopMember : LoopStage {
 
   [[nodiscard]] std::vector<Argument> arguments_of_either() const {
     std::vector<Argument> list = arguments(true);
-    if (!weights_.uses_h()) list.insert(list.end() - 3, {.name = "h"});
+    if (!uses_h()) list.insert(list.end() - 3, {.name = "h"});
     list.push_back(state_argument("dz", true));
     list.push_back(state_argument("rest", true));
     list.push_back({.name = "report", .record = "StepReport", .changes = true});
@@ -274,7 +274,7 @@ class LoopMember : LoopStage {
     const Place matrix{"start", "matrix"};
     std::vector<Place> list = {{"par"}};
     if (has_coefficients_) list.push_back({"k"});
-    if (weights_.uses_h()) list.push_back({"h"});
+    if (uses_h()) list.push_back({"h"});
     list.push_back({"start", "value"});
     list.push_back(matrix);
     Body fresh;

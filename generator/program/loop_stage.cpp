@@ -43,7 +43,7 @@ void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expre
 std::vector<Argument> LoopStage::arguments(bool with_states) const {
   std::vector<Argument> list = {parameters_argument()};
   if (has_coefficients_) list.push_back({.name = "k", .record = "Coefficients"});
-  if (weights_.uses_h()) list.push_back({.name = "h"});
+  if (uses_h()) list.push_back({.name = "h"});
   if (with_states) {
     list.push_back(state_argument("z"));
     list.push_back(state_argument("carry"));
@@ -82,6 +82,11 @@ Expression LoopStage::mass(RoutineBuilder& b) const {
 void LoopStage::add_gradient(Body& body, const Place& q, const Place& p) const {
   const Place dq{"start", "slope"};
   const Place dp{"start", "slope", {affine(n_)}};
+  if (raised()) {
+    body.push_back(
+        {Call{.routine = "generating_gradient", .arguments = {{"par"}, {"h"}, q, p, dq, dp}}});
+    return;
+  }
   if (!mechanics_.is_separable()) {
     body.push_back({Call{.routine = "gradient", .arguments = {{"par"}, q, p, dq, dp}}});
     return;
@@ -162,7 +167,7 @@ Routine LoopStage::evaluate() const {
 Routine LoopStage::differentiate() const {
   std::vector<Argument> list = {parameters_argument()};
   if (has_coefficients_) list.push_back({.name = "k", .record = "Coefficients"});
-  if (weights_.uses_h()) list.push_back({.name = "h"});
+  if (uses_h()) list.push_back({.name = "h"});
   list.push_back({.name = "at", .sizes = {unknowns()}, .decays = true});
   list.push_back({.name = "matrix", .record = "Matrix", .changes = true});
   RoutineBuilder b({.name = "differentiate",

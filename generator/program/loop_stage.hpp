@@ -46,6 +46,9 @@ class LoopStage {
   }
   [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
   [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
+  [[nodiscard]] bool raised() const { return plan_.equations.function.has_value(); }
+  // Are there products with h besides the coefficients?
+  [[nodiscard]] bool uses_h() const { return weights_.uses_h() || raised(); }
   [[nodiscard]] KernelRange elements() const { return counting("i", n_); }
   [[nodiscard]] std::vector<Argument> arguments(bool with_states) const;
   static std::vector<Place> given(const std::vector<Argument>& arguments);

@@ -201,14 +201,14 @@ class LoopMemberTangent {
     const Place q{"at"};
     const Place p{"at", "", {affine(n_)}};
     if (!arrays_.reduced) {
-      column.push_back(tangent_call("curvature", {{"par"}, q, p, {"moved"}, {"y"}}));
+      column.push_back(b_.curvature(q, p, {"moved"}));
       return;
     }
     // H'' of the coordinates alone.
     column.push_back({Array{"whole", {2 * n_}}});
     Body copy{{Assign{element("whole", 0).name(), element("moved", 0)}}};
     column.push_back(for_each(counting("row", n_), std::move(copy)));
-    column.push_back(tangent_call("curvature", {{"par"}, q, p, {"whole"}, {"y"}}));
+    column.push_back(b_.curvature(q, p, {"whole"}));
     Expression moved = element("u", n_);
     if (weights_.p_by_q) moved = moved - *weights_.p_by_q * element("y", 0);
     const Expression own = mass();

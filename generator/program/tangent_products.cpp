@@ -10,7 +10,8 @@ TangentBuilder::TangentBuilder(const Environment& environment, const LoweredStep
     : RoutineBuilder({.name = std::move(name), .remark = std::move(remark)}),
       environment_(environment),
       n_(environment.degrees_of_freedom),
-      arrays_(lowered.plan.arrays.has_value()) {
+      arrays_(lowered.plan.arrays.has_value()),
+      raised_(lowered.plan.equations.function.has_value()) {
   routine().result = {.type = "bool"};
   routine().arguments = {parameters_argument(),
                          {.name = "h"},
@@ -36,7 +37,17 @@ void TangentBuilder::add_gradient(Body& body, const TangentPoint& point,
   }
   const auto [q, p] = halves(point);
   const Place dp{values, "", {affine(n_)}};
+  if (raised_) {
+    body.push_back({Call{.routine = "generating_gradient",
+                         .arguments = {{"par"}, {"h"}, q, p, {values}, dp}}});
+    return;
+  }
   body.push_back({Call{.routine = "gradient", .arguments = {{"par"}, q, p, {values}, dp}}});
+}
+
+Instruction TangentBuilder::curvature(const Place& q, const Place& p, const Place& u) const {
+  if (raised_) return tangent_call("curvature", {{"par"}, {"h"}, q, p, u, {"y"}});
+  return tangent_call("curvature", {{"par"}, q, p, u, {"y"}});
 }
 
 void TangentBuilder::for_components(
@@ -96,7 +107,7 @@ void TangentBuilder::multiply_hessian(Body& body, const TangentPoint& point, con
     column.push_back({Array{"y", {2 * n_}}});
     Body read{{Assign{at("u", "", {affine("row")}).name(), entry(in)}}};
     column.push_back(for_each(counting("row", 2 * n_), std::move(read)));
-    column.push_back({Call{.routine = "curvature", .arguments = {{"par"}, q, p, {"u"}, {"y"}}}});
+    column.push_back(curvature(q, p, {"u"}));
     Body write{{Assign{entry(out).name(), at("y", "", {affine("row")})}}};
     column.push_back(for_each(counting("row", 2 * n_), std::move(write)));
     body.push_back(for_each(counting("column", 2 * n_), std::move(column)));
@@ -147,7 +158,7 @@ void add_step(Body& body, const Program& code, const std::string& h, const std::
   body.push_back({std::move(step)});
 }
 
-Routine curvature_routine(const Environment& environment, const Mechanics& mechanics) {
+Routine curvature_routine(const Environment& environment, const StepEquations& equations) {
   const int n = environment.degrees_of_freedom;
   RoutineBuilder b(
       {.name = "curvature",
@@ -157,6 +168,11 @@ Routine curvature_routine(const Environment& environment, const Mechanics& mecha
                      {.name = "p", .sizes = {n}, .decays = true},
                      {.name = "u", .sizes = {2 * n}, .decays = true},
                      {.name = "y", .sizes = {2 * n}, .changes = true, .decays = true}}});
+  if (equations.function) {
+    b.routine().remark = {"y = K'' u at a state, q first."};
+    std::vector<Argument>& list = b.routine().arguments;
+    list.insert(list.begin() + 1, {.name = "h"});
+  }
   Body zero{{Assign{b.at("y", "", {affine("i")}).name(), Expression(0)}}};
   b.body().push_back(for_each(counting("i", 2 * n), std::move(zero)));
   const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
@@ -170,7 +186,7 @@ Routine curvature_routine(const Environment& environment, const Mechanics& mecha
     body.push_back(
         {Accumulate{element("y", entry.row).name(), entry.value * element("u", entry.column)}});
   };
-  return kernel_entries(environment, mechanics, Part::all, b.take(), {"q"}, {"p"}, use);
+  return kernel_entries(environment, equations.mechanics, Part::all, b.take(), {"q"}, {"p"}, use);
 }
 
 }  // namespace hamgen

@@ -40,6 +40,8 @@ class TangentBuilder : public RoutineBuilder {
                         const std::string& out);
   // values = grad H at the point, q first.
   void add_gradient(Body& body, const TangentPoint& point, const std::string& values) const;
+  // y = H''(q, p) u, of a system in loops.
+  [[nodiscard]] Instruction curvature(const Place& q, const Place& p, const Place& u) const;
   // state += moved (+ rest)
   void add_increment(Body& body, const std::string& state, bool has_rest);
   // Each component of a record State, or one loop over the elements of its arrays: `each` is given
@@ -58,6 +60,7 @@ class TangentBuilder : public RoutineBuilder {
   const Environment& environment_;
   int n_;
   bool arrays_;
+  bool raised_;  // K stands in for H
 };
 
 [[nodiscard]] Instruction tangent_call(std::string routine, std::vector<Place> arguments);
@@ -67,7 +70,9 @@ class TangentBuilder : public RoutineBuilder {
 // start are locals of it.
 void add_step(Body& body, const Program& code, const std::string& h, const std::string& state);
 
-// Of a system in loops: curvature(par, q, p, u, y), y = H'' u.
-[[nodiscard]] Routine curvature_routine(const Environment& environment, const Mechanics& mechanics);
+// Of a system in loops: curvature(par, q, p, u, y), y = H'' u; where K stands in for H, of that,
+// with h behind par.
+[[nodiscard]] Routine curvature_routine(const Environment& environment,
+                                        const StepEquations& equations);
 
 }  // namespace hamgen

@@ -213,11 +213,19 @@ std::vector<Identities> all_identities(const StepUnderProof& step, const SolvePl
   const auto add = [&](std::vector<Identities> more) {
     std::ranges::move(more, std::back_inserter(parts));
   };
+  const Derivatives of_step =
+      is_raised(scheme) ? Derivatives(written_out_function(plan.equations)) : derivatives;
+  if (loops && is_raised(scheme)) {
+    const auto middle = of_step.gradient().begin() + step.mechanics.degrees_of_freedom;
+    const char* routine = "generating_gradient";
+    parts.push_back(values_identities(step, routine, "dq", "component of dK/dq",
+                                      {of_step.gradient().begin(), middle}));
+    parts.push_back(values_identities(step, routine, "dp", "component of dK/dp",
+                                      {middle, of_step.gradient().end()}));
+  }
   if (scheme.has_member() && loops) {
-    add(loop_member_identities(step, derivatives, scheme.member(), plan.sweeps));
+    add(loop_member_identities(step, of_step, scheme.member(), plan.sweeps));
   } else if (scheme.has_member()) {
-    const Derivatives of_step =
-        is_raised(scheme) ? Derivatives(*plan.equations.function) : derivatives;
     parts.push_back(member_identities(step, of_step, scheme.member(), plan.sweeps));
     if (!plan.sweeps && step.code.routine("tangent") != nullptr) {
       parts.push_back(tangent_identities(step, of_step, scheme.member()));
@@ -255,62 +263,14 @@ Decision decide_all(const std::vector<Identities>& parts, const Surroundings& ar
   return total;
 }
 
-}  // namespace
-
-std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const Program& code,
-                                             const SmallerSystems& smaller) {
-  const auto& [constant, size, first, second, third] = smaller;
-  const std::set<std::string> whole = {"invariants", "events"};
-  const auto why_not = [&](long longer, const Mechanics& of, const Program& by) {
-    std::optional<std::string> why =
-        why_not_longer({{{first.size, outline(first.mechanics.kernels)},
-                         {second.size, outline(second.mechanics.kernels)},
-                         {longer, outline(of.kernels)}}});
-    if (why) return why;
-    return why_not_longer({{{first.size, outline(first.program, whole)},
-                            {second.size, outline(second.program, whole)},
-                            {longer, outline(by, whole)}}});
-  };
-  if (!third && sums_over_pairs(mechanics)) return "its pairs are looked at in two sizes only";
-  std::optional<std::string> why = why_not(size, mechanics, code);
-  return why || !third ? why : why_not(third->size, third->mechanics, third->program);
-}
-
-long instances_of_loops(const Mechanics& mechanics) {
-  double total = 0;
-  for (const Kernel& kernel : mechanics.kernels) {
-    double count = 1;
-    for (const KernelRange& range : kernel.ranges) {
-      const AffineIndex& end = range.upper.factors.empty() ? range.upper : range.lower;
-      const AffineIndex& begin = range.lower.factors.empty() ? range.lower : range.upper;
-      count *= std::max(1.0, std::abs(static_cast<double>(end.constant - begin.constant)));
-    }
-    total += kernel.ranges.size() > 1 ? count / 2 : count;
-  }
-  return static_cast<long>(std::min(total, 1e18));
-}
-
-std::string sizes_text(const SmallerSystems& smaller) {
-  const std::string& name = smaller.constant;
-  const long first = smaller.first.size;
-  const long second = smaller.second.size;
-  if (!smaller.third) return fmt::format("{0} = {1} and {0} = {2}", name, first, second);
-  return fmt::format("{0} = {1}, {0} = {2} and {0} = {3}", name, first, second,
-                     smaller.third->size);
-}
-
-bool sums_over_pairs(const Mechanics& mechanics) {
-  return std::ranges::any_of(mechanics.kernels,
-                             [](const Kernel& kernel) { return kernel.ranges.size() > 1; });
-}
-
-namespace {
-
 // Of a system in loops that is too large to look at every element.
-Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>& hamiltonian,
-                     const Surroundings& around, const std::optional<SmallerSystems>& smaller) {
+Finding prove_longer(const StepUnderProof& step, const SolvePlan& plan,
+                     const std::optional<Expression>& hamiltonian, const Surroundings& around,
+                     const std::optional<SmallerSystems>& smaller) {
   const std::string property = kProgram;
   std::vector<Identities> parts = kernel_identities(step.mechanics, hamiltonian);
+  if (plan.equations.function)
+    std::ranges::move(kernel_identities(plan.equations.mechanics, {}), std::back_inserter(parts));
   std::ranges::move(invariant_identities(step), std::back_inserter(parts));
   Decision total = decide_all(parts, around);
   if (!holds(total.verdict)) return {property, total.verdict, total.witness};
@@ -335,7 +295,7 @@ Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>
     add(decision, total);
   }
   const std::string sizes = sizes_text(*smaller);
-  const auto why = why_not_inherited(step.mechanics, step.code, *smaller);
+  const auto why = why_not_inherited(step.mechanics, plan, step.code, *smaller);
   const std::string rest =
       why ? "here only the summands, their derivatives and that they sum up to H: " + *why
           : "more elements repeat the inner ones";
@@ -344,28 +304,33 @@ Finding prove_longer(const StepUnderProof& step, const std::optional<Expression>
                       rest)};
 }
 
+Finding prove_every_element(const StepUnderProof& step, const SolvePlan& plan,
+                            const Expression& hamiltonian, const Surroundings& around) {
+  const Derivatives derivatives(step.mechanics, hamiltonian);
+  const Decision total = decide_all(all_identities(step, plan, derivatives, hamiltonian), around);
+  if (!holds(total.verdict)) return {kProgram, total.verdict, total.witness};
+  return {kProgram, total.verdict,
+          to_text(total) + scope(step.scheme, step.code, step.mechanics.keeps_sums())};
+}
+
 }  // namespace
 
 Finding prove_emitted(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
                       const Program& program, const std::optional<Expression>& hamiltonian,
                       const Surroundings& around, std::optional<Decision> of_k,
                       const std::optional<SmallerSystems>& smaller) {
-  const std::string property = kProgram;
   const StepUnderProof step(mechanics, scheme, program);
-  if (mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostLookedAt)
-    return prove_longer(step, hamiltonian, around, smaller);
-  const Derivatives derivatives(mechanics, *hamiltonian);
-  const Decision total = decide_all(all_identities(step, plan, derivatives, *hamiltonian), around);
-  if (!holds(total.verdict)) return {property, total.verdict, total.witness};
-  const std::string detail = to_text(total) + scope(scheme, program, mechanics.keeps_sums());
-  if (!is_raised(scheme)) return {property, total.verdict, detail};
-  const GeneratingFunction& function = *plan.equations.function;
-  if (!of_k) of_k = decide_function(mechanics, derivatives, scheme.member(), function, around);
-  if (!holds(of_k->verdict)) return {property, of_k->verdict, of_k->witness};
-  return {property, both(total.verdict, of_k->verdict),
-          fmt::format("{} with K in place of H; grad K has a symmetric Jacobian and its step is "
-                      "the flow up to h^{}, at {} points to 1e-30",
-                      detail, function.order, of_k->points)};
+  const bool is_long = mechanics.keeps_sums() && mechanics.degrees_of_freedom > kMostLookedAt;
+  Finding found = is_long ? prove_longer(step, plan, hamiltonian, around, smaller)
+                          : prove_every_element(step, plan, *hamiltonian, around);
+  if (!is_raised(scheme) || !holds(found.verdict)) return found;
+  if (!of_k) of_k = decide_raised(mechanics, plan, program, hamiltonian, around, smaller);
+  if (!holds(of_k->verdict)) return {kProgram, of_k->verdict, of_k->witness};
+  return {
+      kProgram, both(found.verdict, of_k->verdict),
+      fmt::format("{}{} with K in place of H; grad K has a symmetric Jacobian and its step is "
+                  "the flow up to h^{}, at {} points to 1e-30",
+                  found.detail, is_long ? "," : "", plan.equations.function->order, of_k->points)};
 }
 
 }  // namespace hamgen

@@ -10,6 +10,7 @@
 #include "generator/program/lowered_step.hpp"
 #include "generator/verify/derivatives.hpp"
 #include "generator/verify/identities.hpp"
+#include "generator/verify/proof.hpp"
 #include "generator/verify/step_under_proof.hpp"
 
 namespace hamgen {
@@ -50,6 +51,8 @@ class FunctionValues {
                                                              const Derivatives& derivatives,
                                                              const RungeKutta& tableau);
 
+// The sum over all instances of the kernels, in the symbols of the state and of the parameters.
+[[nodiscard]] Expression sum_of_kernels(const Mechanics& mechanics);
 // Of sums that are loops: the derivatives of their summands, and that they sum up to H if that is
 // given.
 [[nodiscard]] std::vector<Identities> kernel_identities(
@@ -64,5 +67,14 @@ class FunctionValues {
 [[nodiscard]] Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,
                                        const Member& member, const GeneratingFunction& function,
                                        const Surroundings& around = {});
+// K as it stands in the step's equations; kernels written out and differentiated anew.
+[[nodiscard]] GeneratingFunction written_out_function(const StepEquations& equations);
+// The same of a step that takes such a K, in whatever form; with many elements in loops of the
+// `smaller` ones.
+[[nodiscard]] Decision decide_raised(const Mechanics& mechanics, const SolvePlan& plan,
+                                     const Program& program,
+                                     const std::optional<Expression>& hamiltonian,
+                                     const Surroundings& around,
+                                     const std::optional<SmallerSystems>& smaller);
 
 }  // namespace hamgen

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "generator/mechanics/operation_count.hpp"
 #include "generator/verify/emitted.hpp"
 #include "generator/verify/formal.hpp"
 
@@ -27,6 +28,8 @@ constexpr const char* kTolerance = "1e-30";
 // Operations of the checks at all points together: a few seconds.
 constexpr long kMostWork = 5'000'000;
 constexpr int kMostPoints = 200;
+// With more instances the sums of a K in loops are not written out.
+constexpr long kMostOfFunction = 2000;
 
 // The largest size among them; at least that of the smallest number compared.
 Precise largest(const std::vector<Precise>& values) {
@@ -62,8 +65,8 @@ class FunctionCheck {
   // Throws std::domain_error where something is not defined.
   Witness at(int point) const {
     const FormalPoint here(mechanics_, around_, point);
-    if (Witness witness = follows_the_flow(here)) return witness;
-    return has_a_symmetric_jacobian(here);
+    Witness witness = follows_the_flow(here);
+    return witness || is_differentiated() ? witness : has_a_symmetric_jacobian(here);
   }
 
   [[nodiscard]] int points() const {
@@ -71,13 +74,19 @@ class FunctionCheck {
     // Hessian of a K that is cut off.
     const auto l = static_cast<long>(length_);
     const auto cut = static_cast<long>(function_.hessian_order);
-    const auto gradients = static_cast<long>(2 * size_);
+    const auto gradients = is_differentiated() ? 0 : static_cast<long>(2 * size_);
     const long series = l * l / 2 + (cut == l ? 0 : gradients * (cut * cut + 1) / 2);
     const long work = function_.operations * (series + gradients);
-    return static_cast<int>(std::clamp(kMostWork / std::max(work, 1L), 3L, long{kMostPoints}));
+    // A point of a system in loops is one of each of its elements, which are of few kinds.
+    const long elements = is_differentiated() ? static_cast<long>(size_) / 2 : 1;
+    return static_cast<int>(
+        std::max(3L, std::min(kMostWork / std::max(work, 1L), kMostPoints / elements)));
   }
 
  private:
+  // Of K as sums gradient and Hessian are derivatives of the sum, made anew.
+  [[nodiscard]] bool is_differentiated() const { return !function_.kernels.empty(); }
+
   Witness follows_the_flow(const FormalPoint& here) const {
     const std::vector<PowerSeries> start = here.state();
     const std::vector<PowerSeries> flow = flow_series(derivatives_, here, length_ + 1);
@@ -169,6 +178,63 @@ class FunctionCheck {
 };
 
 }  // namespace
+
+GeneratingFunction written_out_function(const StepEquations& equations) {
+  GeneratingFunction function = *equations.function;
+  if (function.kernels.empty()) return function;
+  const Derivatives derivatives(equations.mechanics, sum_of_kernels(equations.mechanics));
+  function.gradient = derivatives.gradient();
+  function.hessian = derivatives.hessian();
+  std::set<std::string> variables;
+  for (const Quantity& variable : equations.mechanics.variables) variables.insert(variable.name);
+  function.operations = operation_count(function.gradient, variables);
+  return function;
+}
+
+namespace {
+
+// Of a system in loops, every element.
+Decision decide_every_element(const Mechanics& mechanics, const StepEquations& equations,
+                              const Expression& hamiltonian, const Surroundings& around) {
+  return decide_function(mechanics, Derivatives(mechanics, hamiltonian),
+                         of_all(equations.scheme.member(), mechanics.degrees_of_freedom),
+                         written_out_function(equations), around);
+}
+
+}  // namespace
+
+Decision decide_raised(const Mechanics& mechanics, const SolvePlan& plan, const Program& program,
+                       const std::optional<Expression>& hamiltonian, const Surroundings& around,
+                       const std::optional<SmallerSystems>& smaller) {
+  const StepEquations& equations = plan.equations;
+  if (!mechanics.keeps_sums())
+    return decide_function(mechanics, Derivatives(mechanics), equations.scheme.member(),
+                           *equations.function, around);
+  if (mechanics.degrees_of_freedom <= kMostLookedAt)
+    return decide_every_element(mechanics, equations, *hamiltonian, around);
+  const std::optional<std::string> why =
+      smaller ? why_not_inherited(mechanics, plan, program, *smaller)
+              : std::optional<std::string>("there is no size to make smaller");
+  if (why && hamiltonian && instances_of_loops(equations.mechanics) <= kMostOfFunction)
+    return decide_every_element(mechanics, equations, *hamiltonian, around);
+  if (why)
+    return {.verdict = Verdict::not_decided,
+            .witness = "K is not looked at, with so many elements: " + *why};
+  Decision total{.verdict = Verdict::proved};
+  for (const SizedSystem* system : {&smaller->first, &smaller->second}) {
+    const Decision decision =
+        decide_every_element(system->mechanics, system->plan.equations, system->hamiltonian,
+                             system->around.centres.empty() ? around : system->around);
+    total.points += decision.points;
+    total.verdict = both(total.verdict, decision.verdict);
+    if (holds(decision.verdict)) continue;
+    total.verdict = decision.verdict;
+    total.witness =
+        fmt::format("at {} = {}: {}", smaller->constant, system->size, decision.witness);
+    break;
+  }
+  return total;
+}
 
 Decision decide_function(const Mechanics& mechanics, const Derivatives& derivatives,
                          const Member& member, const GeneratingFunction& function,

@@ -111,7 +111,7 @@ class Locality {
   // The claims about all others take these for functions of which nothing is known.
   static bool is_function(const std::string& routine) {
     static const std::set<std::string> functions = {"vector_field", "hessian", "gradient",
-                                                    "potential_gradient"};
+                                                    "potential_gradient", "generating_gradient"};
     return functions.contains(routine);
   }
   [[nodiscard]] bool is_opaque(const std::string& called) const {

@@ -8,10 +8,7 @@
 
 namespace hamgen {
 
-namespace {
-
-// The sum over all instances, in the symbols of the state and of the parameters.
-Expression written_out(const Mechanics& mechanics) {
+Expression sum_of_kernels(const Mechanics& mechanics) {
   std::vector<Expression> terms;
   std::vector<std::vector<Expression>> of_sums(mechanics.sums.size());
   std::map<std::string, std::vector<Expression>> parameters;  // elements by array
@@ -43,6 +40,8 @@ Expression written_out(const Mechanics& mechanics) {
   terms.push_back(substitute(mechanics.of_sums, sums));
   return Expression::sum(std::move(terms));
 }
+
+namespace {
 
 // What the kernel's loops compute, against its value and the derivatives of that by its slots.
 void add_kernel(const Kernel& kernel, std::vector<Identities>& parts) {
@@ -97,7 +96,7 @@ std::vector<Identities> kernel_identities(const Mechanics& mechanics,
   for (const Kernel& kernel : mechanics.kernels) add_kernel(kernel, parts);
   if (!mechanics.sums.empty()) add_slopes(mechanics, parts);
   if (hamiltonian)
-    parts.push_back({{}, {}, {{"the sum of the loops", written_out(mechanics), *hamiltonian}}});
+    parts.push_back({{}, {}, {{"the sum of the loops", sum_of_kernels(mechanics), *hamiltonian}}});
   return parts;
 }
 

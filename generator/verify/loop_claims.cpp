@@ -30,6 +30,7 @@ class LoopMemberClaims {
         member_(member),
         sweeps_(sweeps),
         n_(step.mechanics.degrees_of_freedom),
+        raised_(step.scheme.member().generating_order > 0),
         reduced_(step.code.routine("evaluate") != nullptr),
         local_(reduced_ && (!member.beta.is_zero() || !calls_velocity(step))) {}
 
@@ -124,7 +125,9 @@ class LoopMemberClaims {
     const std::vector<Expression> q(first, first + n_);
     const std::vector<Expression> p(first + n_, first + 2 * n_);
     for (const CallTrace& call : machine.calls) {
-      if (call.routine == "gradient" && call.input == point) return call.output[at(k)];
+      const bool whole = call.routine == (raised_ ? "generating_gradient" : "gradient");
+      if (whole && call.input == point) return call.output[at(k)];
+      if (raised_) continue;
       if (call.routine == "potential_gradient" && k < n_ && call.input == q)
         return call.output[at(k)];
       if (call.routine == "kinetic_gradient" && k >= n_ && call.input == p)
@@ -170,7 +173,8 @@ class LoopMemberClaims {
   // Without the routine that is skipped, if any.
   Identities solve_identities(const std::string& skipped) {
     identities_ = {};
-    std::set<std::string> opaque = {"gradient", "potential_gradient", "differentiate"};
+    std::set<std::string> opaque = {"gradient", "potential_gradient", "generating_gradient",
+                                    "differentiate"};
     if (!local_) opaque.insert("kinetic_gradient");
     SymbolicMachine machine = step_.machine(std::move(opaque));
     for (int i = 0; i < n_; ++i) machine.name({"start", "value", {{i, {}}}}, bar(i));
@@ -227,7 +231,7 @@ class LoopMemberClaims {
 
   // First grad H(z), then K times grad H(zbar(g)): the points of the calls in their order.
   void claim_sweeps(SymbolicMachine& machine) {
-    const std::size_t per_sweep = has("potential_gradient") ? 2 : 1;
+    const std::size_t per_sweep = has("potential_gradient") && !raised_ ? 2 : 1;
     const auto expected = static_cast<std::size_t>(*sweeps_ + 1) * per_sweep;
     claim("the number of evaluations", Expression(std::ssize(machine.calls)),
           Expression(static_cast<long>(expected)));
@@ -356,6 +360,7 @@ class LoopMemberClaims {
   const FamilyParameters member_;
   std::optional<int> sweeps_;
   int n_;
+  bool raised_;   // K stands in for H, and so do `derivatives`
   bool reduced_;  // the momenta are torn out
   // They depend on dT/dp, which is linear in them then, and is looked into.
   bool local_;  // is dT/dp what the routine itself makes of its momenta?

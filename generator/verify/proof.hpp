@@ -53,8 +53,13 @@ inline constexpr long kMostInstances = 30'000;
 [[nodiscard]] std::string sizes_text(const SmallerSystems& smaller);
 // Do two indices of a sum run over elements?
 [[nodiscard]] bool sums_over_pairs(const Mechanics& mechanics);
+// How many elements a system has at least of which the order of a K in loops is shown: the flow of
+// H carries every element to others, as many times as the order is, and K knows neighbours itself.
+// 0 where there is no such K.
+[[nodiscard]] long least_size_of_order(const StepEquations& equations);
 // Why the claims about the smaller systems are not those about this one; empty if they are.
 [[nodiscard]] std::optional<std::string> why_not_inherited(const Mechanics& mechanics,
+                                                           const SolvePlan& plan,
                                                            const Program& program,
                                                            const SmallerSystems& smaller);
 

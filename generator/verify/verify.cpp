@@ -20,7 +20,9 @@ const GeneratingFunction* raised_function(const Scheme& scheme, const SolvePlan&
 // The step back takes K(zbar, -h): it is the adjoint's only if K is even in h.
 Decision decide_even(const GeneratingFunction& function, const Surroundings& around) {
   Decision all{.verdict = Verdict::proved};
-  for (const Expression& slope : function.gradient) {
+  std::vector<Expression> slopes = function.gradient;
+  for (const Kernel& kernel : function.kernels) slopes.push_back(kernel.value);
+  for (const Expression& slope : slopes) {
     const Expression mirrored = substitute(slope, {{"h", -Expression::symbol("h", kRankOfStep)}});
     if (mirrored == slope) continue;
     const Decision one = decide_equal("grad K(zbar, -h)", mirrored, slope, around);
@@ -92,8 +94,8 @@ Proof verify(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& 
              const Program& program, const std::optional<Expression>& hamiltonian,
              const Surroundings& around, const std::optional<SmallerSystems>& smaller) {
   std::optional<Decision> of_k;
-  if (const GeneratingFunction* function = raised_function(scheme, plan))
-    of_k = decide_function(mechanics, Derivatives(mechanics), scheme.member(), *function, around);
+  if (raised_function(scheme, plan) != nullptr)
+    of_k = decide_raised(mechanics, plan, program, hamiltonian, around, smaller);
   Proof proof = prove_method(mechanics, scheme, plan, around, of_k);
   // A step is what it is proved to be where H has the derivatives it is made of.
   const std::vector<Corner> corners_of_h = corners_of_hamiltonian(mechanics);

@@ -15,8 +15,9 @@ std::string chain(int n,
 }
 
 TEST(LargePlan, TheTextOfALongSumDoesNotGrowWithItsLength) {
-  for (const Request& request : {Request{}, Request{.alpha = "0"}, Request{.alpha = "1"},
-                                 Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}}) {
+  for (const Request& request :
+       {Request{}, Request{.alpha = "0"}, Request{.alpha = "1"},
+        Request{.alpha = "3/10", .beta = "h/7", .gamma = "-h/9"}, Request{.order = 4}}) {
     const Outcome forty = outcome(chain(40), request);
     const Outcome longer = outcome(chain(200), request);
     EXPECT_TRUE(contains(forty.plan, "stay loops")) << forty.plan;
@@ -61,6 +62,19 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
       "size N = 30\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
       "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1])\n");
   EXPECT_TRUE(contains(coupled.plan, "solver: banded Newton of size 60")) << coupled.plan;
+}
+
+// K is loops over neighbours under the names of the model, and the gradient of H stays beside its.
+TEST(LargePlan, AMemberOfOrderFourTakesTheGradientOfAnotherSum) {
+  const Outcome raised = outcome(chain(64), {.order = 4});
+  EXPECT_TRUE(contains(raised.plan, "solver: banded Newton of size 128, in loops\n"))
+      << raised.plan;
+  EXPECT_TRUE(contains(raised.plan, "K of order 4 in place of H: sums over neighbours, like H;"))
+      << raised.plan;
+  EXPECT_TRUE(contains(raised.header, "inline void potential_gradient("));
+  const std::string slopes = function_text(raised.header, "void generating_gradient(");
+  EXPECT_TRUE(contains(slopes, "const Real p_i_plus_1 = p[i];")) << slopes;
+  EXPECT_TRUE(contains(slopes, "for (int i = 2; i <= 63; ++i)")) << slopes;
 }
 
 // What is cheap is computed again for each of its ends instead of waiting for memory, its terms

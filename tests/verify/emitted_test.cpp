@@ -285,6 +285,31 @@ TEST(EmittedLoops, EveryMutationIsRefuted) {
   EXPECT_GE(refuted_mutants({kChain, kCoupledRing}), 20);
 }
 
+// Of the K that stands in for H, too.
+TEST(EmittedLoops, OfARaisedMemberAreTheMathematicsAndNoMutantIs) {
+  const auto [mechanics, hamiltonian] = loops_of(
+      "size N = 25\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^3/3)\n");
+  const int n = mechanics.degrees_of_freedom;
+  const Scheme scheme = raise_order(uniform(n, half(), Expression(0), Expression(0)), 4);
+  const LoweredStep lowered = lowered_of(mechanics, scheme, "");
+  const Program code = build_program(lowered);
+  const Finding finding = prove_emitted(mechanics, scheme, lowered.plan, code, hamiltonian);
+  EXPECT_EQ(finding.verdict, Verdict::tested) << finding.detail;
+  std::vector<verify_test::Mutant> list =
+      mutants_of(code, {11, 0}, {"generating_gradient", "differentiate"});
+  std::ranges::move(mutants_of(code, {11, 1}, {"solve"}), std::back_inserter(list));
+  int mutants = 0;
+  for (const verify_test::Mutant& mutant : list) {
+    if (computes_the_same(code, mutant.code)) continue;
+    EXPECT_EQ(prove_emitted(mechanics, scheme, lowered.plan, mutant.code, hamiltonian).verdict,
+              Verdict::refuted)
+        << mutant.kind << ": " << mutant.description;
+    ++mutants;
+  }
+  EXPECT_GE(mutants, 3);
+}
+
 TEST(EmittedLoops, EveryMutationOfAFunctionOfSumsIsRefuted) {
   EXPECT_GE(refuted_mutants({kRotators}), 5);
 }

@@ -20,12 +20,14 @@ using verify_test::computes_the_same;
 using verify_test::lowered_of;
 
 // The system of a text at a size.
-SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name) {
+SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name,
+                      int order = 2) {
   const Model model = read_model(
       make_source("chain.ham", fmt::format("system chain\nsize N = {}\n{}", size, text)));
   Mechanics mechanics = derive(model);
   EXPECT_TRUE(mechanics.keeps_sums()) << text;
   Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
+  if (order > 2) scheme = raise_order(std::move(scheme), order);
   const LoweredStep lowered =
       lowered_of(mechanics, scheme, scheme_name == "stormer-verlet" ? "" : "fixed-point");
   return {size,         std::move(mechanics),   std::move(scheme),
@@ -199,6 +201,51 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
                                         large.hamiltonian, {}, {}, smaller);
   EXPECT_EQ(finding.verdict, Verdict::refuted);
   EXPECT_NE(finding.detail.find("at N = 25: "), std::string::npos) << finding.detail;
+}
+
+// K at 2 h is a function whose step is symplectic too, and of no order but that of H.
+SizedSystem with_other_function(SizedSystem system) {
+  const Substitution twice = {{"h", Expression(2) * step_size()}};
+  StepEquations& equations = system.plan.equations;
+  for (Kernel& kernel : equations.function->kernels) {
+    kernel.value = substitute(kernel.value, twice);
+    for (Expression& slope : kernel.gradient) slope = substitute(slope, twice);
+    for (auto& [slots, second] : kernel.hessian) second = substitute(second, twice);
+  }
+  equations.mechanics.kernels = equations.function->kernels;
+  system.program = build_program(system.plan);
+  return system;
+}
+
+// The order of a K in loops is that of shorter ones; where these are none, it is looked at itself.
+TEST(Growth, TheOrderOfALongChainIsThatOfShortOnes) {
+  const SizedSystem a = system_of(kGrowingChain, 25, "implicit-midpoint", 4);
+  const SizedSystem b = system_of(kGrowingChain, 26, "implicit-midpoint", 4);
+  const SizedSystem c = system_of(kGrowingChain, 60, "implicit-midpoint", 4);
+  const auto order = [](const SizedSystem& of, const std::optional<Expression>& hamiltonian,
+                        const std::optional<SmallerSystems>& smaller) {
+    const Proof proof =
+        verify(of.mechanics, of.scheme, of.plan, of.program, hamiltonian, {}, smaller);
+    const auto is_order = [](const Finding& each) { return each.property.starts_with("order"); };
+    const auto found = std::ranges::find_if(proof, is_order);
+    EXPECT_EQ(proof.back().verdict, found->verdict) << proof.back().detail;
+    return found->verdict;
+  };
+  const SmallerSystems smaller{"N", 60, a, b};
+  EXPECT_EQ(order(c, {}, smaller), Verdict::tested);
+  EXPECT_EQ(order(c, {}, {}), Verdict::not_decided);
+  EXPECT_EQ(order(c, c.hamiltonian, {}), Verdict::tested);
+  // One that is wrong at all sizes, and one that is wrong at the large one.
+  const SizedSystem wrong = with_other_function(c);
+  EXPECT_EQ(
+      order(wrong, {}, SmallerSystems{"N", 60, with_other_function(a), with_other_function(b)}),
+      Verdict::refuted);
+  EXPECT_EQ(order(wrong, {}, smaller), Verdict::not_decided);
+  EXPECT_EQ(order(wrong, wrong.hamiltonian, smaller), Verdict::refuted);
+  // The flow of a higher order comes from farther away.
+  EXPECT_LE(least_size_of_order(c.plan.equations), 25);
+  EXPECT_GT(
+      least_size_of_order(system_of(kGrowingChain, 60, "implicit-midpoint", 8).plan.equations), 25);
 }
 
 // Without smaller ones it is no proof.

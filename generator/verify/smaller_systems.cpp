@@ -1,0 +1,105 @@
+// Whether what is claimed of smaller systems holds of a large one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "generator/verify/growth.hpp"
+#include "generator/verify/proof.hpp"
+
+namespace hamgen {
+
+namespace {
+
+// Which element of its array.
+long element_at(const QuantityList& variables, long position) {
+  const auto is_in = [position](const QuantityList::Run& run) {
+    return position < static_cast<long>(run.begin + run.count);
+  };
+  const auto run = std::ranges::find_if(variables.runs(), is_in);
+  return position - static_cast<long>(run->begin) + run->first;
+}
+
+// How far the instances of loops reach, in elements.
+long reach_of(const std::vector<Kernel>& kernels, const QuantityList& variables) {
+  long reach = 0;
+  for (const Kernel& kernel : kernels) {
+    std::set<long> elements;
+    for (const Slot& slot : kernel.slots) {
+      const long first = least_value(slot.position, kernel.ranges);
+      if (!slot.position.factors.empty()) elements.insert(element_at(variables, first));
+    }
+    if (!elements.empty()) reach = std::max(reach, *elements.rbegin() - *elements.begin());
+  }
+  return reach;
+}
+
+}  // namespace
+
+long least_size_of_order(const StepEquations& equations) {
+  if (!equations.function || equations.function->kernels.empty()) return 0;
+  const QuantityList& variables = equations.mechanics.variables;
+  const long of_k = reach_of(equations.mechanics.kernels, variables);
+  const long of_flow = equations.function->order * reach_of(equations.energy_kernels, variables);
+  // Two ends, as far as K knows them, and what lies between.
+  return 2 * (of_flow + 2 * of_k) + 1;
+}
+
+std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const SolvePlan& plan,
+                                             const Program& code, const SmallerSystems& smaller) {
+  const auto& [constant, size, first, second, third] = smaller;
+  const std::set<std::string> whole = {"invariants", "events"};
+  const auto of_step = [](const SolvePlan& of) { return outline(of.equations.mechanics.kernels); };
+  if (least_size_of_order(plan.equations) > first.mechanics.degrees_of_freedom)
+    return "the flow reaches farther than the smaller ones are long";
+  const auto why_not = [&](long longer, const Mechanics& of,
+                           const Program& by) -> std::optional<std::string> {
+    std::optional<std::string> why =
+        why_not_longer({{{first.size, outline(first.mechanics.kernels)},
+                         {second.size, outline(second.mechanics.kernels)},
+                         {longer, outline(of.kernels)}}});
+    if (why) return why;
+    if (plan.equations.function && longer == size) {
+      why = why_not_longer({{{first.size, of_step(first.plan)},
+                             {second.size, of_step(second.plan)},
+                             {longer, of_step(plan)}}});
+      if (why) return "in K " + *why;
+    }
+    return why_not_longer({{{first.size, outline(first.program, whole)},
+                            {second.size, outline(second.program, whole)},
+                            {longer, outline(by, whole)}}});
+  };
+  if (!third && sums_over_pairs(mechanics)) return "its pairs are looked at in two sizes only";
+  std::optional<std::string> why = why_not(size, mechanics, code);
+  return why || !third ? why : why_not(third->size, third->mechanics, third->program);
+}
+
+long instances_of_loops(const Mechanics& mechanics) {
+  double total = 0;
+  for (const Kernel& kernel : mechanics.kernels) {
+    double count = 1;
+    for (const KernelRange& range : kernel.ranges) {
+      const AffineIndex& end = range.upper.factors.empty() ? range.upper : range.lower;
+      const AffineIndex& begin = range.lower.factors.empty() ? range.lower : range.upper;
+      count *= std::max(1.0, std::abs(static_cast<double>(end.constant - begin.constant)));
+    }
+    total += kernel.ranges.size() > 1 ? count / 2 : count;
+  }
+  return static_cast<long>(std::min(total, 1e18));
+}
+
+std::string sizes_text(const SmallerSystems& smaller) {
+  const std::string& name = smaller.constant;
+  const long first = smaller.first.size;
+  const long second = smaller.second.size;
+  if (!smaller.third) return fmt::format("{0} = {1} and {0} = {2}", name, first, second);
+  return fmt::format("{0} = {1}, {0} = {2} and {0} = {3}", name, first, second,
+                     smaller.third->size);
+}
+
+bool sums_over_pairs(const Mechanics& mechanics) {
+  return std::ranges::any_of(mechanics.kernels,
+                             [](const Kernel& kernel) { return kernel.ranges.size() > 1; });
+}
+
+}  // namespace hamgen
