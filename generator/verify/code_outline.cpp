@@ -104,12 +104,15 @@ class Outline {
   void operator()(const SetFlag& set) { whole(set.value ? "raise" : "lower", set.flag); }
   void operator()(const If& branch) {
     whole(branch.set ? "if" : "if not", branch.flag);
+    if (branch.also) whole("and", *branch.also);
+    if (branch.any) word("any");
     run(branch.then);
     word("end");
   }
   void operator()(const Call& call) {
     events_.push_back({.kind = Event::call, .text = call.routine});
-    word(fmt::format("{} {} {}", call.record, call.object, call.must_succeed));
+    word(fmt::format("{} {} {} {} {}", call.record, call.object, call.must_succeed, call.varies,
+                     call.again));
     for (const Place& place : call.arguments) whole("given", place);
     const std::vector<Argument>& arguments = code_->routine(call.routine)->arguments;
     for (std::size_t i = 0; i < arguments.size(); ++i) {

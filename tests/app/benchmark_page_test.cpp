@@ -60,10 +60,13 @@ bool is_target(const std::string& name) {
 
 void expect_cmake_works(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i + 1 < words.size(); ++i) {
-    if (words[i] == "--preset")
+    if (words[i] == "--preset") {
       EXPECT_TRUE(contains(read(root + "/CMakePresets.json"), "\"name\": \"" + words[i + 1] + "\""))
           << words[i + 1];
-    if (words[i] == "--target") EXPECT_TRUE(is_target(words[i + 1])) << words[i + 1];
+    }
+    if (words[i] == "--target") {
+      EXPECT_TRUE(is_target(words[i + 1])) << words[i + 1];
+    }
   }
 }
 

@@ -40,8 +40,9 @@ TEST(CheckAsJson, SaysOfEveryMistakeWhereItIs) {
     const std::size_t at = text.err.find(line, from);
     ASSERT_NE(at, std::string::npos) << line << text.err;
     from = at + line.size();
-    if (each["help"] != "")
+    if (each["help"] != "") {
       EXPECT_TRUE(contains(text.err.substr(from), "help: " + each["help"].get<std::string>()));
+    }
   }
   EXPECT_EQ(text.err.find(": error: ", from), std::string::npos) << "one is missing";
 }

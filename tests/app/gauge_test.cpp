@@ -142,7 +142,9 @@ TEST(LocallyExactGauge, IsTheSameInARunInGenerateAndInVerify) {
   EXPECT_EQ(proof.status, 0) << proof.err;
   for (const json& row : json::parse(proof.out)) {
     // h w = 1000/800: the exact flow turns by that.
-    if (row.contains("angles")) EXPECT_NEAR(row.at("angles").at(0).get<double>(), 1.25, 1e-9);
+    if (row.contains("angles")) {
+      EXPECT_NEAR(row.at("angles").at(0).get<double>(), 1.25, 1e-9);
+    }
   }
 }
 

@@ -226,7 +226,9 @@ TEST(LaneBlocks, APredictionDoesNotDependOnTheOtherLanes) {
     equal.extrapolate(alone);
     EXPECT_EQ(predicted[0][0], alone[0][0]) << step;
     EXPECT_EQ(predicted[1][0], alone[1][0]) << step;
-    if (step > 20) EXPECT_GT(mixed.highest, mixed.best[1]) << step;
+    if (step > 20) {
+      EXPECT_GT(mixed.highest, mixed.best[1]) << step;
+    }
   }
 }
 
@@ -239,8 +241,12 @@ TEST(LaneBlocks, ErrorsAreDifferences) {
     const packs::Real first = history.error<0>(solution, 0, 2);
     const packs::Real fourth = history.error<3>(solution, 0, 1);
     EXPECT_EQ(first[0], k == 0 ? 0 : power(k) - power(k - 1)) << k;
-    if (k >= 4) EXPECT_EQ(fourth[1], 24) << k;
-    if (k == 3) EXPECT_EQ(fourth[1], 81 - 3 * 16 + 3) << k;
+    if (k >= 4) {
+      EXPECT_EQ(fourth[1], 24) << k;
+    }
+    if (k == 3) {
+      EXPECT_EQ(fourth[1], 81 - 3 * 16 + 3) << k;
+    }
     EXPECT_EQ((history.error<0>(solution, 1, 1)[0]), 0) << k;
     history.record(solution);
   }

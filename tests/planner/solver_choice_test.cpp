@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/solvers/all_solvers.hpp"
 
 namespace hamgen {
@@ -22,6 +23,16 @@ TEST(SolverChoice, OfTheWholeListIsRead) {
     if (text.ends_with(":K")) text.back() = '4';
     EXPECT_NE(SolverChoice(text)->kind, SolverWish::Kind::cheapest) << text;
   }
+}
+
+TEST(SolverChoice, EndsAFixedPointByARuleThatLanesHaveToo) {
+  for (const NamedSolver& solver : all_solvers()) {
+    std::string text(solver.name);
+    if (text.ends_with(":K")) text.back() = '4';
+    EXPECT_TRUE(is_defined(cpp_blocks(), SolverChoice(text)->rule)) << text;
+    EXPECT_TRUE(is_defined(lane_blocks(), SolverChoice(text)->rule)) << text;
+  }
+  EXPECT_FALSE(is_defined(lane_blocks(), "StagnationRule"));
 }
 
 TEST(SolverChoice, OfAnotherNameOrNumberIsRefusedWhereItIsGiven) {
