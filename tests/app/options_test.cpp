@@ -86,15 +86,18 @@ TEST(Options, MeanTheSameInEveryCommand) {
       const auto found = all.at(command).find(word.option);
       EXPECT_EQ(found != all.at(command).end(), word.commands.contains(command))
           << command << ' ' << word.option;
-      if (found != all.at(command).end())
+      if (found != all.at(command).end()) {
         EXPECT_EQ(found->second, word.value) << command << ' ' << word.option;
+      }
     }
   }
   for (const std::string& command : integrate) {
     const std::string value = command == "bench" ? "H1,H2,..." : "H";
     EXPECT_EQ(all.at(command).at("--h"), value) << command;
     EXPECT_TRUE(all.at(command).contains("--quiet")) << command;
-    if (command != "report") EXPECT_TRUE(all.at(command).contains("--json")) << command;
+    if (command != "report") {
+      EXPECT_TRUE(all.at(command).contains("--json")) << command;
+    }
   }
   for (const std::string command : {"check", "show", "generate", "list", "cache"})
     EXPECT_TRUE(all.at(command).contains("--json")) << command;
@@ -307,7 +310,9 @@ TEST(CacheList, SaysWhatEachEntryIs) {
   EXPECT_TRUE(contains(list.out, "aaaaaaaaaaaa  mine<U+001B>[2J, sss")) << list.out;
   EXPECT_TRUE(contains(list.out, "bbbbbbbbbbbb  no record of what it is")) << list.out;
   for (const std::string& line : lines(list.out)) {
-    if (line.starts_with("a") || line.starts_with("b")) EXPECT_LE(line.size(), 100u) << line;
+    if (line.starts_with("a") || line.starts_with("b")) {
+      EXPECT_LE(line.size(), 100u) << line;
+    }
   }
   const Result json = hamgen({"cache", "--json"}, environment);
   EXPECT_TRUE(contains(json.out, "\"model\": \"mine\\u001b[2J\"")) << json.out;
