@@ -332,7 +332,7 @@ Program build_program(const LoweredStep& lowered) {
     add_stages(code, environment, lowered);
     code.retries = true;
   } else {
-    code.routines.push_back(explicit_runge_kutta_routine(environment, lowered.sequence.stages));
+    add_explicit_runge_kutta(code, environment, lowered.sequence.stages);
   }
   if (lowered.unchecked) leave_unchecked(code);
   if (lowered.plain_sums) use_plain_sums(code);

@@ -120,7 +120,7 @@ Routine explicit_runge_kutta_tangent(const Environment& environment, const Lower
   b.body().push_back({Array{"moved", {size, size}}});
   b.body().push_back({Array{"product", {size, size}}});
   b.body().push_back(b.set_unit("m"));
-  const auto slope = [](std::size_t j) { return fmt::format("f_{}", j + 1); };
+  const auto slope = explicit_slope;
   const auto map = [](std::size_t j) { return fmt::format("map_{}", j + 1); };
   for (std::size_t i = 0; i < table.weight.size(); ++i) {
     Body move;

@@ -2,89 +2,138 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/routine_builder.hpp"
+#include "generator/program/stage_routines.hpp"
+
 namespace hamgen {
 
 namespace {
+
+// sum row_j f_j of what is not zero.
+template <class Slope>
+Expression combination(const std::vector<Expression>& row, const Slope& slope) {
+  std::vector<Expression> terms;
+  for (std::size_t j = 0; j < row.size(); ++j) {
+    const Rational number = numeric_value(row[j]);
+    if (number != 0) terms.push_back(Expression(number) * slope(j));
+  }
+  return Expression::sum(std::move(terms));
+}
 
 class ExplicitRoutine {
  public:
   ExplicitRoutine(const Environment& environment, const StageTable& table)
       : environment_(environment),
         table_(table),
-        size_(2 * environment.degrees_of_freedom),
-        all_{"k", {0, {}}, {size_ - 1, {}}} {}
+        n_(environment.degrees_of_freedom),
+        b_({.name = "solve",
+            .remark = {"dz = Z - z for one step from z + carry."},
+            .result = {.type = "StepReport", .object = "report"},
+            .arguments = arguments(environment)}) {}
 
   Routine build() {
-    routine_ = {.name = "solve",
-                .remark = {"dz = Z - z for one step from z + carry."},
-                .result = {.type = "StepReport", .object = "report"},
-                .arguments = {parameters_argument(),
-                              {.name = "h"},
-                              state_argument("z"),
-                              state_argument("carry"),
-                              state_argument("dz", true)}};
-    Body& body = routine_.body;
-    std::vector<Expression> components;
-    for (int i = 0; i < size_; ++i) components.push_back(environment_.bind_state(routine_, "z", i));
-    body.push_back({Array{"x", {size_}, std::move(components)}});
-    if (table_.weight.size() > 1) body.push_back({Array{"y", {size_}}});
-    for (std::size_t i = 0; i < table_.weight.size(); ++i) add_stage(body, i);
-    Return end;
-    for (int i = 0; i < size_; ++i) {
-      const Expression dz = environment_.bind_state(routine_, "dz", i);
-      const Expression carry = environment_.bind_state(routine_, "carry", i);
-      const Expression slope = combination(
-          table_.weight, [&](std::size_t j) { return bind_element(routine_, slope_name(j), {i}); });
-      body.push_back({Assign{dz.name(), carry + step_size() * slope}});
-      end.finite.push_back(dz.name());
-    }
-    body.push_back({std::move(end)});
-    return std::move(routine_);
+    add_state();
+    if (table_.weight.size() > 1) declare("y");
+    for (std::size_t i = 0; i < table_.weight.size(); ++i) add_stage(i);
+    add_result();
+    return b_.take();
   }
 
  private:
-  static std::string slope_name(std::size_t stage) { return fmt::format("f_{}", stage + 1); }
-
-  // sum row_j f_j of what is not zero.
-  template <class Slope>
-  static Expression combination(const std::vector<Expression>& row, const Slope& slope) {
-    std::vector<Expression> terms;
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      const Rational number = numeric_value(row[j]);
-      if (number != 0) terms.push_back(Expression(number) * slope(j));
-    }
-    return Expression::sum(std::move(terms));
+  static std::vector<Argument> arguments(const Environment& environment) {
+    std::vector<Argument> list = {parameters_argument(),
+                                  {.name = "h"},
+                                  state_argument("z"),
+                                  state_argument("carry"),
+                                  state_argument("dz", true)};
+    if (environment.arrays)
+      list.insert(list.end() - 1, {.name = "start", .record = "Start", .changes = true});
+    return list;
+  }
+  // Of a large system the arrays are not on the stack.
+  [[nodiscard]] Place array(const std::string& name) const {
+    return environment_.arrays ? Place{"start", name} : Place{name};
+  }
+  void add_state() {
+    if (environment_.arrays) return read_state(b_, b_.body(), environment_, "z", array("x"), true);
+    std::vector<Expression> components;
+    for (int i = 0; i < 2 * n_; ++i) components.push_back(b_.at(environment_.place("z", i)));
+    b_.body().push_back({Array{"x", {2 * n_}, std::move(components)}});
+  }
+  void declare(const std::string& name) {
+    if (!environment_.arrays) b_.body().push_back({Array{name, {2 * n_}}});
+  }
+  Expression element(const std::string& name, const AffineIndex& index) {
+    const Place whole = array(name);
+    return b_.at(whole.object, whole.field, {index});
   }
 
-  // An element of an array that the loop over all components runs through.
-  Expression running(const std::string& array) {
-    const std::string symbol = array + "(k)";
-    routine_.places.insert_or_assign(symbol, Place{array, "", {{0, {{"k", 1}}}}});
-    return Expression::symbol(symbol, kRankOfTemporary);
-  }
-
-  void add_stage(Body& body, std::size_t i) {
-    const Expression sum =
-        combination(table_.coupling[i], [&](std::size_t j) { return running(slope_name(j)); });
-    body.push_back({Array{slope_name(i), {size_}}});
+  void add_stage(std::size_t i) {
+    const Expression sum = combination(
+        table_.coupling[i], [&](std::size_t j) { return element(explicit_slope(j), affine("k")); });
+    declare(explicit_slope(i));
     if (!sum.is_zero()) {
-      Body move{{Assign{running("y").name(), running("x") + step_size() * sum}}};
-      body.push_back({For{all_, std::move(move)}});
+      const Expression from = element("x", affine("k"));
+      Body move{{Assign{element("y", affine("k")).name(), from + step_size() * sum}}};
+      b_.body().push_back(for_each(counting("k", 2 * n_), std::move(move)));
     }
-    body.push_back({Call{"vector_field", {{"par"}, {sum.is_zero() ? "x" : "y"}, {slope_name(i)}}}});
+    b_.body().push_back({Call{
+        "vector_field", {{"par"}, array(sum.is_zero() ? "x" : "y"), array(explicit_slope(i))}}});
+  }
+
+  // dz = carry + h sum b_j f_j at a place of them, of f at another.
+  void add_increment(Body& body, Return& end, const Place& dz, const Place& carry,
+                     const AffineIndex& of_slopes) {
+    const std::string name = b_.at(dz).name();
+    const Expression small = b_.at(carry);
+    const Expression slope = combination(
+        table_.weight, [&](std::size_t j) { return element(explicit_slope(j), of_slopes); });
+    body.push_back({Assign{name, small + step_size() * slope}});
+    end.finite.push_back(name);
+  }
+  void add_result() {
+    Return end;
+    if (environment_.arrays) {
+      Body each;
+      for (const char* half : {"q", "p"}) {
+        add_increment(each, end, {"dz", half, {affine("j")}}, {"carry", half, {affine("j")}},
+                      affine("j", half[0] == 'q' ? 0 : n_));
+      }
+      end.ranges = {counting("j", n_)};
+      b_.body().push_back(for_each(counting("j", n_), std::move(each)));
+    } else {
+      for (int i = 0; i < 2 * n_; ++i) {
+        add_increment(b_.body(), end, environment_.place("dz", i), environment_.place("carry", i),
+                      affine(i));
+      }
+    }
+    b_.body().push_back({std::move(end)});
   }
 
   const Environment& environment_;
   const StageTable& table_;
-  int size_;
-  KernelRange all_;
-  Routine routine_;
+  int n_;
+  RoutineBuilder b_;
 };
 
 }  // namespace
 
-Routine explicit_runge_kutta_routine(const Environment& environment, const StageTable& table) {
-  return ExplicitRoutine(environment, table).build();
+std::string explicit_slope(std::size_t stage) { return fmt::format("f_{}", stage + 1); }
+
+void add_explicit_runge_kutta(Program& code, const Environment& environment,
+                              const StageTable& table) {
+  if (environment.arrays) {
+    Record start{.name = "Start", .fields = {}, .remark = {"What a step works with."}};
+    const auto add = [&](const std::string& name, const char* remark) {
+      start.fields.push_back(
+          {.name = name, .sizes = {2 * environment.degrees_of_freedom}, .remark = remark});
+    };
+    add("x", "z");
+    if (table.weight.size() > 1) add("y", "a stage");
+    for (std::size_t i = 0; i < table.weight.size(); ++i) add(explicit_slope(i), "J grad H there");
+    code.records.push_back(std::move(start));
+  }
+  code.routines.push_back(ExplicitRoutine(environment, table).build());
 }
 
 }  // namespace hamgen

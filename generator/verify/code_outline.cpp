@@ -32,7 +32,8 @@ class Outline {
     events_.push_back({.kind = Event::routine, .text = routine.name});
     word(routine.result.type + " " + routine.result.object);
     for (const Argument& a : routine.arguments) {
-      word(fmt::format("argument {} {} {} {}", a.name, a.record, a.changes, a.decays), lengths(a));
+      word(fmt::format("argument {} {} {}", a.record, a.changes, a.decays), lengths(a));
+      events_.back().names = {a.name};
     }
   }
   void run(const Body& body) {
@@ -81,6 +82,7 @@ class Outline {
   }
   void operator()(const For& range) {
     loop(range.range);
+    events_.back().lanes = range.lanes;
     run(range.body);
     end();
   }
@@ -99,7 +101,8 @@ class Outline {
   }
   void operator()(const Clear& clear) { whole("clear", clear.matrix); }
   void operator()(const Copy& copy) {
-    word(fmt::format("copy {} {} {} {}", copy.record, copy.to, copy.from, copy.declares));
+    word(fmt::format("copy {} {}", copy.record, copy.declares));
+    events_.back().names = {copy.to, copy.from};
   }
   void operator()(const SetFlag& set) { whole(set.value ? "raise" : "lower", set.flag); }
   void operator()(const If& branch) {
@@ -165,7 +168,8 @@ class Outline {
   }
   void operator()(const RefineArray& refine) {
     run(refine.body);
-    whole("refine " + refine.rule, refine.refinement);
+    word("refine " + refine.rule);
+    whole("refinement", refine.refinement);
     whole("at", refine.point);
     whole("lack", refine.lack);
     whole("gradient", refine.gradient);
@@ -230,7 +234,8 @@ class Outline {
     elements(place);
   }
   void whole(const std::string& what, const Place& place) {
-    word(fmt::format("{} {}.{}", what, place.object, place.field));
+    word(what);
+    events_.back().names = {place.object + "." + place.field};
     elements(place);
   }
   void elements(const Place& place) {

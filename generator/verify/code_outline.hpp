@@ -18,7 +18,7 @@ inline constexpr const char* kAlone = "alone";
 
 struct CodeEvent {
   enum class Kind {
-    word,     // anything that has to be the same
+    word,     // anything that has to be the same; names: objects that it takes whole
     routine,  // begins: its name
     call,     // of a routine: its name
     shared,   // its arguments: one that it changes is a part of one that it reads
@@ -35,6 +35,7 @@ struct CodeEvent {
   std::string text = {};
   std::vector<std::string> names = {};
   std::vector<long> numbers = {};
+  int lanes = 0;  // of a loop: so many at once
 };
 
 // All but `left_out`.

@@ -7,55 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "generator/verify/rooms.hpp"
+
 namespace hamgen {
 
 namespace {
 
 using Event = CodeEvent::Kind;
-
-// near + slope * size
-struct AffineNumber {
-  long near = 0;
-  long slope = 0;
-};
-struct GrowingEvent {
-  const CodeEvent& of;
-  std::vector<AffineNumber> numbers;
-};
-
-bool is_same(const CodeEvent& a, const CodeEvent& b) {
-  return a.kind == b.kind && a.text == b.text && a.names == b.names &&
-         a.numbers.size() == b.numbers.size();
-}
-
-// Not local, and why.
-struct NotLonger {
-  std::string why;
-};
-
-std::vector<GrowingEvent> affine_events(const std::array<SizedOutline, 3>& sizes) {
-  const auto& [a, b, c] = sizes;
-  if (a.events.size() != b.events.size() || a.events.size() != c.events.size())
-    throw NotLonger{"its routines have other instructions"};
-  std::vector<GrowingEvent> merged;
-  for (std::size_t i = 0; i < a.events.size(); ++i) {
-    const CodeEvent& event = a.events[i];
-    if (!is_same(event, b.events[i]) || !is_same(event, c.events[i]))
-      throw NotLonger{"its routines have other instructions"};
-    GrowingEvent growing{event, {}};
-    for (std::size_t j = 0; j < event.numbers.size(); ++j) {
-      const long first = event.numbers[j];
-      const long slope = (b.events[i].numbers[j] - first) / (b.size - a.size);
-      const AffineNumber number{first - slope * a.size, slope};
-      const auto at = [&](long size) { return number.near + slope * size; };
-      if (b.events[i].numbers[j] != at(b.size) || c.events[i].numbers[j] != at(c.size))
-        throw NotLonger{"its places are not affine in the size"};
-      growing.numbers.push_back(number);
-    }
-    merged.push_back(std::move(growing));
-  }
-  return merged;
-}
 
 // How far values reach, and whether there are sums over pairs.
 struct Reach {
@@ -70,7 +28,7 @@ struct Reach {
 // one routine all its loops and what it calls.
 class Locality {
  public:
-  explicit Locality(const std::vector<GrowingEvent>& events) : events_(events) {}
+  explicit Locality(const std::vector<GrowingEvent>& events) : events_(events), rooms_(events) {}
 
   // Elements at either end that places without an index name, and what is around them.
   Reach reach() {
@@ -86,15 +44,16 @@ class Locality {
     std::string index;
     bool grows = false;
     long times = 1;  // of one that does not
-    long last = 0;
+    long first = 0, last = 0;
   };
   // An element in a nest of loops: by dimension the growing index, and what is added to it.
   using Offsets = std::vector<std::pair<std::string, long>>;
   // Which part of its array it is in: the indices that choose it, and by dimension where it begins,
-  // in multiples of the size.
+  // in multiples of the size, and how many places an instance goes on.
   struct Block {
     std::string indices;
     std::vector<long> begins;
+    std::vector<long> strides;
     auto operator<=>(const Block&) const = default;
   };
   using Places = std::set<std::pair<Block, Offsets>>;
@@ -110,8 +69,9 @@ class Locality {
 
   // The claims about all others take these for functions of which nothing is known.
   static bool is_function(const std::string& routine) {
-    static const std::set<std::string> functions = {"vector_field", "hessian", "gradient",
-                                                    "potential_gradient", "generating_gradient"};
+    static const std::set<std::string> functions = {
+        "vector_field",        "hessian",       "gradient", "potential_gradient",
+        "generating_gradient", "vector_fields", "forces"};
     return functions.contains(routine);
   }
   [[nodiscard]] bool is_opaque(const std::string& called) const {
@@ -155,7 +115,7 @@ class Locality {
       case Event::add:
         return access(of, alone);
       case Event::element:
-        static_cast<void>(element(event));
+        static_cast<void>(element(event, 1));
         return;
       case Event::word:
         alone_ = of.text == kAlone;
@@ -187,16 +147,21 @@ class Locality {
     const bool moves = event.of.names.size() > 1;
     if (moves && !is_triangle(event))
       throw NotLonger{"the ends of a loop move with another one's index"};
-    Loop loop{.index = event.of.text, .grows = moves};
+    Loop loop{.index = event.of.text, .grows = hamgen::grows(event)};
     for (const AffineNumber& bound : event.numbers) {
-      loop.grows |= bound.slope != 0;
-      boundary_ = std::max(boundary_, std::abs(bound.near));
+      if (loop.grows) boundary_ = std::max(boundary_, std::abs(bound.near));
     }
-    loop.last = std::abs(event.numbers.back().near);
-    if (!loop.grows) loop.times = std::max(1L, loop.last - event.numbers.front().near + 1);
+    loop.first = event.numbers.front().near;
+    loop.last = event.numbers.back().near;
+    if (!loop.grows) loop.times = std::max(1L, times_of(loop, event.of.lanes));
     if (loop.grows) covers_ = growing_loops() == 0 && !moves ? covered(event) : std::nullopt;
     if (loop.grows && in_pairs()) throw NotLonger{"a sum runs over more than pairs"};
     loops_.push_back(std::move(loop));
+  }
+  // Those at once go through the loops inside together.
+  static long times_of(const Loop& loop, int lanes) {
+    const long count = loop.last - loop.first + 1;
+    return lanes > 1 ? (count + lanes - 1) / lanes : count;
   }
   // How many elements the loop has at most, in multiples of the size.
   static std::optional<long> covered(const GrowingEvent& event) {
@@ -231,11 +196,13 @@ class Locality {
     const auto& [block, place] = *all.begin();
     std::set<long> begins;
     for (const auto& [other, there] : all) {
-      if (there != place || other.begins.size() != 1 || other.indices != block.indices)
+      if (there != place || other.begins.size() != 1 || other.indices != block.indices ||
+          other.strides != block.strides)
         return false;
       begins.insert(other.begins.front());
     }
-    const auto meet = [this](long a, long b) { return !covers_ || b - a < *covers_; };
+    const long stride = block.strides.front();
+    const auto meet = [&](long a, long b) { return !covers_ || b - a < *covers_ * stride; };
     return std::ranges::adjacent_find(begins, meet) == begins.end();
   }
   void end() {
@@ -264,35 +231,48 @@ class Locality {
     }
   }
 
-  // In one dimension the growing index, if there is one, and what is added to it.  Other indices
-  // may choose a block, whose length grows with the size, or an element near an end.
-  std::pair<std::string, long> element(const GrowingEvent& event) {
-    std::pair<std::string, long> result{"", event.numbers.back().near};
-    long furthest = std::abs(result.second);
+  // In one dimension the growing index, if there is one, and which element from it on: the other
+  // indices choose a block, whose length grows with the size, a place of the element, or an element
+  // near an end.
+  std::pair<std::string, long> element(const GrowingEvent& event, long room) {
+    const long near = event.numbers.back().near;
+    std::pair<std::string, long> result{"", near};
+    long low = near;
+    long high = near;
+    long stride = 0;
     for (std::size_t i = 0; i < event.of.names.size(); ++i) {
       const std::string& name = event.of.names[i];
-      const auto& [near, slope] = event.numbers[i];
-      if (!grows(name)) {
-        furthest += std::abs(near) * last_of(name);
-        continue;
+      const auto& [factor, slope] = event.numbers[i];
+      if (grows(name)) {
+        if (stride != 0 || slope != 0 || factor <= 0)
+          throw NotLonger{"neighbours in its loops do not have neighbouring places"};
+        result.first = name;
+        stride = factor;
+      } else if (const auto loop = loop_of(name)) {
+        low += std::min(factor * loop->first, factor * loop->last);
+        high += std::max(factor * loop->first, factor * loop->last);
       }
-      if (!result.first.empty() || slope != 0 || near != 1)
-        throw NotLonger{"neighbours in its loops do not have neighbouring places"};
-      result.first = name;
     }
-    if (result.first.empty()) {
-      boundary_ = std::max(boundary_, furthest);
+    if (stride == 0) {
+      const long furthest = std::max(std::abs(low), std::abs(high));
+      boundary_ = std::max(boundary_, (furthest + room - 1) / room);
       return result;
     }
-    if (furthest != std::abs(result.second))
-      throw NotLonger{"neighbours in its loops do not have neighbouring places"};
-    lowest_ = std::min(lowest_.value_or(result.second), result.second);
-    highest_ = std::max(highest_.value_or(result.second), result.second);
+    // A loop from place to place has no other index, and goes at most as far as its places.
+    const long first = stride == room ? floor_of(low, room) : low;
+    const long last = stride == room ? floor_of(high, room) : high;
+    if (first != last) throw NotLonger{"neighbours in its loops do not have neighbouring places"};
+    result.second = first;
+    lowest_ = std::min(lowest_.value_or(first), first);
+    highest_ = std::max(highest_.value_or(first), first);
     return result;
   }
-  [[nodiscard]] long last_of(const std::string& index) const {
+  static long floor_of(long place, long room) {
+    return place >= 0 ? place / room : -((-place + room - 1) / room);
+  }
+  [[nodiscard]] const Loop* loop_of(const std::string& index) const {
     const auto loop = std::ranges::find(loops_, index, &Loop::index);
-    return loop == loops_.end() ? 0 : loop->last;
+    return loop == loops_.end() ? nullptr : &*loop;
   }
 
   void access(const CodeEvent& of, bool alone) {
@@ -301,10 +281,17 @@ class Locality {
     Block block;
     while (at_ < events_.size() && events_[at_].of.kind == Event::element) {
       const GrowingEvent& event = next();
-      const auto [index, offset] = element(event);
+      const auto [index, offset] = element(event, rooms_.of(routine_, of.text, offsets.size()));
       offsets.emplace_back(index, offset);
       if (!index.empty()) indices.insert(index);
-      for (const std::string& name : event.of.names) block.indices += " " + name;
+      block.strides.push_back(0);
+      for (std::size_t i = 0; i < event.of.names.size(); ++i) {
+        const std::string& name = event.of.names[i];
+        if (name == index) block.strides.back() = event.numbers[i].near;
+        // Others choose a place of the element.
+        if (index.empty() || name == index || event.numbers[i].slope != 0)
+          block.indices += " " + name;
+      }
       block.indices += ",";
       block.begins.push_back(event.numbers.back().slope);
     }
@@ -349,6 +336,7 @@ class Locality {
   }
 
   const std::vector<GrowingEvent>& events_;
+  Rooms rooms_;
   std::size_t at_ = 0;
   std::string routine_;
   std::map<std::string, long> radius_;

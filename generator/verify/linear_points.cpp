@@ -78,10 +78,11 @@ std::string flow_text(const LinearStability& found) {
   const auto& w = found.frequencies;
   std::string text;
   if (w.size() == 1) {
-    text = fmt::format("one oscillation, `omega = {:.6g}`, `h omega = {:.6g}`", w[0], found.h * w[0]);
+    text =
+        fmt::format("one oscillation, `omega = {:.6g}`, `h omega = {:.6g}`", w[0], found.h * w[0]);
   } else if (!w.empty()) {
-    text = fmt::format("{} oscillations, `omega = {:.6g}` to `{:.6g}`, `h omega` up to `{:.6g}`", w.size(),
-                       w.front(), w.back(), found.h * w.back());
+    text = fmt::format("{} oscillations, `omega = {:.6g}` to `{:.6g}`, `h omega` up to `{:.6g}`",
+                       w.size(), w.front(), w.back(), found.h * w.back());
   }
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (found.free_motions > 0)
@@ -140,8 +141,8 @@ std::string resonance_text(const LinearStability& found) {
       const double off = std::abs(found.angles[k] * m / turn - 1.0);
       if (off >= nearest) continue;
       nearest = off;
-      near = fmt::format("`omega = {:.6g}` is {:.2g}% off `2 pi/{}`", found.frequencies[k], 100.0 * off,
-                         m);
+      near = fmt::format("`omega = {:.6g}` is {:.2g}% off `2 pi/{}`", found.frequencies[k],
+                         100.0 * off, m);
     }
   }
   if (nearest < 0.05) text += "; near a resonance: " + near;
