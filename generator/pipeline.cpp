@@ -191,7 +191,13 @@ std::vector<LinearPoint> linear_points(const SourceText& source, const Request& 
   if (hamgen::degrees_of_freedom(model) > most) return {};
   constexpr long most_collective = 100;  // a function of sums has a full second derivative
   if (hamgen::degrees_of_freedom(model) > most_collective && !derive(model).sums.empty()) return {};
-  const Mechanics mechanics = derive(model, false);
+  std::optional<Mechanics> written_out;
+  try {
+    written_out = derive(model, false);
+  } catch (const ModelError&) {  // which it is for its length alone: the model was derived in loops
+    return {};
+  }
+  const Mechanics& mechanics = *written_out;
   std::map<std::string, Rational> point;
   const auto add = [&point](const std::vector<std::string>& names,
                             const std::vector<Rational>& values) {

@@ -67,6 +67,9 @@ long least_size_in_loops(const SourceText& source, Request request, const std::s
   return least;
 }
 
+// How much longer than they could be the smaller systems are made for what the loops reach.
+constexpr long kMostTimesLonger = 4;
+
 // Of a large system in loops: its largest size as small as loops are made of, and the next ones.
 // Empty where the model has no such sizes: a list of values fits one of them only.
 std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
@@ -88,14 +91,18 @@ std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Re
     const long size = std::max(least_size_in_loops(source, request, largest->name),
                                least_size_of_order(stages.equations));
     if (largest->value <= size + 2) return {};
-    SmallerSystems smaller = made_by(request, size);
+    Request wish = request;
+    SmallerSystems smaller = made_by(wish, size);
     // Where Newton's matrix is too large the larger system is left without it.
     if (request.solver.empty() &&
         smaller.first.program.routines.size() > stages.program.routines.size()) {
-      Request without_matrix = request;
-      without_matrix.solver = "fixed-point";
-      smaller = made_by(without_matrix, size);
+      wish.solver = "fixed-point";
+      smaller = made_by(wish, size);
     }
+    const long reached =
+        least_size_of_loops(stages.system.mechanics, stages.plan, stages.program, smaller);
+    if (reached > size && reached <= kMostTimesLonger * size && reached + 2 < largest->value)
+      smaller = made_by(wish, reached);
     const bool in_loops =
         smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
     return in_loops ? std::optional(std::move(smaller)) : std::nullopt;

@@ -28,7 +28,8 @@ struct Reach {
 // one routine all its loops and what it calls.
 class Locality {
  public:
-  explicit Locality(const std::vector<GrowingEvent>& events) : events_(events), rooms_(events) {}
+  explicit Locality(std::vector<GrowingEvent> events)
+      : events_(std::move(events)), rooms_(events_) {}
 
   // Elements at either end that places without an index name, and what is around them.
   Reach reach() {
@@ -335,7 +336,7 @@ class Locality {
     summed_over_pairs_.insert(name);
   }
 
-  const std::vector<GrowingEvent>& events_;
+  std::vector<GrowingEvent> events_;
   Rooms rooms_;
   std::size_t at_ = 0;
   std::string routine_;
@@ -358,10 +359,17 @@ class Locality {
 
 }  // namespace
 
+long least_size(const std::array<SizedOutline, 3>& sizes) {
+  try {
+    return Locality(affine_events(sizes)).reach().least_size();
+  } catch (const NotLonger&) {
+    return 0;
+  }
+}
+
 std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes) {
   try {
-    const std::vector<GrowingEvent> events = affine_events(sizes);
-    const Reach reach = Locality(events).reach();
+    const Reach reach = Locality(affine_events(sizes)).reach();
     if (reach.least_size() > sizes[0].size)
       return fmt::format("its loops reach {} elements far", reach.elements);
     return {};

@@ -22,6 +22,8 @@ struct SizedOutline {
   std::vector<CodeEvent> events;
 };
 
+// How long the first has to be for what its loops reach; 0 where that is not known.
+[[nodiscard]] long least_size(const std::array<SizedOutline, 3>& sizes);
 // Why the third is not the first two, longer; empty if it is.  The sizes of the first two differ.
 [[nodiscard]] std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes);
 

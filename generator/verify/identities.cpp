@@ -30,6 +30,14 @@ std::size_t tree_size(const Expression& e, std::map<const void*, std::size_t>& k
   return size;
 }
 
+// With symbols of one rank: the two sides may have the same ones in another order, and sin(x - y)
+// and sin(y - x) are one function only where the order is one.
+Expression without_ranks(const Expression& e) {
+  Substitution plain;
+  for (const std::string& name : symbols(e)) plain.emplace(name, Expression::symbol(name));
+  return substitute(e, plain);
+}
+
 // Square roots as symbols: s_b^k for b^(k/2), with s_b^2 = b to be used afterwards.
 struct SquareRoots {
   std::map<Expression, Expression> symbols;
@@ -300,10 +308,11 @@ bool is_zero_by_algebra(const Expression& e) {
   if (size > kExpandable) return false;
   if (differs_from_zero(e)) return false;
   SymbolTable table;
-  if (to_ginac(e, table).expand().is_zero()) return true;
+  const Expression plain = without_ranks(e);
+  if (to_ginac(plain, table).expand().is_zero()) return true;
   if (size > kNormalisable) return false;
   SquareRoots roots;
-  const Expression rational = roots.replace(e);
+  const Expression rational = roots.replace(plain);
   try {
     return vanishes_with_roots(to_ginac(rational, table).normal().numer(), roots, table);
   } catch (const std::exception&) {  // GiNaC met a denominator that vanishes identically

@@ -63,6 +63,10 @@ inline constexpr long kMostInstances = 30'000;
                                                            const Program& program,
                                                            const SmallerSystems& smaller);
 
+// How long the smaller systems have to be for what the loops reach; 0 where that is not known.
+[[nodiscard]] long least_size_of_loops(const Mechanics& mechanics, const SolvePlan& plan,
+                                       const Program& program, const SmallerSystems& smaller);
+
 inline constexpr const char* kGauge = "gauge in sp(2n)";
 // The routines before they are text, the text read back, and that of what `hamgen run` compiles.
 inline constexpr const char* kProgram = "program";

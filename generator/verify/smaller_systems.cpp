@@ -45,33 +45,60 @@ long least_size_of_order(const StepEquations& equations) {
   return 2 * (of_flow + 2 * of_k) + 1;
 }
 
-std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const SolvePlan& plan,
-                                             const Program& code, const SmallerSystems& smaller) {
+namespace {
+
+struct Compared {
+  std::array<SizedOutline, 3> sizes;
+  std::string where;  // said before what differs
+};
+
+// What has to be the same, longer: the sums of H, those of K, the routines; of the large system and
+// of the third of the smaller ones.
+std::vector<Compared> compared(const Mechanics& mechanics, const SolvePlan& plan,
+                               const Program& code, const SmallerSystems& smaller) {
   const auto& [constant, size, first, second, third] = smaller;
   const std::set<std::string> whole = {"invariants", "events"};
-  const auto of_step = [](const SolvePlan& of) { return outline(of.equations.mechanics.kernels); };
-  if (least_size_of_order(plan.equations) > first.mechanics.degrees_of_freedom)
-    return "the flow reaches farther than the smaller ones are long";
-  const auto why_not = [&](long longer, const Mechanics& of,
-                           const Program& by) -> std::optional<std::string> {
-    std::optional<std::string> why =
-        why_not_longer({{{first.size, outline(first.mechanics.kernels)},
-                         {second.size, outline(second.mechanics.kernels)},
-                         {longer, outline(of.kernels)}}});
-    if (why) return why;
-    if (plan.equations.function && longer == size) {
-      why = why_not_longer({{{first.size, of_step(first.plan)},
-                             {second.size, of_step(second.plan)},
-                             {longer, of_step(plan)}}});
-      if (why) return "in K " + *why;
-    }
-    return why_not_longer({{{first.size, outline(first.program, whole)},
-                            {second.size, outline(second.program, whole)},
-                            {longer, outline(by, whole)}}});
+  std::vector<Compared> list;
+  const auto add = [&](const auto& of_first, const auto& of_second, long longer, const auto& of,
+                       const std::string& where = "") {
+    list.push_back({{{{first.size, of_first}, {second.size, of_second}, {longer, of}}}, where});
   };
-  if (!third && sums_over_pairs(mechanics)) return "its pairs are looked at in two sizes only";
-  std::optional<std::string> why = why_not(size, mechanics, code);
-  return why || !third ? why : why_not(third->size, third->mechanics, third->program);
+  const auto add_size = [&](long longer, const Mechanics& of, const Program& by) {
+    add(outline(first.mechanics.kernels), outline(second.mechanics.kernels), longer,
+        outline(of.kernels));
+    if (plan.equations.function && longer == size) {
+      const auto of_step = [](const SolvePlan& each) {
+        return outline(each.equations.mechanics.kernels);
+      };
+      add(of_step(first.plan), of_step(second.plan), longer, of_step(plan), "in K ");
+    }
+    add(outline(first.program, whole), outline(second.program, whole), longer, outline(by, whole));
+  };
+  add_size(size, mechanics, code);
+  if (third) add_size(third->size, third->mechanics, third->program);
+  return list;
+}
+
+}  // namespace
+
+std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const SolvePlan& plan,
+                                             const Program& code, const SmallerSystems& smaller) {
+  if (least_size_of_order(plan.equations) > smaller.first.mechanics.degrees_of_freedom)
+    return "the flow reaches farther than the smaller ones are long";
+  if (!smaller.third && sums_over_pairs(mechanics))
+    return "its pairs are looked at in two sizes only";
+  for (const Compared& each : compared(mechanics, plan, code, smaller)) {
+    if (const auto why = why_not_longer(each.sizes)) return each.where + *why;
+  }
+  return {};
+}
+
+long least_size_of_loops(const Mechanics& mechanics, const SolvePlan& plan, const Program& code,
+                         const SmallerSystems& smaller) {
+  long least = 0;
+  for (const Compared& each : compared(mechanics, plan, code, smaller))
+    least = std::max(least, least_size(each.sizes));
+  return least;
 }
 
 long instances_of_loops(const Mechanics& mechanics) {

@@ -45,6 +45,23 @@ TEST(LargeSystems, AreProvedAtSmallSizes) {
   expect_proved(kBodies, "40", "stormer-verlet");
 }
 
+// Neighbours that are far apart are seen in systems that are longer than they had to be.
+TEST(LargeSystems, WithFarNeighboursAreProvedAtLargerSizes) {
+  const std::string far =
+      "system far\nsize N = 40\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/5 + (q[i+1] - q[i])^4/4 + cos(q[i+9] - q[i]))\n"
+      "scene s {\n  q[1] = 1\n  h = 0.1\n  steps = 10\n}\n";
+  expect_proved(far, "20000", "implicit-midpoint");
+}
+
+// What takes too long is not decided, and the rest is said.
+TEST(LargeSystems, OfManyBodiesHaveNoLinearPart) {
+  const Scratch scratch;
+  const Result result = hamgen({"verify", scratch.write("model.ham", kBodies), "--set", "N=110"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "linear stability  not decided")) << result.out;
+}
+
 TEST(LargeSystems, OfAMillionElements) {
   expect_proved(kChain, "1000000", "stormer-verlet");
   expect_proved(kChain, "1000000", "implicit-midpoint");

@@ -128,6 +128,18 @@ TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
   }
 }
 
+// sin(x - y) and sin(y - x) are one function, whichever comes first.
+TEST(Growth, ProvesARingOfAnglesByAlgebra) {
+  const std::string ring =
+      kVariables + kKinetic + "sum(i = 1..N, cos(q[i+1] - q[i]) + cos(q[i+2] - q[i])/4)\n";
+  const SizedSystem a = system_of(ring, 25, "implicit-midpoint");
+  const SizedSystem b = system_of(ring, 26, "implicit-midpoint");
+  const SizedSystem c = system_of(ring, 60, "implicit-midpoint");
+  const Finding finding = prove_emitted(c.mechanics, c.scheme, c.plan, c.program, c.hamiltonian, {},
+                                        {}, SmallerSystems{"N", 60, a, b});
+  EXPECT_EQ(finding.verdict, Verdict::proved) << finding.detail;
+}
+
 // So have bodies that all know each other: three sizes, as constants may grow with their pairs.
 TEST(Growth, ProvesManyBodiesAndNoMutantOfThem) {
   for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-2"}) {
