@@ -10,8 +10,9 @@ namespace {
 constexpr const char* kSwing = "system swing\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
 
 // The routine of this name in what `show --stage program` prints.
-std::string shown(const std::string& routine, const Request& request = {}) {
-  const std::string text = show_stage(make_source("test.ham", kSwing), request, "program");
+std::string shown(const std::string& routine, const Request& request = {},
+                  const std::string& model = kSwing) {
+  const std::string text = show_stage(make_source("test.ham", model), request, "program");
   const auto begin = text.find("\n" + routine + "(");
   if (begin == std::string::npos) return "not found in\n" + text;
   auto end = text.find('\n', begin + 1);
@@ -61,6 +62,39 @@ TEST(Propagator, ForgetsWhatTheSubstepsOfAStepThatFailedHaveSeen) {
   total.converged <- true
   return total
 )");
+}
+
+// Of a step that fails nothing is known, whatever has become of its stages: what they start from is
+// read before, and they are known again where the step ends well.
+TEST(Propagator, TakesNothingOfAStepThatFailed) {
+  const std::string solve = shown("solve", {.scheme = "gauss-4"});
+  const std::size_t used = solve.find("if start.known:");
+  const std::size_t forgotten = solve.find("\n  start.known <- false\n");
+  const std::size_t iterated = solve.find("iterate");
+  ASSERT_NE(forgotten, std::string::npos) << solve;
+  EXPECT_LT(used, forgotten) << solve;
+  EXPECT_LT(forgotten, iterated) << solve;
+}
+
+// What the fixed point gave up is no start for Newton, nor known to be one for the next step; a
+// constant matrix is factorised once.
+TEST(Propagator, StartsNewtonOfAnArrayFromTheState) {
+  const std::string chain =
+      "system chain\nsize N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^";
+  const std::string solve = shown("solve", {}, chain + "4)\n");
+  const std::string between = "  else, for 32 steps:\n";
+  const std::size_t second = solve.find(between);
+  ASSERT_NE(second, std::string::npos) << solve;
+  const std::size_t forgotten = solve.find("    start.known <- false\n", second);
+  ASSERT_NE(forgotten, std::string::npos) << solve;
+  EXPECT_LT(forgotten, solve.find("    newton(", second)) << solve;
+  const std::string linear = shown("solve", {.solver = "newton"}, chain + "2)\n");
+  const std::size_t fresh = linear.find("if not start.factorised:\n");
+  ASSERT_NE(fresh, std::string::npos) << linear;
+  const std::size_t factorised = linear.find("factorise start.matrix\n", fresh);
+  EXPECT_LT(factorised, linear.find("start.factorised <- true\n", fresh)) << linear;
+  EXPECT_LT(linear.find("start.factorised <- true\n"), linear.find("solve start.matrix")) << linear;
 }
 
 TEST(Propagator, BeginsAnew) {
