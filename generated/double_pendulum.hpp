@@ -83,11 +83,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_007a8b99::float64 {
+namespace hamgen_4fc8d1ce::float64 {
 using Real = double;
 
-#ifndef HAMGEN_007A8B99_FLOAT64_STEP_REPORT
-#define HAMGEN_007A8B99_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_STEP_REPORT
+#define HAMGEN_4FC8D1CE_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -97,15 +97,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_VOCABULARY
-#define HAMGEN_007A8B99_FLOAT64_VOCABULARY
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_VOCABULARY
+#define HAMGEN_4FC8D1CE_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_TWO_SUM
-#define HAMGEN_007A8B99_FLOAT64_TWO_SUM
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_TWO_SUM
+#define HAMGEN_4FC8D1CE_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -115,14 +115,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_VERDICT
-#define HAMGEN_007A8B99_FLOAT64_VERDICT
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_VERDICT
+#define HAMGEN_4FC8D1CE_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_NEWTON_RULE
-#define HAMGEN_007A8B99_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_NEWTON_RULE
+#define HAMGEN_4FC8D1CE_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -212,8 +212,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_HISTORY
-#define HAMGEN_007A8B99_FLOAT64_HISTORY
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_HISTORY
+#define HAMGEN_4FC8D1CE_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -224,27 +224,44 @@ struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
   static constexpr int degrees = Unknowns > 32 ? 8 : 16;
   Real predicted[degrees][Unknowns] = {};
-  // Of many unknowns so many are looked at together: what a sum has reached stays near.
-  static constexpr int block = Unknowns > 64 ? 64 : Unknowns;
-  Real sum[block] = {};
+  // Of many unknowns each is brought up to date by itself: what its sum has reached stays in a
+  // register.
+  static constexpr bool many = Unknowns > 64;
+  Real sum[many ? 1 : Unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
   void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
-    int first = 0;
-    for (; first + block < Unknowns; first += block) record_part<block>(solution, first);
-    record_part<(Unknowns - 1) % block + 1>(solution, first);
+    if constexpr (many) {
+      record_each<degrees>(solution);
+    } else {
+      record_degrees(solution);
+    }
   }
-  template <int Count>
-  void record_part(const Real (&solution)[Unknowns], int first) {
+  void record_degrees(const Real (&solution)[Unknowns]) {
     for (Real& s : sum) s = 0;
     for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < Count; ++i) {
-        const Real kept = predicted[degree][first + i];
-        predicted[degree][first + i] = Real(degree + 1) * solution[first + i] - sum[i];
+      for (int i = 0; i < Unknowns; ++i) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
         sum[i] += kept;
+      }
+    }
+  }
+  // The number of degrees is a constant of the loop.
+  template <int Known>
+  void record_each(const Real (&solution)[Unknowns]) {
+    if constexpr (Known > 0) {
+      if (known < Known) return record_each<Known - 1>(solution);
+      for (int i = 0; i < Unknowns; ++i) {
+        Real all = 0;
+        for (int degree = 0; degree < Known; ++degree) {
+          const Real kept = predicted[degree][i];
+          predicted[degree][i] = Real(degree + 1) * solution[i] - all;
+          all += kept;
+        }
       }
     }
   }
@@ -272,7 +289,7 @@ struct History {
     if (degree >= known) degree = known - 1;
     Real sum_of_errors = 0;
     int i = first;
-    if constexpr (Unknowns > 64) {
+    if constexpr (many) {
       // In parts that do not wait for each other.
       Real parts[8] = {};
       for (; i + 8 <= first + count; i += 8) {
@@ -290,8 +307,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_007A8B99_FLOAT64_FORGET
-#define HAMGEN_007A8B99_FLOAT64_FORGET
+#ifndef HAMGEN_4FC8D1CE_FLOAT64_FORGET
+#define HAMGEN_4FC8D1CE_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -301,14 +318,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_007a8b99::float64
+}  // namespace hamgen_4fc8d1ce::float64
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x8320c667
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xe994d516
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_8320c667 {
+inline namespace emitted_e994d516 {
 
-namespace numerics = ::hamgen_007a8b99::float64;
+namespace numerics = ::hamgen_4fc8d1ce::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -492,9 +509,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_8320c667
+}  // namespace emitted_e994d516
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x8320c667
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xe994d516
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

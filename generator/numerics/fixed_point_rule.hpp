@@ -14,13 +14,19 @@ struct Distance {
   }
   // Arrays of them, rounded with what stands beside.
   void add(const Real* moved, const Real* value, const Real* beside, int count) {
-    size += sum_of(count, [&](int j) { return magnitude(moved[j]); });
-    scale += sum_of(count, [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); });
+    const Real all_moved = sum_of(count, [&](int j) { return magnitude(moved[j]); });
+    const Real all_lengths =
+        sum_of(count, [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); });
+    size += all_moved;
+    scale += all_lengths;
+    // Not each is close where all of them together are not.
+    close = close && all_moved <= 2 * units * epsilon * all_lengths;
+    if (!close) return;
     const Real far = sum_of(count, [&](int j) {
       const Real length = magnitude(value[j]) + magnitude(beside[j]);
       return magnitude(moved[j]) <= units * epsilon * length ? Real(0) : Real(1);
     });
-    close = close && far < 1;
+    close = far < 1;
   }
 };
 // When to stop an iteration that has no other end than rounding: where all unknowns are close to

@@ -8,27 +8,44 @@ struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
   static constexpr int degrees = Unknowns > 32 ? 8 : 16;
   Real predicted[degrees][Unknowns] = {};
-  // Of many unknowns so many are looked at together: what a sum has reached stays near.
-  static constexpr int block = Unknowns > 64 ? 64 : Unknowns;
-  Real sum[block] = {};
+  // Of many unknowns each is brought up to date by itself: what its sum has reached stays in a
+  // register.
+  static constexpr bool many = Unknowns > 64;
+  Real sum[many ? 1 : Unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
 
   void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
-    int first = 0;
-    for (; first + block < Unknowns; first += block) record_part<block>(solution, first);
-    record_part<(Unknowns - 1) % block + 1>(solution, first);
+    if constexpr (many) {
+      record_each<degrees>(solution);
+    } else {
+      record_degrees(solution);
+    }
   }
-  template <int Count>
-  void record_part(const Real (&solution)[Unknowns], int first) {
+  void record_degrees(const Real (&solution)[Unknowns]) {
     for (Real& s : sum) s = 0;
     for (int degree = 0; degree < known; ++degree) {
-      for (int i = 0; i < Count; ++i) {
-        const Real kept = predicted[degree][first + i];
-        predicted[degree][first + i] = Real(degree + 1) * solution[first + i] - sum[i];
+      for (int i = 0; i < Unknowns; ++i) {
+        const Real kept = predicted[degree][i];
+        predicted[degree][i] = Real(degree + 1) * solution[i] - sum[i];
         sum[i] += kept;
+      }
+    }
+  }
+  // The number of degrees is a constant of the loop.
+  template <int Known>
+  void record_each(const Real (&solution)[Unknowns]) {
+    if constexpr (Known > 0) {
+      if (known < Known) return record_each<Known - 1>(solution);
+      for (int i = 0; i < Unknowns; ++i) {
+        Real all = 0;
+        for (int degree = 0; degree < Known; ++degree) {
+          const Real kept = predicted[degree][i];
+          predicted[degree][i] = Real(degree + 1) * solution[i] - all;
+          all += kept;
+        }
       }
     }
   }
@@ -56,7 +73,7 @@ struct History {
     if (degree >= known) degree = known - 1;
     Real sum_of_errors = 0;
     int i = first;
-    if constexpr (Unknowns > 64) {
+    if constexpr (many) {
       // In parts that do not wait for each other.
       Real parts[8] = {};
       for (; i + 8 <= first + count; i += 8) {
