@@ -8,10 +8,7 @@ struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
   static constexpr int degrees = Unknowns > 32 ? 8 : 16;
   Real predicted[degrees][Unknowns] = {};
-  // Of many unknowns each is brought up to date by itself: what its sum has reached stays in a
-  // register.
   static constexpr bool many = Unknowns > 64;
-  Real sum[many ? 1 : Unknowns] = {};
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
@@ -25,7 +22,7 @@ struct History {
     }
   }
   void record_degrees(const Real (&solution)[Unknowns]) {
-    for (Real& s : sum) s = 0;
+    Real sum[Unknowns] = {};
     for (int degree = 0; degree < known; ++degree) {
       for (int i = 0; i < Unknowns; ++i) {
         const Real kept = predicted[degree][i];
@@ -34,7 +31,8 @@ struct History {
       }
     }
   }
-  // The number of degrees is a constant of the loop.
+  // Of many unknowns each is brought up to date by itself, by a constant number of degrees: what
+  // its sum has reached stays in a register.
   template <int Known>
   void record_each(const Real (&solution)[Unknowns]) {
     if constexpr (Known > 0) {
