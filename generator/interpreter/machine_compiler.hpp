@@ -94,7 +94,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       if (own) {
         own->clear();
       } else {
-        own = Blocks<Real>::matrix(matrix.size);
+        own = Blocks<Real>::matrix(matrix.size, matrix.symmetric);
       }
       m_.matrices[matrix.name] = own.get();
       return true;

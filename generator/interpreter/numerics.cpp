@@ -149,7 +149,7 @@ class RefinementOf final : public AnyRefinement<Real> {
   typename NumericsOf<Real>::template Refined<Size> refinement_;
 };
 
-template <class Real, int Size>
+template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
   explicit MatrixOf(int size) : size_(size) { clear(); }
@@ -167,7 +167,7 @@ class MatrixOf final : public AnyMatrix<Real> {
 
  private:
   int size_;
-  typename NumericsOf<Real>::template Dense<Size> matrix_;
+  Matrix matrix_;
 };
 
 // make(std::integral_constant<int, N>) for the least power of two N that is not below the size.
@@ -223,9 +223,15 @@ std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int 
 }
 
 template <class Real>
-std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size) {
-  return at_least<256>(size, [size](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
-    return std::make_unique<MatrixOf<Real, decltype(n)::value>>(size);
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) {
+  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+    constexpr int most = decltype(n)::value;
+    if (symmetric) {
+      using Matrix = typename NumericsOf<Real>::template Symmetric<most>;
+      return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
+    }
+    using Matrix = typename NumericsOf<Real>::template Dense<most>;
+    return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
   });
 }
 

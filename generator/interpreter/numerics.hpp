@@ -121,7 +121,8 @@ struct Blocks {
   // For up to twice as many components of the gradient as unknowns, 1024 of them.
   [[nodiscard]] static std::unique_ptr<AnyRefinement<Real>> refinement(int unknowns,
                                                                        int components);
-  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size);  // up to 256 rows
+  // Up to 256 rows.
+  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
 };
 
 }  // namespace hamgen

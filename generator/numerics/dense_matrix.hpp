@@ -47,7 +47,7 @@ class DenseMatrix {
     }
   }
 
- private:
+ protected:
   Real entry_[size][size] = {};
   int pivot_[size] = {};
 };

@@ -70,6 +70,7 @@ struct Matrix {
   int size = 0;
   bool large = false;
   bool patterned = false;  // of the type that Program::matrix describes
+  bool symmetric = false;  // what is above its diagonal is not put
 };
 // to = from, both records of one type; `declares` a local of it.  Without `from` zeros.
 struct Copy {

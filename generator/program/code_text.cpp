@@ -47,7 +47,8 @@ class Printer {
                      array.values.empty() ? "0" : list_of(array.values)));
   }
   void operator()(const Matrix& matrix) {
-    line(fmt::format("matrix {}[{}][{}] = 0", matrix.name, matrix.size, matrix.size));
+    line(fmt::format("{}matrix {}[{}][{}] = 0", matrix.symmetric ? "symmetric " : "", matrix.name,
+                     matrix.size, matrix.size));
   }
   void operator()(const Copy& copy) {
     line(fmt::format("{} <- {}", copy.to, copy.from.empty() ? "new " + copy.record : copy.from));

@@ -11,19 +11,27 @@ bool is_inverted(const Solve& solve) {
 }
 
 void put_matrix(Body& body, const std::string& name,
-                const std::vector<std::vector<Expression>>& entries, bool large) {
+                const std::vector<std::vector<Expression>>& entries, MatrixForm form) {
   const auto size = static_cast<int>(entries.size());
-  body.push_back({Matrix{name, size, large}});
+  const bool symmetric = form == MatrixForm::symmetric;
+  body.push_back({Matrix{
+      .name = name, .size = size, .large = form == MatrixForm::large, .symmetric = symmetric}});
   for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) {
+    for (int j = 0; j < (symmetric ? i + 1 : size); ++j) {
       const Expression& entry = entries[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
       if (!entry.is_zero()) body.push_back({Put{{name}, {i, {}}, {j, {}}, entry}});
     }
   }
 }
 
-void put_matrix(Body& body, const std::string& name, const Solve& solve) {
-  put_matrix(body, name, solve.matrix, solve.linear_solver == LinearSolver::eigen_dense);
+MatrixForm form_of(const Solve& solve) {
+  if (solve.linear_solver == LinearSolver::eigen_dense) return MatrixForm::large;
+  for (std::size_t i = 0; i < solve.matrix.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (solve.matrix[i][j] != solve.matrix[j][i]) return MatrixForm::plain;
+    }
+  }
+  return MatrixForm::symmetric;
 }
 
 Coefficients coefficients_of(const Environment& environment, const LoweredStep& lowered,
@@ -56,7 +64,9 @@ Coefficients coefficients_of(const Environment& environment, const LoweredStep& 
     const auto size = static_cast<int>(solve->matrix.size());
     const std::string matrix = fmt::format("matrix_{}", s);
     fields.push_back({.name = inverse_name(s), .sizes = {size, size}});
-    put_matrix(prepare.body, matrix, *solve);
+    put_matrix(
+        prepare.body, matrix, solve->matrix,
+        solve->linear_solver == LinearSolver::eigen_dense ? MatrixForm::large : MatrixForm::plain);
     prepare.body.push_back({Invert{matrix, {"k", inverse_name(s)}, {"k", "regular"}}});
   }
   if (inverted) fields.push_back({.name = "regular", .values = {1}, .type = "bool"});

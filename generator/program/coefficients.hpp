@@ -36,9 +36,12 @@ struct ScaledNumbers {
 // Is the matrix of this solve inverted once per run?
 [[nodiscard]] bool is_inverted(const Solve& solve);
 
+// Large ones are eliminated by Eigen; of symmetric ones the diagonal is put and what is below.
+enum class MatrixForm { plain, symmetric, large };
+// What the entries of this solve are, as they are written.
+[[nodiscard]] MatrixForm form_of(const Solve& solve);
 // matrix = the entries that are not zero.
 void put_matrix(Body& body, const std::string& name,
-                const std::vector<std::vector<Expression>>& entries, bool large);
-void put_matrix(Body& body, const std::string& name, const Solve& solve);
+                const std::vector<std::vector<Expression>>& entries, MatrixForm form);
 
 }  // namespace hamgen

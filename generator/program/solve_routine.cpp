@@ -152,7 +152,7 @@ class SolveRoutine {
   // The increments -matrix^-1 residual: by elimination, or with the inverse of a constant matrix.
   void add_system(Body& body, std::size_t s, const Solve& solve) {
     const auto size = static_cast<int>(solve.matrix.size());
-    if (!solve.constant_matrix) put_matrix(body, "matrix", solve);
+    if (!solve.constant_matrix) put_matrix(body, "matrix", solve.matrix, form_of(solve));
     body.push_back({Array{"vector", {size}, right_side(solve)}});
     if (solve.constant_matrix) {
       multiply(body, s, size);

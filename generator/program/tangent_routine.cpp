@@ -44,7 +44,8 @@ Routine tangent_routine(const Environment& environment, std::string name,
   for (std::size_t s = 0; s < linearisation.stages.size(); ++s) {
     const auto& solve = linearisation.stages[s].solve;
     if (!solve) continue;
-    put_matrix(routine.body, numbered("matrix", s), solve->matrix, large);
+    put_matrix(routine.body, numbered("matrix", s), solve->matrix,
+               large ? MatrixForm::large : MatrixForm::plain);
     routine.body.push_back({Factorise{{numbered("matrix", s)}}});
   }
   const AffineIndex column{0, {{"column", 1}}};

@@ -47,8 +47,9 @@ class RoutineWriter : public RunWriter {
     add(Define{"Real", array.name, list(std::move(values)), true, array.sizes});
   }
   void operator()(const Matrix& matrix) {
-    const char* dense =
-        matrix.large && form_.eigen ? "EigenDenseMatrix" : "DenseMatrix";
+    const char* dense = matrix.symmetric              ? "SymmetricMatrix"
+                        : matrix.large && form_.eigen ? "EigenDenseMatrix"
+                                                      : "DenseMatrix";
     add(Declare{matrix.patterned ? "Matrix" : fmt::format("{}<{}>", dense, matrix.size),
                 {matrix.name}});
   }

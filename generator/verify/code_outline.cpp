@@ -96,7 +96,8 @@ class Outline {
     read(array.values);
   }
   void operator()(const Matrix& matrix) {
-    word(fmt::format("matrix {} {} {}", matrix.name, matrix.large, matrix.patterned),
+    word(fmt::format("matrix {} {} {} {}", matrix.name, matrix.large, matrix.patterned,
+                     matrix.symmetric),
          {matrix.size});
   }
   void operator()(const Clear& clear) { whole("clear", clear.matrix); }

@@ -43,6 +43,7 @@ struct SymbolicMachine::Run {
   void operator()(const Matrix& matrix) const {
     frame.objects[matrix.name] = {.root = frame.prefix + matrix.name};
     m.matrices_[frame.prefix + matrix.name].clear();
+    if (matrix.symmetric) m.symmetric_.insert(frame.prefix + matrix.name);
   }
   void operator()(const Copy& copy) const {
     if (copy.declares) {
@@ -58,8 +59,13 @@ struct SymbolicMachine::Run {
   void operator()(const Clear& clear) const { matrix(clear.matrix).clear(); }
   void operator()(const Put& put) const {
     const Expression value = m.evaluate(frame, put.value);
-    Expression& entry = matrix(put.matrix)[{at(frame, put.row), at(frame, put.column)}];
-    entry += value;
+    MatrixEntries& entries = matrix(put.matrix);
+    const long row = at(frame, put.row);
+    const long column = at(frame, put.column);
+    const bool symmetric = m.symmetric_.contains(cell(m.reference(frame, put.matrix)));
+    if (symmetric && row < column) return;  // is not looked at
+    entries[{row, column}] += value;
+    if (symmetric && row > column) entries[{column, row}] += value;
   }
   void operator()(const SetFlag& set) const {
     m.flags_[cell(m.reference(frame, set.flag))] = set.value;

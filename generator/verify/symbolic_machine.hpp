@@ -149,6 +149,7 @@ class SymbolicMachine {
   std::set<std::string> zeroed_;  // objects and fields that begin with zeros
   std::map<std::string, bool> flags_;
   std::map<std::string, MatrixEntries> matrices_;
+  std::set<std::string> symmetric_;  // of them
   std::vector<Statement> definitions_;
   std::map<std::string, std::size_t> defined_;  // where
   std::map<Expression, Expression> lost_;       // by products, what rounding takes from them

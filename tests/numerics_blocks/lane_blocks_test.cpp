@@ -165,6 +165,30 @@ TEST(LaneBlocks, ASparseMatrixIsSolvedInEachLaneAsAlone) {
   EXPECT_FALSE(any(singular.factorise()));
 }
 
+TEST(LaneBlocks, ASymmetricMatrixIsItsLowerHalfMirrored) {
+  Numbers numbers;
+  packs::SymmetricMatrix<kRows> half;
+  packs::DenseMatrix<kRows> whole;
+  packs::Real solution[kRows] = {};
+  packs::Real expected[kRows] = {};
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      packs::Real entry = 0;
+      for (int lane = 0; lane < kLanes; ++lane) entry.set(lane, numbers.next());
+      half.put(i, j, entry);
+      whole.put(i, j, entry);
+      if (i != j) whole.put(j, i, entry);
+    }
+    solution[i] = expected[i] = packs::Real(i + 1);
+  }
+  ASSERT_TRUE(all(half.factorise()) && all(whole.factorise()));
+  half.solve(solution);
+  whole.solve(expected);
+  for (int i = 0; i < kRows; ++i) {
+    for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(solution[i][lane], expected[i][lane]);
+  }
+}
+
 TEST(LaneBlocks, AnInverseIsThatOfEachLane) {
   Numbers numbers;
   packs::DenseMatrix<kRows> together;

@@ -110,6 +110,76 @@ TYPED_TEST(Matrices, ABandWithAZeroDiagonalIsSolvedAsAFullMatrixIs) {
   }
 }
 
+// Of diagonals beyond 4 and the others below 1/4: the condition is below 3, so that what is
+// backward stable errs by some units.  Only the lower half is read.
+TYPED_TEST(Matrices, ADefiniteSymmetricSystemIsSolvedFromItsLowerHalf) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  for (int run = 0; run < 20; ++run) {
+    typename TypeParam::template Symmetric<6> matrix;
+    typename TypeParam::template Dense<6> dense;
+    Real solution[6] = {};
+    Real expected[6] = {};
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const Real entry = i == j ? 5 + Real(numbers.next()) : Real(numbers.next()) / 4;
+        matrix.put(i, j, entry);
+        dense.put(i, j, entry);
+        if (i != j) dense.put(j, i, entry);
+      }
+      solution[i] = expected[i] = Real(numbers.next());
+    }
+    ASSERT_TRUE(matrix.factorise());
+    ASSERT_TRUE(dense.factorise());
+    matrix.solve(solution);
+    dense.solve(expected);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_LT(
+          static_cast<double>(TypeParam::absolute(solution[i] - expected[i]) / TypeParam::unit), 8)
+          << run;
+    }
+  }
+}
+
+// Not definite: bit for bit as any other matrix, whose lower half is mirrored.
+TYPED_TEST(Matrices, AnIndefiniteSymmetricSystemIsEliminatedWithPivots) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  for (const Real& corner : {Real(0), Real(-1), Real(1)}) {
+    typename TypeParam::template Symmetric<5> matrix;
+    typename TypeParam::template Dense<5> dense;
+    Real solution[5] = {};
+    Real expected[5] = {};
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const Real entry = i + j == 0 ? corner : Real(numbers.next());
+        matrix.put(i, j, entry);
+        dense.put(i, j, entry);
+        if (i != j) dense.put(j, i, entry);
+      }
+      solution[i] = expected[i] = Real(i - 2);
+    }
+    ASSERT_TRUE(matrix.factorise());
+    ASSERT_TRUE(dense.factorise());
+    matrix.solve(solution);
+    dense.solve(expected);
+    for (int i = 0; i < 5; ++i)
+      EXPECT_EQ(static_cast<double>(solution[i] - expected[i]), 0) << static_cast<double>(corner);
+  }
+}
+
+TYPED_TEST(Matrices, ASingularSymmetricSystemIsRefused) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template Symmetric<4> matrix;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j <= i; ++j) matrix.put(i, j, Real(1));
+  }
+  EXPECT_FALSE(matrix.factorise());
+  matrix.clear();
+  for (int i = 0; i < 4; ++i) matrix.put(i, i, Real(2));
+  EXPECT_TRUE(matrix.factorise());
+}
+
 TYPED_TEST(Matrices, OneFactorisationServesManyRightSides) {
   using Real = typename TypeParam::Scalar;
   typename TypeParam::template Dense<3> matrix;
