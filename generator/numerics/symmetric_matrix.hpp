@@ -4,8 +4,6 @@ template <int Size>
 class SymmetricMatrix : public DenseMatrix<Size> {
  public:
   static constexpr int size = Size;
-  void clear() { DenseMatrix<Size>::clear(); }
-  void put(int row, int column, Real value) { DenseMatrix<Size>::put(row, column, value); }
   // False if the matrix is singular or not finite.
   bool factorise() {
     is_definite_ = decompose();
