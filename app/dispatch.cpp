@@ -157,17 +157,32 @@ int run_command(const std::vector<std::string>& words, Crew& crew) {
 
 }  // namespace
 
+namespace {
+
+// Mistakes in the text of an option are no mistakes of the model.
+bool are_of_options(const ModelError& error) {
+  return std::ranges::all_of(
+      error.locations(), [](const Location& location) { return location.file.starts_with("--"); });
+}
+
+int usage_failure(const char* what) {
+  print_error(fmt::format("hamgen: {}\n", without_line_end(what)));
+  return usage_error;
+}
+
+}  // namespace
+
 // Every way to fail, and only here, becomes a message and an exit status.
 int dispatch(const std::vector<std::string>& words, Crew& crew) {
   report_full_files();
   try {
     return run_command(words, crew);
   } catch (const ModelError& error) {
+    if (are_of_options(error)) return usage_failure(error.what());
     print_error(error.what());
     return model_error;
   } catch (const UsageError& error) {
-    print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
-    return usage_error;
+    return usage_failure(error.what());
   } catch (const ProofError& error) {
     print_error(fmt::format("hamgen: {}\n", without_line_end(error.what())));
     return proof_failed;

@@ -162,7 +162,10 @@ std::string format_names() {
 std::string known_format(const std::string& name) {
   std::vector<std::string> names;
   for (const NamedFormat& format : all_formats()) names.emplace_back(format.name);
-  if (name.empty() || std::ranges::find(names, name) != names.end()) return name;
+  if (name.empty()) return name;
+  for (const std::string& known : names) {
+    if (name == known || name + "-header" == known) return known;
+  }
   throw UsageError(fmt::format("--format {}: no such format\nhelp: the formats are {}", name,
                                fmt::join(names, ", ")));
 }

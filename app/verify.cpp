@@ -18,6 +18,7 @@
 #include "app/studies/initial_data.hpp"
 #include "app/studies/measure.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/formats/all_formats.hpp"
 #include "generator/verify/model_text.hpp"
 #include "runtime/atomic_file.hpp"
 
@@ -117,7 +118,8 @@ Setting verify_setting(const VerifyOptions& options) {
   if (!options.scene.scene.empty())
     specialise(options.scene, scene, {}, Observing::as_the_scene, setting);
   setting.request.tangent = options.measure;  // then it is read back as well
-  setting.request.format = options.format;
+  if (!options.format.empty())
+    setting.request.format = std::string(find_format(options.format).name);
   return setting;
 }
 

@@ -31,8 +31,9 @@ std::span<const NamedFormat> all_formats() { return kFormats; }
 
 const NamedFormat& find_format(std::string_view name) {
   if (name.empty()) return kFormats.front();
-  const auto* const found = std::ranges::find(kFormats, name, &NamedFormat::name);
-  if (found != kFormats.end()) return *found;
+  for (const NamedFormat& format : kFormats) {
+    if (format.name == name || format.name == fmt::format("{}-header", name)) return format;
+  }
   throw UsageError(fmt::format("unknown format '{}'; see `hamgen list formats`", name));
 }
 

@@ -322,5 +322,36 @@ TEST(CacheList, SaysWhatEachEntryIs) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch.path("cache")));
 }
 
+// What is wrong in an option is no mistake of the model, whichever command has it.
+TEST(Options, ThatAreWrongAreWrongUsage) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"run", model, "--h", "foo"},
+                                             {"run", model, "--alpha", "foo"},
+                                             {"check", model, "--beta", "1 +"},
+                                             {"bench", model, "--time", "foo"},
+                                             {"bench", model, "--target", "1e-"}}) {
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << words[2] << ": " << result.err;
+    EXPECT_TRUE(result.err.starts_with("hamgen: " + words[2])) << result.err;
+  }
+  EXPECT_EQ(hamgen({"check", scratch.write("wrong.ham", "system")}).status, 3);
+}
+
+TEST(Options, NameAHeaderByItsLanguage) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", pendulum);
+  const auto text = [&](const std::string& format) {
+    const Result result = hamgen({"generate", model, "--format", format});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_EQ(text("c"), text("c-header"));
+  EXPECT_EQ(text("cpp"), text("cpp-header"));
+  EXPECT_EQ(hamgen({"verify", model, "--format", "c"}).status, 0);
+  EXPECT_EQ(hamgen({"generate", model, "--format", "header"}).status, 2);
+}
+
 }  // namespace
 }  // namespace hamgen::app_test
