@@ -228,7 +228,7 @@ TEST(Verify, ReadsEveryFormatThatIsThere) {
     EXPECT_EQ(compared.status, 1);
     EXPECT_TRUE(contains(compared.err, "the code is another")) << compared.err;
   }
-  EXPECT_EQ(hamgen({"verify", model, "--format", "c"}).status, 2);
+  EXPECT_EQ(hamgen({"verify", model, "--format", "fortran"}).status, 2);
 }
 
 TEST(Check, SaysWhereHHasACorner) {
