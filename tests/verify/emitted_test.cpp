@@ -154,6 +154,38 @@ TEST(EmittedCode, EveryMutationOfAProgramIsRefuted) {
   EXPECT_GE(by_kind.size(), 6U);
 }
 
+// Of masses that differ the matrix is not symmetric, whatever the program says of it.
+TEST(EmittedCode, AMatrixIsSymmetricOnlyIfItIs) {
+  const auto verdict = [](const std::string& kinetic, bool claimed) {
+    const std::string text =
+        "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\nH = sum(i = 1..N, " + kinetic +
+        " + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
+    const Case c{"ring", text, "newton", half(), Expression(0), Expression(0)};
+    const Mechanics mechanics = mechanics_of(c);
+    const Scheme scheme = scheme_of(c, mechanics.degrees_of_freedom);
+    const LoweredStep lowered = lowered_of(mechanics, scheme, c.solver);
+    Program code = build_program(lowered);
+    const auto solve = std::ranges::find(code.routines, "solve", &Routine::name);
+    int matrices = 0;
+    for (Instruction& outer : solve->body) {
+      auto* iterate = std::get_if<Iterate>(&outer.value);
+      if (iterate == nullptr) continue;
+      for (Instruction& inner : iterate->body) {
+        auto* matrix = std::get_if<Matrix>(&inner.value);
+        if (matrix == nullptr) continue;
+        ++matrices;
+        EXPECT_EQ(matrix->symmetric, kinetic == "p[i]^2/2");
+        matrix->symmetric |= claimed;
+      }
+    }
+    EXPECT_EQ(matrices, 1);
+    return prove_emitted(mechanics, scheme, lowered.plan, code, mechanics.energy).verdict;
+  };
+  EXPECT_EQ(verdict("p[i]^2/2", false), Verdict::proved);
+  EXPECT_EQ(verdict("i*p[i]^2/2", false), Verdict::proved);
+  EXPECT_EQ(verdict("i*p[i]^2/2", true), Verdict::refuted);
+}
+
 TEST(EmittedCode, ParametersOfTheFamilyMayNotBeExchanged) {
   for (const Case& c : cases()) {
     const Mechanics mechanics = mechanics_of(c);
