@@ -71,21 +71,13 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .library_functions = request.math->of_library};
 }
 
-ReadBack unread_batch() {
-  ReadBack read;
-  read.outcome = ReadBack::Outcome::not_understood;
-  read.line = 1;
-  read.what = "a batch, in whose text numbers are packs";
-  return read;
-}
-
 // The first of the files, and what it includes of the others.
 ReadBack read_files(const OutputFiles& files, const Stages& stages, const Request& request) {
-  if (request.batch > 0) return unread_batch();
   EmittedFile file{.text = files.front().text,
                    .scalar = request.scalar.text(),
                    .beside = {},
-                   .watched_step = request.step};
+                   .watched_step = request.step,
+                   .lanes = request.batch};
   for (const OutputFile& other : files) file.beside[other.path] = other.text;
   return read_back(file, stages.program);
 }
@@ -132,14 +124,14 @@ OutputFiles files_of(const Stages& stages, const EmitOptions& options, const Req
 // A file that is there, or else the one that is emitted.
 ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& source,
                    const Stages& stages, const Request& request) {
-  if (request.batch > 0) return unread_batch();
   if (!there)
     return read_files(files_of(stages, emit_options(source, stages, request), request), stages,
                       request);
   const EmittedFile file{.text = there->text,
                          .scalar = request.scalar.text(),
                          .beside = there->beside,
-                         .watched_step = request.step};
+                         .watched_step = request.step,
+                         .lanes = request.batch};
   return read_back(file, stages.program);
 }
 

@@ -62,6 +62,11 @@ std::string QuantityList::name(std::size_t i) const {
              : run.of.name;
 }
 
+long QuantityList::element(std::size_t i) const {
+  const Run& run = run_of(i);
+  return run.first + static_cast<long>(i - run.begin);
+}
+
 Quantity QuantityList::operator[](std::size_t i) const {
   const Run& run = run_of(i);
   return {name(i), run.of.unit, run.of.comment, run.of.value};

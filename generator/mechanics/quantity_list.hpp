@@ -46,6 +46,8 @@ class QuantityList {
   }
   [[nodiscard]] bool empty() const { return runs_.empty(); }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+  // Which element of its array, by its own index.
+  [[nodiscard]] long element(std::size_t i) const;
   [[nodiscard]] std::vector<Quantity> elements() const { return {begin(), end()}; }
   [[nodiscard]] std::string name(std::size_t i) const;
   [[nodiscard]] Quantity operator[](std::size_t i) const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "generator/base/fixed_blocks.hpp"
 #include "generator/base/numerics_text.hpp"
 #include "generator/readback/findings.hpp"
 #include "generator/readback/pattern.hpp"
@@ -68,6 +67,16 @@ int first_difference(const std::string& a, const std::string& b) {
   return line;
 }
 
+// Of packs of so many numbers.
+void expect_lane_vocabulary(TokenCursor& cursor, const Precision& precision, int lanes) {
+  const std::string text = fmt::format(
+      "using Real = Pack<{0}>; using Mask = LaneMask<{0}>;"
+      "inline Real magnitude(const Real& x) {{ return lane_abs(x); }}"
+      "inline constexpr double largest = {1}; inline constexpr double epsilon = 0x1p-{2};",
+      lanes, precision.largest, precision.bits - 1);
+  expect_pattern(cursor, {text}, precision, "the vocabulary");
+}
+
 void expect_vocabulary(TokenCursor& cursor, const Precision& precision) {
   const std::string suffix = precision.bits == 24 ? "f" : precision.bits == 64 ? "l" : "";
   std::string magnitude = "std::fabs(x)";
@@ -97,7 +106,7 @@ void skip_to_end(TokenCursor& cursor) {
 
 // #ifndef guard, #define guard, the header, #endif
 std::string read_block(TokenCursor& cursor, std::string_view text, const std::string& prefix,
-                       const Precision& precision) {
+                       const Precision& precision, int lanes) {
   const std::string macro = cursor.peek().text.substr(std::string("#ifndef ").size());
   const int begin = cursor.line();
   if (!macro.starts_with(prefix)) throw TextDifference(begin, macro + " guards no fixed block");
@@ -105,7 +114,9 @@ std::string read_block(TokenCursor& cursor, std::string_view text, const std::st
   cursor.take();
   const int first = cursor.line();
   expect_directive(cursor, "#define " + macro);
-  if (name == "vocabulary") {
+  if (name == kVocabulary && lanes > 0) {
+    expect_lane_vocabulary(cursor, precision, lanes);
+  } else if (name == kVocabulary) {
     expect_vocabulary(cursor, precision);
   } else {
     const auto found = std::ranges::find(all_numerics(), name, &NumericsText::name);
@@ -173,7 +184,7 @@ namespace {
 
 // The blocks of a namespace that begins like this, up to its last bracket.
 FixedBlocks read_space(TokenCursor& cursor, std::string_view text, const Precision& precision,
-                       const std::string& space, const std::string& begin) {
+                       const std::string& space, const std::string& begin, int lanes = 0) {
   FixedBlocks blocks;
   cursor.expect("namespace");
   const int line = cursor.line();
@@ -184,7 +195,7 @@ FixedBlocks read_space(TokenCursor& cursor, std::string_view text, const Precisi
                  "the namespace of fixed blocks");
   const std::string prefix = fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(space));
   while (is_directive(cursor, "#ifndef "))
-    blocks.names.insert(read_block(cursor, text, prefix, precision));
+    blocks.names.insert(read_block(cursor, text, prefix, precision, lanes));
   expect_pattern(cursor, {"}"}, precision, "the namespace of fixed blocks");
   return blocks;
 }
@@ -206,14 +217,23 @@ FixedBlocks read_packs(TokenCursor& cursor, std::string_view text, const Precisi
   return blocks;
 }
 
-void read_block_names(TokenCursor& cursor, const std::string& space) {
+FixedBlocks read_lane_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision,
+                             int lanes) {
+  expect_tested(cursor, "shells/lane_registers", precision);
+  const FixedBlocks blocks = read_space(cursor, text, precision, fmt::format("lanes_{}", lanes),
+                                        "inline namespace HAMGEN_REGISTERS {", lanes);
+  expect_pattern(cursor, {"}"}, precision, "the namespace of lanes");
+  return blocks;
+}
+
+void read_block_names(TokenCursor& cursor, const std::string& space,
+                      std::span<const FixedBlock> blocks) {
   do {
     const int line = cursor.line();
     cursor.expect(space);
     cursor.expect("::");
     const std::string name = cursor.word();
-    if (!is_defined(space == "packs" ? pack_blocks() : cpp_blocks(), name))
-      throw TextDifference(line, name + " is no fixed block");
+    if (!is_defined(blocks, name)) throw TextDifference(line, name + " is no fixed block");
   } while (cursor.accept(","));
   cursor.expect(";");
 }

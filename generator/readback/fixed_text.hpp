@@ -2,10 +2,12 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "generator/base/fixed_blocks.hpp"
 #include "generator/readback/precision.hpp"
 #include "generator/readback/tokens.hpp"
 
@@ -30,8 +32,12 @@ struct FixedBlocks {
 // Those of packs, where stages are computed in lanes.
 [[nodiscard]] FixedBlocks read_packs(TokenCursor& cursor, std::string_view text,
                                      const Precision& precision);
-// "using numerics::two_sum, ...": of names that the blocks define, `space` of these or of packs.
-void read_block_names(TokenCursor& cursor, const std::string& space);
+// Those of a batch of so many trajectories, where a number is a pack.
+[[nodiscard]] FixedBlocks read_lane_blocks(TokenCursor& cursor, std::string_view text,
+                                           const Precision& precision, int lanes);
+// "using numerics::two_sum, ...": of names that the blocks define, in the namespace `space`.
+void read_block_names(TokenCursor& cursor, const std::string& space,
+                      std::span<const FixedBlock> blocks);
 
 // The header of generator/numerics of this name.
 [[nodiscard]] std::string_view tested_text(std::string_view name);

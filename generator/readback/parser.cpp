@@ -15,8 +15,14 @@ constexpr int kDeepest = 400;        // brackets within brackets
 constexpr int kLongestChain = 5000;  // a chain of operators without brackets
 
 // Operators from the weakest on; those of one row are read from the left.
-constexpr std::array<std::array<std::string_view, 4>, 6> kOperators = {
-    {{"||"}, {"&&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"+", "-"}, {"*", "/", "%"}}};
+constexpr std::array<std::array<std::string_view, 4>, 8> kOperators = {{{"||"},
+                                                                        {"&&"},
+                                                                        {"|"},
+                                                                        {"&"},
+                                                                        {"==", "!="},
+                                                                        {"<", ">", "<=", ">="},
+                                                                        {"+", "-"},
+                                                                        {"*", "/", "%"}}};
 
 class CppReader {
  public:

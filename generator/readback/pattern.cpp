@@ -11,7 +11,7 @@ namespace {
 void expect_constant(TokenCursor& cursor, const Rational& exact, const Precision& precision,
                      const std::string& what) {
   const int line = cursor.line();
-  const MachineValue written = TextScope(precision, 0).value(read_cpp_expression(cursor));
+  const MachineValue written = TextScope(precision, 0, false).value(read_cpp_expression(cursor));
   const bool number = written.kind == MachineValue::Kind::number;
   const Rational value = written.negative ? Rational(-written.number) : written.number;
   if (!number || !is_rounded(value, exact, precision))

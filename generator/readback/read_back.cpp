@@ -35,13 +35,14 @@ std::string guarded(std::span<const CppToken> tokens, const std::string& begin) 
 
 // What the program has of such a file: whether it has a tangent map is free, and where the method
 // has no namespace of its own its parameters are the system's.
-Contents contents_of_file(const Program& program, std::span<const CppToken> tokens) {
+Contents contents_of_file(const Program& program, std::span<const CppToken> tokens, int lanes) {
   bool tangent = false;
   for (std::size_t i = 1; i < tokens.size(); ++i)
     tangent = tangent || (tokens[i].is("tangent") && tokens[i - 1].is("bool"));
   const std::string system = guarded(tokens, "#ifndef HAMGEN_SYSTEM_");
   return contents_of(program, {.own_space = system != guarded(tokens, "#ifndef HAMGEN_METHOD_"),
-                               .tangent = tangent && program.routine("tangent") != nullptr});
+                               .tangent = tangent && program.routine("tangent") != nullptr,
+                               .lanes = lanes});
 }
 
 // A header or a plugin.
@@ -53,7 +54,7 @@ class FileReader {
         program_(program),
         precision_(precision_of(file.scalar)),
         n_(program.environment.arrays ? program.environment.degrees_of_freedom : 0),
-        contents_(contents_of_file(program, tokens)),
+        contents_(contents_of_file(program, tokens, file.lanes)),
         found_(found),
         cursor_(tokens) {}
 
@@ -67,11 +68,11 @@ class FileReader {
     }
     const std::vector<std::string> included = read_includes(cursor_, precision_);
     expect_ieee_begin(cursor_, precision_);
+    if (in_lanes())
+      add_blocks(read_lane_blocks(cursor_, file_.text, precision_, file_.lanes), digest_);
     read_section("system", contents_.system);
-    std::string digest;
-    for (const std::string& name : included) add_blocks(read_support(name), digest);
-    add_blocks(read_blocks(cursor_, file_.text, precision_), digest);
-    if (!digest.empty()) digest_ = digest;
+    for (const std::string& name : included) add_blocks(read_support(name), digest_);
+    if (!in_lanes()) add_blocks(read_blocks(cursor_, file_.text, precision_), digest_);
     if (has_packs()) {
       const FixedBlocks packs = read_packs(cursor_, file_.text, precision_);
       packs_digest_ = packs.digest;
@@ -84,6 +85,9 @@ class FileReader {
   }
 
  private:
+  // Of many trajectories: all that the file has is of packs.
+  [[nodiscard]] bool in_lanes() const { return file_.lanes > 0; }
+  // Of one, whose stages are computed side by side.
   [[nodiscard]] bool has_packs() const { return program_.stages && program_.stages->packs() > 0; }
   void add_blocks(const FixedBlocks& blocks, std::string& digest) {
     if (blocks.digest.empty()) return;
@@ -158,12 +162,12 @@ class FileReader {
     const bool inside = name == system_ || name.starts_with(system_ + "::");
     if (!inside) throw TextDifference(line, fmt::format("{} is not in {}", name, system_));
     expect(fmt::format("{{ inline namespace emitted_{} {{", digest), "a section");
-    const bool in_registers = kind == "method" && has_packs();
+    const bool packs = kind == "method" && has_packs();
+    const bool in_registers = packs || in_lanes();
     if (in_registers) expect("inline namespace HAMGEN_REGISTERS {", "a section");
-    kind == "system" ? read_type() : read_names();
+    kind == "system" && !in_lanes() ? read_type() : read_names();
     read_constants(kind);
-    if (in_registers)
-      expect(fmt::format("using Lanes = Pack<{}>;", program_.stages->lanes), "Lanes");
+    if (packs) expect(fmt::format("using Lanes = Pack<{}>;", program_.stages->lanes), "Lanes");
     for (const Piece& piece : pieces) std::visit([this](const auto& each) { read(each); }, piece);
     expect(in_registers ? "} } }" : "} }", "a section");
     expect_directive(cursor_, fmt::format("#elif {} != 0x{}", macro, digest));
@@ -181,17 +185,20 @@ class FileReader {
   }
   void read_names() {
     if (!cursor_.peek().is("namespace")) return;
-    expect(fmt::format("namespace numerics = ::hamgen_{}::{}; using", digest_, precision_.space),
+    const std::string space =
+        in_lanes() ? fmt::format("lanes_{}", file_.lanes) : std::string(precision_.space);
+    expect(fmt::format("namespace numerics = ::hamgen_{}::{}; using", digest_, space),
            "the names of the fixed blocks");
-    read_block_names(cursor_, "numerics");
+    read_block_names(cursor_, "numerics", in_lanes() ? lane_blocks() : cpp_blocks());
     if (!has_packs()) return;
     expect(fmt::format("namespace packs = ::hamgen_{}::packs; using", packs_digest_),
            "the names of packs");
-    read_block_names(cursor_, "packs");
+    read_block_names(cursor_, "packs", pack_blocks());
   }
   void read_constants(const std::string& kind) {
     if (cursor_.peek(3).is("pi")) {
-      expect({fmt::format("inline constexpr Real pi = {};", kConstant),
+      expect({fmt::format("inline constexpr {} pi = {};", in_lanes() ? precision_.type : "Real",
+                          kConstant),
               {*parse_decimal("3.14159265358979323846264338327950288419716939937510582")}},
              "pi");
     }
@@ -201,12 +208,12 @@ class FileReader {
   void read(const Record& record) { expect(record_pattern(record, system_), record.name); }
   void read(const ArrayMatrix& matrix) { expect(matrix_pattern(matrix), "Matrix"); }
   void read(const Propagator& propagator) {
-    for (const ShellPart& part : propagator_parts(propagator)) {
+    for (const ShellPart& part : propagator_parts(propagator, in_lanes())) {
       if (const auto* pattern = std::get_if<Pattern>(&part)) expect(*pattern, "Propagator");
       if (const auto* routine = std::get_if<Routine>(&part)) read(*routine, &propagator.record);
     }
   }
-  void read(const StepOfPropagator&) { expect(step_pattern(), "step"); }
+  void read(const StepOfPropagator&) { expect(step_pattern(in_lanes()), "step"); }
   void read(const Watch& watch) {
     expect(watch_pattern(watch, program_.environment), "WatchedPropagator");
   }
@@ -216,7 +223,9 @@ class FileReader {
     const CppFunction function = read_function(cursor_, run != nullptr);
     if (function.name != routine.name)
       throw TextDifference(line, fmt::format("'{}' where {} belongs", function.name, routine.name));
-    RoutineReader(function, routine, {.precision = precision_, .n = n_, .run = run}).compare();
+    RoutineReader(function, routine,
+                  {.precision = precision_, .n = n_, .lanes = in_lanes(), .run = run})
+        .compare();
     ++found_.routines;
     found_.instructions += instructions_of(routine.body);
   }

@@ -22,6 +22,8 @@ struct EmittedFile {
   std::map<std::string, std::string> beside = {};
   // The step at which a plugin has the modified energies among its invariants.
   Rational watched_step = 0;
+  // Of a batch: its trajectories; 0 where there is one alone.
+  int lanes = 0;
 };
 
 // What a text says it is, by its first lines.

@@ -38,7 +38,8 @@ RoutineReader::RoutineReader(const CppFunction& function, const Routine& routine
     : function_(function),
       routine_(routine),
       c_(text.c),
-      scope_(text.precision, text.n),
+      lanes_(text.lanes),
+      scope_(text.precision, text.n, text.lanes),
       statements_(function.body),
       end_line_(function.line) {
   if (text.run == nullptr) return;
@@ -53,7 +54,9 @@ RoutineReader::RoutineReader(const CppFunction& function, const Routine& routine
 
 void RoutineReader::compare() {
   compare_signature();
-  compare(written::body_of(routine_, {.references = !c_, .eigen = !scope_.precision().is_quad()}));
+  compare(written::body_of(
+      routine_,
+      {.references = !c_, .lanes = lanes_, .eigen = !scope_.precision().is_quad() && !lanes_}));
   if (const CppStatement* more = peek())
     throw TextDifference(more->line, fmt::format("a statement that {} has not", routine_.name));
 }
@@ -78,7 +81,7 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
   if (!argument.count.empty()) type = argument.count;
   Pass pass = argument.sizes.empty() ? Pass::reference : Pass::array;
   if (argument.decays) pass = Pass::pointer;
-  if (number && !argument.decays) pass = Pass::value;
+  if (number && !argument.decays && (!lanes_ || !argument.count.empty())) pass = Pass::value;
   bool same = written.type == type && written.pass == pass;
   if (!c_) same = same && written.alone == argument.alone;
   if (pass != Pass::value) same = same && written.constant != argument.changes;
@@ -93,9 +96,9 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
     throw TextDifference(function_.line, fmt::format("argument {} of {} is not the program's",
                                                      argument.name, routine_.name));
   if (written.name.empty()) return;
-  const Meaning::Kind kind = !argument.count.empty() ? Meaning::Kind::index
-                             : pass == Pass::value   ? Meaning::Kind::number
-                                                     : Meaning::Kind::object;
+  const Meaning::Kind kind = !argument.count.empty()      ? Meaning::Kind::index
+                             : number && !argument.decays ? Meaning::Kind::number
+                                                          : Meaning::Kind::object;
   scope_.declare(written.name, {kind, argument.name}, function_.line);
 }
 

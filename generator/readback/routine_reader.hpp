@@ -18,6 +18,7 @@ struct TextOf {
   const Precision& precision;
   int n = 0;                    // what it calls n, else 0
   bool c = false;               // C, as `without_addresses` leaves it
+  bool lanes = false;           // a number is a pack of one of each trajectory
   const Record* run = nullptr;  // what a run keeps
 };
 
@@ -76,7 +77,7 @@ class RoutineReader {
 
   const CppFunction& function_;
   const Routine& routine_;
-  bool c_;
+  bool c_, lanes_;
   TextScope scope_;
   Statements statements_;
   std::size_t at_ = 0;

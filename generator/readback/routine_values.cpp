@@ -23,8 +23,11 @@ bool RoutineReader::same(const CppExpression& e, const written::Value& v) {
     case constant:
     case word:
       return v.text == "largest" ? is_largest(e) : is_free_name(e, v.text);
-    case zeros:
     case call:
+      // In parentheses alone.
+      if (v.text.empty()) return same(e, v.parts[0]);
+      [[fallthrough]];
+    case zeros:
     case routine:
     case of_run:
       return e.kind == CppExpression::Kind::call && is_free_name(e.parts[0], v.text) &&

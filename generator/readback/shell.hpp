@@ -15,9 +15,10 @@ namespace hamgen {
 [[nodiscard]] Pattern record_pattern(const Record& record, const std::string& system);
 // The class: its routines, which are read one by one, and what stands between them.
 using ShellPart = std::variant<Pattern, Routine>;
-[[nodiscard]] std::vector<ShellPart> propagator_parts(const Propagator& propagator);
+// lanes: of trajectories side by side.
+[[nodiscard]] std::vector<ShellPart> propagator_parts(const Propagator& propagator, bool lanes);
 // step, by a Propagator.
-[[nodiscard]] Pattern step_pattern();
+[[nodiscard]] Pattern step_pattern(bool lanes);
 // "using Matrix = BandMatrix<8, 1>;" with what it needs.
 [[nodiscard]] Pattern matrix_pattern(const ArrayMatrix& matrix);
 

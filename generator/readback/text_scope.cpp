@@ -245,12 +245,12 @@ MachineValue TextScope::converted(const CppExpression& argument) const {
 // with "::" before it, but for what the fixed blocks are called in the routines.
 std::string TextScope::function(const std::string& name, int line) const {
   if (name == kProductError) return name;
-  if (in_lanes() && name.starts_with("lane_")) {
+  if (has_packs() && name.starts_with("lane_")) {
     const Function* row = find_function(name.substr(5));
     return row != nullptr ? std::string(row->cpp) : name.substr(5);
   }
   constexpr std::string_view kLibrary = "library<std::";
-  if (in_lanes() && name.starts_with(kLibrary))
+  if (has_packs() && name.starts_with(kLibrary))
     return name.substr(kLibrary.size(), name.size() - kLibrary.size() - 1);
   if (name.starts_with("std::") && !precision_.is_quad()) return name.substr(5);
   constexpr std::string_view kBuiltin = "__builtin_";

@@ -25,7 +25,9 @@ struct Meaning {
 //   "::pi"       what is no name of the function
 class TextScope {
  public:
-  TextScope(const Precision& precision, int n) : precision_(precision), n_(n) {
+  // lanes: numbers are packs everywhere, of one of each trajectory.
+  TextScope(const Precision& precision, int n, bool lanes)
+      : precision_(precision), n_(n), of_lanes_(lanes) {
     frames_.emplace_back();
   }
 
@@ -54,6 +56,7 @@ class TextScope {
   [[nodiscard]] const Precision& precision() const { return precision_; }
 
  private:
+  [[nodiscard]] bool has_packs() const { return of_lanes_ || in_lanes(); }
   [[nodiscard]] const Meaning* find(const std::string& name) const;
   [[nodiscard]] MachineValue number(const CppExpression& e) const;
   [[nodiscard]] MachineValue name(const CppExpression& e) const;
@@ -65,6 +68,7 @@ class TextScope {
   const Precision& precision_;
   int n_;  // what the text calls n; 0: nothing
   std::vector<std::map<std::string, Meaning>> frames_;
+  bool of_lanes_;
   std::string lane_index_;
 };
 

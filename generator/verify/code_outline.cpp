@@ -49,6 +49,7 @@ class Outline {
     for (const KernelRange& range : kernel.ranges)
       slots.places[range.index] = {"", "", {{0, {{range.index, 1}}}}};
     begin(slots);
+    if (kernel.sum) word("to a sum", {static_cast<long>(*kernel.sum)});
     for (const KernelRange& range : kernel.ranges) loop(range);
     read(kernel.value);
     for (std::size_t i = 0; i < kernel.ranges.size(); ++i) end();

@@ -19,9 +19,15 @@ using Event = CodeEvent::Kind;
 struct Reach {
   long elements = 0;
   bool pairs = false;
+  std::set<std::string> readers_of_sums = {};  // routines
   // Two ends and what lies between; with pairs, two elements that are at no end and next to each
-  // other, and on either side of them one that is far from both.
-  [[nodiscard]] long least_size() const { return pairs ? 4 * elements + 4 : 2 * elements + 1; }
+  // other, and on either side of them one that is far from both; with sums that are read, thirds
+  // of which an element and its neighbours touch two.
+  [[nodiscard]] long least_size() const {
+    const long alone = 2 * elements + 1;
+    if (!readers_of_sums.empty()) return 3 * alone;
+    return pairs ? 4 * elements + 4 : alone;
+  }
 };
 
 // How far a value reaches: through one loop from its lowest to its highest neighbour, and through
@@ -37,7 +43,7 @@ class Locality {
     check_sums();
     long most = 0;
     for (const auto& [routine, loops] : radius_) most = std::max(most, loops);
-    return {boundary_ + radius_["prepare"] + most, !with_pairs_.empty()};
+    return {boundary_ + radius_["prepare"] + most, !with_pairs_.empty(), readers_};
   }
 
  private:
@@ -93,6 +99,8 @@ class Locality {
       case Event::routine:
         // The sums and locals of another are others.
         check_sums();
+        local_sums_.clear();
+        declared_in_.clear();
         summed_over_pairs_.clear();
         passes_on_ = false;
         routine_ = of.text;
@@ -108,6 +116,7 @@ class Locality {
         return end();
       case Event::local:
         if (in_growing()) inner_locals_[of.text] = growing_loops();
+        declared_in_[of.text] = std::ssize(loops_);
         return;
       case Event::index:
         return index();
@@ -128,8 +137,6 @@ class Locality {
     for (const std::string& name : sums_) {
       if (read_.contains(name)) throw NotLonger{"a sum over all elements enters a loop"};
     }
-    std::erase_if(sums_, [](const std::string& name) { return name.starts_with("local"); });
-    std::erase_if(read_, [](const std::string& name) { return name.starts_with("local"); });
   }
 
   void call(const std::string& called) {
@@ -187,6 +194,8 @@ class Locality {
     written_.clear();
     gets_.clear();
     inner_locals_.clear();
+    read_here_.clear();
+    for (auto& each : local_sums_) each.second.grows = false;
   }
   // Is what an instance writes and reads of an array its own?  It is if the place is the same, and
   // if the places are the same in several blocks of it that do not meet.
@@ -298,6 +307,7 @@ class Locality {
     }
     if (of.kind == Event::get) {
       read_.insert(of.text);
+      if (is_local(of.text)) read_sum(of.text);
       if (in_growing() && !indices.empty()) gets_[of.text].insert({block, offsets});
       return get(of.text, alone);
     }
@@ -313,7 +323,32 @@ class Locality {
     }
     if (of.kind != Event::add || !offsets.empty()) throw NotLonger{"all elements meet in one"};
     if (in_pairs()) with_pairs_.insert(routine_);
+    if (is_local(of.text)) return add_to_sum(of.text);
     sums_.insert(of.text);
+  }
+
+  static bool is_local(const std::string& name) { return name.starts_with("local"); }
+  // A sum over all elements is read when it is whole, and is one number for all that read it.
+  void add_to_sum(const std::string& name) {
+    LocalSum& sum = local_sums_[name];
+    if (sum.is_read || read_here_.contains(name))
+      throw NotLonger{"a sum over all elements grows after it was read"};
+    sum.grows = true;
+    sum.of_pairs = sum.of_pairs || in_pairs();
+    // In a loop that does not grow it would go on with what is there of the time before.
+    const long inside = std::ssize(loops_) - growing_loops();
+    sum.goes_on = sum.goes_on || !declared_in_.contains(name) || declared_in_[name] != inside;
+  }
+  void read_sum(const std::string& name) {
+    if (in_growing()) read_here_.insert(name);
+    const auto found = local_sums_.find(name);
+    if (found == local_sums_.end()) return;
+    LocalSum& sum = found->second;
+    if (sum.grows) throw NotLonger{"an instance of a loop reads what another one writes"};
+    if (sum.of_pairs) throw NotLonger{"a sum over pairs is looked into"};
+    if (sum.goes_on) throw NotLonger{"a sum over all elements goes on from loop to loop"};
+    sum.is_read = true;
+    readers_.insert(routine_);
   }
   // A value that is a sum over pairs may be added to another one, and enter nothing else.  What a
   // routine has from another one may be turned.
@@ -349,6 +384,15 @@ class Locality {
   std::optional<long> covers_;                // of a nest of one loop, in multiples of the size
   std::map<std::string, Places> written_, gets_;
   std::set<std::string> sums_, read_;
+  std::set<std::string> read_here_;  // locals, in the nest
+  // Of the routine: its sums over all elements, and in how many loops locals are declared.
+  struct LocalSum {
+    bool grows = false;  // in the nest
+    bool is_read = false, of_pairs = false, goes_on = false;
+  };
+  std::map<std::string, LocalSum> local_sums_;
+  std::map<std::string, long> declared_in_;
+  std::set<std::string> readers_;
   // Of the routine: arrays and locals that are sums over the other one of a pair.
   std::set<std::string> summed_over_pairs_;
   std::set<std::string> with_pairs_;  // routines
@@ -365,6 +409,10 @@ long least_size(const std::array<SizedOutline, 3>& sizes) {
   } catch (const NotLonger&) {
     return 0;
   }
+}
+
+std::set<std::string> readers_of_sums(const std::array<SizedOutline, 3>& sizes) {
+  return Locality(affine_events(sizes)).reach().readers_of_sums;
 }
 
 std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes) {

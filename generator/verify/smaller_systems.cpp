@@ -5,20 +5,12 @@
 #include <set>
 
 #include "generator/verify/growth.hpp"
+#include "generator/verify/independent_sums.hpp"
 #include "generator/verify/proof.hpp"
 
 namespace hamgen {
 
 namespace {
-
-// Which element of its array.
-long element_at(const QuantityList& variables, long position) {
-  const auto is_in = [position](const QuantityList::Run& run) {
-    return position < static_cast<long>(run.begin + run.count);
-  };
-  const auto run = std::ranges::find_if(variables.runs(), is_in);
-  return position - static_cast<long>(run->begin) + run->first;
-}
 
 // How far the instances of loops reach, in elements.
 long reach_of(const std::vector<Kernel>& kernels, const QuantityList& variables) {
@@ -27,7 +19,8 @@ long reach_of(const std::vector<Kernel>& kernels, const QuantityList& variables)
     std::set<long> elements;
     for (const Slot& slot : kernel.slots) {
       const long first = least_value(slot.position, kernel.ranges);
-      if (!slot.position.factors.empty()) elements.insert(element_at(variables, first));
+      if (!slot.position.factors.empty())
+        elements.insert(variables.element(static_cast<std::size_t>(first)));
     }
     if (!elements.empty()) reach = std::max(reach, *elements.rbegin() - *elements.begin());
   }
@@ -87,8 +80,17 @@ std::optional<std::string> why_not_inherited(const Mechanics& mechanics, const S
     return "the flow reaches farther than the smaller ones are long";
   if (!smaller.third && sums_over_pairs(mechanics))
     return "its pairs are looked at in two sizes only";
+  if (smaller.first.mechanics.of_sums != mechanics.of_sums ||
+      smaller.second.mechanics.of_sums != mechanics.of_sums)
+    return "H is another function of its sums";
+  std::set<std::string> readers;
   for (const Compared& each : compared(mechanics, plan, code, smaller)) {
     if (const auto why = why_not_longer(each.sizes)) return each.where + *why;
+    readers.merge(readers_of_sums(each.sizes));
+  }
+  for (const std::string& routine : readers) {
+    if (!are_sums_independent(smaller.first, routine))
+      return fmt::format("the sums over all elements in {} depend on each other", routine);
   }
   return {};
 }

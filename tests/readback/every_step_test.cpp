@@ -130,5 +130,25 @@ TEST(ReadBackOf, EveryModelInCIsTheProgram) {
   EXPECT_GT(counts.read, counts.wished / 2);
 }
 
+// Of many trajectories side by side; how many there are is a number of the text.
+TEST(ReadBackOf, EveryModelAsABatchIsTheProgram) {
+  std::vector<Request> requests;
+  for (const Scheme& scheme : all_schemes()) {
+    requests.push_back({.scheme = scheme.name, .batch = 8});
+    requests.push_back({.scheme = scheme.name, .batch = 2, .math = "libm"});
+  }
+  for (const char* solver : {"newton", "fixed-point", "sweeps:3"}) {
+    requests.push_back({.solver = solver, .batch = 4});
+    requests.push_back({.scheme = "gauss-4", .solver = solver, .batch = 1});
+  }
+  requests.push_back({.order = 4, .batch = 4});
+  requests.push_back({.alpha = "3/10", .beta = "h/7", .gamma = "-h/5", .batch = 4});
+  requests.push_back({.scheme = "stormer-verlet", .batch = 4, .plain_sums = true});
+  requests.push_back({.batch = 4, .watch_modified = 2, .step = Rational(1, 50)});
+  const Counts counts = read_all(requests, 23);
+  EXPECT_EQ(counts.read + counts.refused, counts.wished);
+  EXPECT_GT(counts.read, 4 * counts.wished / 5);
+}
+
 }  // namespace
 }  // namespace hamgen

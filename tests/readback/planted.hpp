@@ -34,21 +34,30 @@ struct Emitted {
   std::string scalar;
   std::string text;
   Rational watched_step;
+  int lanes = 0;
 
   [[nodiscard]] ReadBack read(const std::string& changed) const {
-    return read_back(
-        {.text = changed, .scalar = scalar, .beside = {}, .watched_step = watched_step},
-        stages.program);
+    return read_back({.text = changed,
+                      .scalar = scalar,
+                      .beside = {},
+                      .watched_step = watched_step,
+                      .lanes = lanes},
+                     stages.program);
   }
 };
 
 inline Emitted emitted(const std::string& model, const Request& request) {
   const SourceText source = source_of(model);
-  const PluginSource plugin = generate_plugin(source, request);
-  std::string text = plugin.header.text;
-  if (request.format == "cpp-plugin") text = plugin.text;
-  if (request.format == "c-header" || request.events) text = generate(source, request).at(0).text;
-  return {run_stages(source, request), request.scalar.text(), std::move(text), request.step};
+  const bool alone = request.format != "c-header" && !request.events && request.batch == 0;
+  std::string text;
+  if (alone) {
+    const PluginSource plugin = generate_plugin(source, request);
+    text = request.format == "cpp-plugin" ? plugin.text : plugin.header.text;
+  } else {
+    text = generate(source, request).at(0).text;
+  }
+  return {run_stages(source, request), request.scalar.text(), std::move(text), request.step,
+          request.batch};
 }
 
 inline int line_of(const std::string& text, std::size_t at) {

@@ -6,40 +6,19 @@
 
 #include <optional>
 
-#include "generator/language/read_model.hpp"
-#include "generator/mechanics/derive.hpp"
-#include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
 #include "tests/verify/evaluator.hpp"
 #include "tests/verify/mutants.hpp"
+#include "tests/verify/sized_system.hpp"
 
 namespace hamgen {
 namespace {
 
 using verify_test::computes_the_same;
+using verify_test::kernels;
 using verify_test::lowered_of;
-
-// The system of a text at a size.
-SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name,
-                      int order = 2) {
-  const Model model = read_model(
-      make_source("chain.ham", fmt::format("system chain\nsize N = {}\n{}", size, text)));
-  Mechanics mechanics = derive(model);
-  EXPECT_TRUE(mechanics.keeps_sums()) << text;
-  Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
-  if (order > 2) scheme = raise_order(std::move(scheme), order);
-  const bool is_explicit = scheme_name == "stormer-verlet" || scheme_name == "rk4";
-  const LoweredStep lowered = lowered_of(mechanics, scheme, is_explicit ? "" : "fixed-point");
-  return {size,         std::move(mechanics),   std::move(scheme),
-          lowered.plan, build_program(lowered), written_out_hamiltonian(model)};
-}
-
-SizedOutline routines(const SizedSystem& system) {
-  return {system.size, outline(system.program, {"invariants"})};
-}
-SizedOutline kernels(const SizedSystem& system) {
-  return {system.size, outline(system.mechanics.kernels)};
-}
+using verify_test::routines;
+using verify_test::system_of;
 
 // By its kernels or by its routines.
 std::string why_not(const std::string& text) {
