@@ -62,10 +62,10 @@ TEST(ReadBackOfABatch, HasTheNumberOfTrajectoriesThatIsAskedFor) {
 }
 
 TEST(ReadBackOfABatch, EveryWordCounts) {
-  expect_every_word_counts(emitted("pendulum", {.batch = 8}), 61);
-  expect_every_word_counts(emitted("fput", {.batch = 4}), 211);
+  expect_every_word_counts(emitted("pendulum", {.batch = 8}), 41);
+  expect_every_word_counts(emitted("fput", {.batch = 4}), 97);
   expect_every_word_counts(emitted("kepler", {.scheme = "gauss-4", .batch = 2, .math = "libm"}),
-                           211);
+                           97);
 }
 
 }  // namespace
