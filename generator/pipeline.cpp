@@ -257,7 +257,7 @@ std::vector<Corner> corners_of_hamiltonian(const SourceText& source, const Reque
 
 std::string point_beyond_text(const SourceText& source, const Request& request) {
   const Model model = read_request(source, request);
-  return point_beyond_text(model, derive(model, may_keep_sums(request)), surroundings_of(model));
+  return point_beyond_text(model, derive(model, may_keep_sums(request)));
 }
 
 Scheme request_scheme(const SourceText& source, const Request& request) {

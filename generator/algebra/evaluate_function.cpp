@@ -1,3 +1,5 @@
+#include <cln/integer.h>
+#include <cln/rational.h>
 #include <ginac/ginac.h>
 
 #include <algorithm>
@@ -37,9 +39,17 @@ class Precision {
   long before_;
 };
 
+// By its binary digits: a scene has a constant for each of its elements.
+cln::cl_I to_cln(const Integer& value) {
+  if (value.fits_slong_p()) return value.get_si();
+  cln::cl_I result = 0;
+  for (std::size_t i = mpz_size(value.get_mpz_t()); i-- > 0;)
+    result = cln::ash(result, GMP_NUMB_BITS) + cln::cl_I(mpz_getlimbn(value.get_mpz_t(), i));
+  return sgn(value) < 0 ? -result : result;
+}
+
 GiNaC::numeric to_numeric(const Rational& value) {
-  return GiNaC::numeric(value.get_num().get_str().c_str()) /
-         GiNaC::numeric(value.get_den().get_str().c_str());
+  return GiNaC::numeric(cln::cl_N(to_cln(value.get_num()) / to_cln(value.get_den())));
 }
 
 // CLN prints a float as 1.25E-3 (or 1.25L-3), whatever the locale.
@@ -56,9 +66,10 @@ std::optional<Rational> from_numeric(const GiNaC::numeric& value) {
   const bool negative = text.starts_with('-');
   if (negative) text.erase(0, 1);
   long exponent = 0;
-  if (const std::size_t mark = text.find_first_not_of("0123456789."); mark != std::string::npos) {
-    exponent = std::strtol(text.c_str() + mark + 1, nullptr, 10);
-    text.erase(mark);
+  const auto is_letter = [](char c) { return c >= 'A'; };
+  if (const auto mark = std::ranges::find_if(text, is_letter); mark != text.end()) {
+    exponent = std::strtol(&*mark + 1, nullptr, 10);
+    text.erase(mark, text.end());
   }
   if (std::abs(exponent) > largest_argument_of_exp) return std::nullopt;
   std::optional<Rational> result = parse_decimal(text);
@@ -82,8 +93,7 @@ std::optional<Rational> exact_square_root(const Rational& x) {
 
 // The table names its functions as GiNaC does, so GiNaC finds the function by its name.
 GiNaC::ex call(std::string_view name, std::span<const Rational> arguments) {
-  const GiNaC::numeric x = to_numeric(arguments.front());
-  if (name == "sqrt") return GiNaC::sqrt(x);
+  if (name == "sqrt") return GiNaC::sqrt(to_numeric(arguments.front()));
   const auto arity = static_cast<unsigned>(arguments.size());
   const unsigned serial = GiNaC::function::find_function(std::string(name), arity);
   GiNaC::exvector values;

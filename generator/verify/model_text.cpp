@@ -161,9 +161,9 @@ Finding prove_model_read(const Model& model, const Mechanics& mechanics,
                       gradient, invariants, points, beyond)};
 }
 
-std::string point_beyond_text(const Model& model, const Mechanics& mechanics,
-                              const Surroundings& around) {
+std::string point_beyond_text(const Model& model, const Mechanics& mechanics) {
   if (mechanics.keeps_sums() || mechanics.degrees_of_freedom > kLargeReading) return {};
+  const Surroundings around = surroundings_of(model);
   const DerivedFormulas derived{.hamiltonian = mechanics.energy};
   Reading reading(model, mechanics, derived);
   for (int number = 0; number < kPointsOfReading && reading.beyond().empty(); ++number)

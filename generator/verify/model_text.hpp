@@ -27,7 +27,6 @@ struct DerivedFormulas {
 
 // A point at which H as the file has it has no value, and H as derived has one, for something has
 // cancelled: (q^(1/3))^3 is q.  Empty if none was met at random points, or where sums stay loops.
-[[nodiscard]] std::string point_beyond_text(const Model& model, const Mechanics& mechanics,
-                                            const Surroundings& around = {});
+[[nodiscard]] std::string point_beyond_text(const Model& model, const Mechanics& mechanics);
 
 }  // namespace hamgen
