@@ -8,10 +8,10 @@
 // 2/pi whose product with 2^e is a multiple of 4 (Payne and Hanek).  No double is nearer to a
 // multiple of pi/2 than 2^-61: 70 bits of the remainder are right.
 //
-// Note [what is written out]
-// A record of two vectors comes back from a function in memory, and is read there in one piece that
-// was stored in two, for which processors wait.  So all but the rare lanes is written out where it
-// is called, and of sin x and cos x what they share is computed once.
+// Note [the rare lanes are a function]
+// What is left is short enough for a compiler to write it out where it is called.  A record of two
+// vectors that comes back from a function is in memory, and is read there in one piece that was
+// stored in two, for which processors wait.
 template <class V>
 struct Reduced {
   BitsOf<V> quadrant;  // n modulo 4 in the last two bits
@@ -102,7 +102,7 @@ __attribute__((noinline, cold)) void reduce_lanes(const V& x, const MaskOf<V>& s
 }
 // Of x >= 0; of infinities and NaN it is NaN.
 template <class V>
-__attribute__((always_inline)) inline Reduced<V> reduced(V x) {
+inline Reduced<V> reduced(V x) {
   const V shifted = x * 0x1.45f306dc9c883p-1 + integer_magic;
   const V n = shifted - integer_magic;
   const Pair<V> most = exact_sum(x - n * 0x1.921fb54400000p+0, -(n * 0x1.0b4611a600000p-34));
@@ -119,7 +119,7 @@ struct SineAndCosine {
 };
 // Of a remainder.
 template <class V>
-__attribute__((always_inline)) inline SineAndCosine<V> sine_and_cosine(Pair<V> x) {
+inline SineAndCosine<V> sine_and_cosine(Pair<V> x) {
   const V z = x.high * x.high;
   const V w = z * z;
   const V more =
@@ -148,7 +148,7 @@ struct Circle {
 };
 // sin x and cos x.
 template <class V>
-__attribute__((always_inline)) inline Circle<V> circle(V x) {
+__attribute__((const)) inline Circle<V> circle(V x) {
   const Reduced<V> at = reduced(lane_abs(x));
   const SineAndCosine<V> values = sine_and_cosine(at.remainder);
   const V sine = values.sine.high + values.sine.low;
