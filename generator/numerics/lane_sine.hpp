@@ -7,6 +7,11 @@
 // of 2/pi that matter: m 2^e 2/pi modulo 4, for the integer m of 53 bits, has no use for bits of
 // 2/pi whose product with 2^e is a multiple of 4 (Payne and Hanek).  No double is nearer to a
 // multiple of pi/2 than 2^-61: 70 bits of the remainder are right.
+//
+// Note [the rare lanes are a function]
+// What is left is short enough for a compiler to write it out where it is called.  A record of two
+// vectors that comes back from a function is in memory, and is read there in one piece that was
+// stored in two, for which processors wait.
 template <class V>
 struct Reduced {
   BitsOf<V> quadrant;  // n modulo 4 in the last two bits
@@ -84,6 +89,17 @@ inline void reduce_lane(const V& x, Reduced<V>& reduced, int lane) {
     reduced.remainder.low[lane] = one.remainder.low;
   }
 }
+// The lanes that are not sure.
+template <class V>
+__attribute__((noinline, cold)) void reduce_lanes(const V& x, const MaskOf<V>& sure,
+                                                  Reduced<V>& result) {
+  const V none = x - x;
+  const MaskOf<V> finite = none == V();
+  result.remainder.high += none;
+  for (int i = 0; i < int(sizeof(V) / 8); ++i) {
+    if (is_set(finite, i) && !is_set(sure, i)) reduce_lane(x, result, i);
+  }
+}
 // Of x >= 0; of infinities and NaN it is NaN.
 template <class V>
 inline Reduced<V> reduced(V x) {
@@ -94,14 +110,7 @@ inline Reduced<V> reduced(V x) {
                        sum_with_larger(most.high, most.low - n * 0x1.3198a2e037073p-69)};
   const V bound = x > V() + 0x1p20 ? V() + __builtin_nan("") : x * 0x1p-30;
   const MaskOf<V> sure = lane_abs(result.remainder.high) >= bound;
-  if (__builtin_expect(!all(sure), 0)) {
-    const V none = x - x;
-    const MaskOf<V> finite = none == V();
-    result.remainder.high += none;
-    for (int i = 0; i < int(sizeof(V) / 8); ++i) {
-      if (is_set(finite, i) && !is_set(sure, i)) reduce_lane(x, result, i);
-    }
-  }
+  if (__builtin_expect(!all(sure), 0)) reduce_lanes(x, sure, result);
   return result;
 }
 template <class V>
@@ -137,7 +146,7 @@ template <class V>
 struct Circle {
   V sine, cosine;
 };
-// sin x and cos x.  A compiler is told that it depends on x alone, and calls it once for both.
+// sin x and cos x.
 template <class V>
 __attribute__((const)) inline Circle<V> circle(V x) {
   const Reduced<V> at = reduced(lane_abs(x));
