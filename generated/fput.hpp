@@ -132,11 +132,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_c492b6c9::float64 {
+namespace hamgen_de6a87d7::float64 {
 using Real = double;
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_STEP_REPORT
-#define HAMGEN_C492B6C9_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
+#define HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -146,15 +146,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_VOCABULARY
-#define HAMGEN_C492B6C9_FLOAT64_VOCABULARY
+#ifndef HAMGEN_DE6A87D7_FLOAT64_VOCABULARY
+#define HAMGEN_DE6A87D7_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_TWO_SUM
-#define HAMGEN_C492B6C9_FLOAT64_TWO_SUM
+#ifndef HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
+#define HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -164,8 +164,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_SUM_WITH_REST
-#define HAMGEN_C492B6C9_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_DE6A87D7_FLOAT64_SUM_WITH_REST
+#define HAMGEN_DE6A87D7_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
@@ -176,8 +176,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_SUMS
-#define HAMGEN_C492B6C9_FLOAT64_SUMS
+#ifndef HAMGEN_DE6A87D7_FLOAT64_SUMS
+#define HAMGEN_DE6A87D7_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -213,8 +213,8 @@ inline Real squares_of(const Real (&vector)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_BAND_MATRIX
-#define HAMGEN_C492B6C9_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_DE6A87D7_FLOAT64_BAND_MATRIX
+#define HAMGEN_DE6A87D7_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -279,14 +279,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_VERDICT
-#define HAMGEN_C492B6C9_FLOAT64_VERDICT
+#ifndef HAMGEN_DE6A87D7_FLOAT64_VERDICT
+#define HAMGEN_DE6A87D7_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_NEWTON_RULE
-#define HAMGEN_C492B6C9_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_DE6A87D7_FLOAT64_NEWTON_RULE
+#define HAMGEN_DE6A87D7_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -376,8 +376,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_C492B6C9_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_DE6A87D7_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_DE6A87D7_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -399,8 +399,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_C492B6C9_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_DE6A87D7_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_DE6A87D7_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments and of what these are
 // rounded with, and whether each is close to its end.
 struct Distance {
@@ -466,8 +466,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_C492B6C9_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_DE6A87D7_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_DE6A87D7_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -549,8 +549,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_REFINEMENT
-#define HAMGEN_C492B6C9_FLOAT64_REFINEMENT
+#ifndef HAMGEN_DE6A87D7_FLOAT64_REFINEMENT
+#define HAMGEN_DE6A87D7_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -567,6 +567,8 @@ struct Refinement {
     return power;
   }
   static constexpr Real amplifier = find_amplifier();
+  static constexpr int size = Size;
+  static constexpr int components = Components;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
@@ -580,9 +582,8 @@ struct Refinement {
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   template <class Rule>
-  bool operator()(Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
-    if (rule.settled && lengths_of(lack) <= rule.round_off) {
+  bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
+    if (rule.settled && lacking(lack) <= rule.round_off) {
       ++rule.unchecked;
       for (int k = 0; k < Components; ++k) {
         slope[k] = gradient[k];
@@ -603,8 +604,7 @@ struct Refinement {
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
   // if it wants these and the gradient once more, at the point it has moved; else that is the
   // rounded one again.
-  bool operator()(Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
+  bool operator()(Real* point, const Real* lack, const Real* gradient) {
     if (rounds == 0) begin(point, lack, gradient);
     Real error[Size] = {};
     for (int j = 0; j < Size; ++j) {
@@ -623,14 +623,16 @@ struct Refinement {
     return more;
   }
 
-  void begin(const Real (&point)[Size], const Real (&lack)[Size],
-             const Real (&gradient)[Components]) {
+  void begin(const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = point[j];
       missing[j] = lack[j];
       moved[j] = 0;
     }
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
+  }
+  static Real lacking(const Real* lack) {
+    return sum_of<Size>([&](int j) { return magnitude(lack[j]); });
   }
   // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
   bool goes_on(bool open) {
@@ -643,8 +645,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_HISTORY
-#define HAMGEN_C492B6C9_FLOAT64_HISTORY
+#ifndef HAMGEN_DE6A87D7_FLOAT64_HISTORY
+#define HAMGEN_DE6A87D7_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -736,8 +738,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_C492B6C9_FLOAT64_FORGET
-#define HAMGEN_C492B6C9_FLOAT64_FORGET
+#ifndef HAMGEN_DE6A87D7_FLOAT64_FORGET
+#define HAMGEN_DE6A87D7_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -747,14 +749,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_c492b6c9::float64
+}  // namespace hamgen_de6a87d7::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xb5e29aa9
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xeab6f115
 namespace fput::implicit_midpoint {
-inline namespace emitted_b5e29aa9 {
+inline namespace emitted_eab6f115 {
 
-namespace numerics = ::hamgen_c492b6c9::float64;
+namespace numerics = ::hamgen_de6a87d7::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -1018,9 +1020,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_b5e29aa9
+}  // namespace emitted_eab6f115
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xb5e29aa9
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xeab6f115
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -108,19 +108,22 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     };
   }
   Step operator()(const RefineArray& refine) {
-    const Whole point = whole(refine.point);
-    const Whole lack = whole(refine.lack);
-    const Whole gradient = whole(refine.gradient);
+    const auto count = static_cast<std::size_t>(refine.count);
+    const auto components = static_cast<std::size_t>(refine.components);
+    const Whole point{address(refine.point), count};
+    const Whole lack{address(refine.lack), count};
+    const Whole gradient{address(refine.gradient), components};
     const std::string& name = refine.refinement.field;
     const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
     const Whole change = whole(Place{refine.refinement.object, name + ".change"});
     const int target = index_of(refine.refinement.object);
     const int start = refine.rule.empty() ? 0 : index_of("start");
     return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
-            body = steps(refine.body)] {
+            first = steps(refine.first), body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
-      for (bool more = true; more;) {
-        if (!run_all(body)) return false;
+      const bool begins = !first.empty();
+      for (bool more = true, is_first = true; more; is_first = false) {
+        if (!run_all(is_first && begins ? first : body)) return false;
         more = rule.empty() ? refinement(span(point), span(lack), span(gradient))
                             : refinement.refine(*object(start).contractions.at(rule), span(point),
                                                 span(lack), span(gradient));

@@ -24,12 +24,13 @@ struct Refinement {
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   template <class Rule>
-  bool operator()(const Turn& turn, Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
+  bool operator()(const Turn& turn, Rule& rule, Real* point, const Real* lack,
+                  const Real* gradient) {
     const bool second = rounds == 1;
     if (rounds == 0) {
       begin(turn.lanes, point, lack, gradient);
-      rule.settled = open & rule.settled & (lengths_of(lack) <= rule.round_off);
+      rule.settled = open & rule.settled &
+                     (sum_of(Size, [&](int j) { return magnitude(lack[j]); }) <= rule.round_off);
       open = open & !rule.settled;
     }
     const Real before = least;
@@ -41,8 +42,7 @@ struct Refinement {
   }
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
   // if it wants these and the gradient once more, in some lanes at points that it has moved.
-  bool operator()(const Turn& turn, Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
+  bool operator()(const Turn& turn, Real* point, const Real* lack, const Real* gradient) {
     if (rounds == 0) begin(turn.lanes, point, lack, gradient);
     const Mask looked = open;
     round(lack, gradient);
@@ -50,8 +50,7 @@ struct Refinement {
   }
 
  private:
-  void begin(const Mask& lanes, const Real (&point)[Size], const Real (&lack)[Size],
-             const Real (&gradient)[Components]) {
+  void begin(const Mask& lanes, const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = select(lanes, point[j], at[j]);
       missing[j] = select(lanes, lack[j], missing[j]);
@@ -63,7 +62,7 @@ struct Refinement {
     }
     open = lanes;
   }
-  void round(const Real (&lack)[Size], const Real (&gradient)[Components]) {
+  void round(const Real* lack, const Real* gradient) {
     if (!any(open)) return;
     const Mask lanes = open;
     Mask lacking = false;
@@ -84,7 +83,7 @@ struct Refinement {
     least = select(decreased, last, least);
     open = open & lacking & (stuck < 4) & Mask(rounds < 500);
   }
-  bool move(const Mask& looked, Real (&point)[Size]) {
+  bool move(const Mask& looked, Real* point) {
     for (int j = 0; j < Size; ++j) {
       const Real ahead = at[j] + amplifier * moved[j];
       point[j] = select(open, ahead, select(looked, at[j], point[j]));

@@ -2,36 +2,41 @@
 template <class Lanes, class Refinement>
 struct RefinementInLanes : Refinement {
   static constexpr int width = sizeof(Lanes) / sizeof(double);
-  template <int Size>
-  bool operator()(double (&point)[Size], const double (&lack)[Size],
-                  const double (&gradient)[Size]) {
+  static constexpr int size = Refinement::size;
+  bool operator()(double* point, const double* lack, const double* gradient) {
     if (this->rounds == 0) this->begin(point, lack, gradient);
     constexpr double part = 1 / Refinement::amplifier;  // a power of two
     const Lanes zero = 0;
-    Lanes size[8 / width];
+    Lanes moves[8 / width];
     Lanes open[8 / width];
-    for (int k = 0; k < 8 / width; ++k) size[k] = open[k] = zero;
-    for (int j = 0; j < Size; j += 8) {
-      for (int k = 0; k < 8 / width && j + width * k < Size; ++k) {
+    for (int k = 0; k < 8 / width; ++k) moves[k] = open[k] = zero;
+    for (int j = 0; j < size; j += 8) {
+      for (int k = 0; k < 8 / width && j + width * k < size; ++k) {
         const int first = j + width * k;
         const Lanes before = Lanes::at(this->missing + first);
         const Lanes error = before + (Lanes::at(lack + first) - before) * part;
         const Lanes way = Lanes::at(this->moved + first) + error;
         Lanes::put(this->moved + first, way);
-        size[k] += lane_abs(error);
+        moves[k] += lane_abs(error);
         const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + first)) + lane_abs(way) * 0x1p-7;
         open[k] += select(lane_abs(error) * 8192 > unit, Lanes(1), zero);
-        Lanes::put(this->change + first,
-                   (Lanes::at(gradient + first) - Lanes::at(this->slope + first)) * part);
       }
     }
-    this->last = total_of<width>(size);
+    this->last = total_of<width>(moves);
     const bool more = this->goes_on(total_of<width>(open) > 0);
-    for (int first = 0; first < Size; first += width) {
-      const Lanes kept = Lanes::at(this->at + first);
-      const Lanes ahead = kept + Refinement::amplifier * Lanes::at(this->moved + first);
-      Lanes::put(point + first, more ? ahead : kept);
+    if (more) {
+      for (int first = 0; first < size; first += width) {
+        const Lanes ahead = Refinement::amplifier * Lanes::at(this->moved + first);
+        Lanes::put(point + first, Lanes::at(this->at + first) + ahead);
+      }
+      return true;
     }
-    return more;
+    for (int first = 0; first < size; first += width)
+      Lanes::put(point + first, Lanes::at(this->at + first));
+    for (int first = 0; first < Refinement::components; first += width) {
+      const Lanes far = Lanes::at(gradient + first) - Lanes::at(this->slope + first);
+      Lanes::put(this->change + first, far * part);
+    }
+    return false;
   }
 };

@@ -14,6 +14,8 @@ struct Refinement {
     return power;
   }
   static constexpr Real amplifier = find_amplifier();
+  static constexpr int size = Size;
+  static constexpr int components = Components;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
@@ -27,9 +29,8 @@ struct Refinement {
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   template <class Rule>
-  bool operator()(Rule& rule, Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
-    if (rule.settled && lengths_of(lack) <= rule.round_off) {
+  bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
+    if (rule.settled && lacking(lack) <= rule.round_off) {
       ++rule.unchecked;
       for (int k = 0; k < Components; ++k) {
         slope[k] = gradient[k];
@@ -50,8 +51,7 @@ struct Refinement {
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
   // if it wants these and the gradient once more, at the point it has moved; else that is the
   // rounded one again.
-  bool operator()(Real (&point)[Size], const Real (&lack)[Size],
-                  const Real (&gradient)[Components]) {
+  bool operator()(Real* point, const Real* lack, const Real* gradient) {
     if (rounds == 0) begin(point, lack, gradient);
     Real error[Size] = {};
     for (int j = 0; j < Size; ++j) {
@@ -70,14 +70,16 @@ struct Refinement {
     return more;
   }
 
-  void begin(const Real (&point)[Size], const Real (&lack)[Size],
-             const Real (&gradient)[Components]) {
+  void begin(const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = point[j];
       missing[j] = lack[j];
       moved[j] = 0;
     }
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
+  }
+  static Real lacking(const Real* lack) {
+    return sum_of<Size>([&](int j) { return magnitude(lack[j]); });
   }
   // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
   bool goes_on(bool open) {

@@ -89,6 +89,7 @@ struct Reader {
   }
   void operator()(const RefineArray& refine) const {
     found.objects.insert(refine.refinement.object);
+    mention(refine.first, found);
     mention(refine.body, found);
   }
   void operator()(const Refine& refine) const {
@@ -221,7 +222,8 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* iterate = std::get_if<Iterate>(&instruction.value)) return {&iterate->body};
   if (const auto* iterate = std::get_if<IterateArray>(&instruction.value)) return {&iterate->body};
   if (const auto* refine = std::get_if<Refine>(&instruction.value)) return {&refine->body};
-  if (const auto* refine = std::get_if<RefineArray>(&instruction.value)) return {&refine->body};
+  if (const auto* refine = std::get_if<RefineArray>(&instruction.value))
+    return {&refine->first, &refine->body};
   if (const auto* two = std::get_if<Alternate>(&instruction.value)) return {&two->between};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
   if (const auto* repeat = std::get_if<Repeat>(&instruction.value)) return {&repeat->body};

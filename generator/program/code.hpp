@@ -211,12 +211,14 @@ struct Refine {
   std::vector<Expression> gradient;
 };
 // The same for unknowns in an array: the body leaves the gradient in an array of so many elements
-// and what the unknowns lack in another.  `refinement` is a field of start.
+// and what the unknowns lack in another.  `refinement` is a field of start.  If there is something
+// in `first` that does so at the rounded unknowns, the body only where they have been moved.
 struct RefineArray {
   Place refinement, point, lack, gradient;
   std::string rule = {};  // a ContractionRule of start that may have settled it, or none
   int count = 0;          // of unknowns
   int components = 0;     // of the gradient
+  Body first = {};
   Body body;
 };
 // The body a fixed number of times; then the unknowns are `results`.

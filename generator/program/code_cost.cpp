@@ -88,7 +88,10 @@ class CodeCost {
   void of(const Iterate& iterate) { repeat(iterate.body); }
   void of(const IterateArray& iterate) { repeat(iterate.body); }
   void of(const Sweep& sweep) { repeat(sweep.body); }
-  void of(const RefineArray& refine) { visit(refine.body); }
+  void of(const RefineArray& refine) {
+    visit(refine.first);
+    visit(refine.body);
+  }
   void of(const Refine& refine) { visit(refine.body); }
   void of(const Return& end) {
     if (end.value) add(*end.value);

@@ -150,6 +150,10 @@ class Printer {
   void operator()(const RefineArray& refine) {
     line(fmt::format("refine the fixed point {}, {}:", to_text(refine.point),
                      to_text(refine.refinement)));
+    if (!refine.first.empty()) {
+      inside(refine.first);
+      line("then, where it has been moved:");
+    }
     inside(refine.body);
   }
   void operator()(const Refine& refine) {

@@ -5,7 +5,7 @@
 namespace hamgen {
 
 Field StageCoordinates::base() const {
-  return {.name = "base", .sizes = {layout_.room() * n_}, .remark = "q + h c_i dH/dp(p)"};
+  return {.name = "base", .sizes = {coordinates()}, .remark = "q + h c_i dH/dp(p)"};
 }
 
 Expression StageCoordinates::moved(RoutineBuilder& b, const Expression& momentum) const {
@@ -15,7 +15,7 @@ Expression StageCoordinates::moved(RoutineBuilder& b, const Expression& momentum
 }
 
 std::vector<Routine> StageCoordinates::routines() const {
-  return {begin(), evaluate(), end(), eliminate()};
+  return {begin(), evaluate(), end(), eliminate(), end_refinement()};
 }
 
 Routine StageCoordinates::begin() const {
@@ -102,18 +102,23 @@ Routine StageCoordinates::eliminate() const {
   return b.take();
 }
 
-void StageCoordinates::add_fixed_point(RoutineBuilder& b) const {
-  b.body().push_back({call("begin_coordinates")});
-  const AffineIndex j = affine("j");
-  b.body().push_back({IterateArray{.rule = Rule::fixed_point,
-                                   .name = "rule",
-                                   .ranges = {counting("j", layout_.room() * n_)},
-                                   .unknowns = {{.value = of_start(b, "value", j).name(),
-                                                 .increment = of_start(b, "lack", j).name(),
-                                                 .beside = of_start(b, "state", j)}},
-                                   .body = {{call("evaluate_coordinates")}},
-                                   .lanes = layout_.packs()}});
-  b.body().push_back({call("end_coordinates")});
+// The forces change by what is refined, the momenta by what they lacked and by that.
+Routine StageCoordinates::end_refinement() const {
+  RoutineBuilder b({.name = "end_refinement",
+                    .remark = {"What L_i of the coordinates lack, once those of the momenta have "
+                               "what they lack."},
+                    .arguments = with_start(false)});
+  Body each;
+  Expression sum = of_start(b, "lack", row(n_));
+  for (int m = 0; m < stages_; ++m) {
+    const Expression coupling = entry(b, "coupling", affine(m));
+    sum += coupling * of_start(b, "refinement.change", row_of(m, n_));
+  }
+  const Expression lack = b.let(each, "pushed", sum);
+  const Expression scaled = b.at("k", "scaled", {affine("i")});
+  each.push_back({Assign{of_start(b, "refinement.change", row()).name(), scaled * moved(b, lack)}});
+  b.body().push_back(for_all(std::move(each), n_));
+  return b.take();
 }
 
 }  // namespace hamgen

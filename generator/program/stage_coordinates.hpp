@@ -15,16 +15,15 @@ class StageCoordinates : StageParts {
 
   // What the iteration remembers: start.base.
   [[nodiscard]] Field base() const;
-  // begin_coordinates, evaluate_coordinates, end_coordinates, eliminate_momenta
+  // begin_coordinates, evaluate_coordinates, end_coordinates, eliminate_momenta, end_refinement
   [[nodiscard]] std::vector<Routine> routines() const;
-  // The fixed point of the coordinates, and the momenta then.
-  void add_fixed_point(RoutineBuilder& b) const;
 
  private:
   [[nodiscard]] Routine begin() const;
   [[nodiscard]] Routine evaluate() const;
   [[nodiscard]] Routine end() const;
   [[nodiscard]] Routine eliminate() const;
+  [[nodiscard]] Routine end_refinement() const;
   // The mobility of coordinate j times that.
   Expression moved(RoutineBuilder& b, const Expression& momentum) const;
 

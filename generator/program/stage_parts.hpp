@@ -21,6 +21,7 @@ class StageParts {
 
   // With those that are none of a stage.
   [[nodiscard]] int unknowns() const { return layout_.count(); }
+  [[nodiscard]] int coordinates() const { return layout_.room() * n_; }
   [[nodiscard]] bool by_component() const { return layout_.by_component(); }
   [[nodiscard]] bool has_spare_room() const { return layout_.room() > stages_; }
 

@@ -39,11 +39,16 @@ class StageRoutines : StageParts {
     }
     code_.routines.push_back(solve());
     if (has_newton()) {
-      code_.matrix = ArrayMatrix{.kind = MatrixKind::dense, .size = stages_ * dimension_};
+      code_.matrix = ArrayMatrix{.kind = MatrixKind::dense, .size = matrix_.size()};
     }
   }
 
  private:
+  // The unknowns of the iteration, the coordinates alone where the momenta are eliminated.
+  [[nodiscard]] int iterated() const { return coordinates_ ? coordinates() : unknowns(); }
+  [[nodiscard]] const char* evaluation() const {
+    return coordinates_ ? "evaluate_coordinates" : "evaluate";
+  }
   [[nodiscard]] bool has_newton() const { return solver_ != StageSolver::fixed_point; }
   [[nodiscard]] bool has_fixed_point() const { return solver_ != StageSolver::newton; }
 
@@ -88,7 +93,7 @@ class StageRoutines : StageParts {
       record.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
-    std::string refinement = fmt::format("Refinement<{0}, {0}>", unknowns());
+    std::string refinement = fmt::format("Refinement<{}, {}>", iterated(), unknowns());
     if (layout_.packs() > 0) refinement = "RefinementInLanes<Lanes, " + refinement + ">";
     record.fields.push_back({.name = "refinement", .type = std::move(refinement)});
     return record;
@@ -142,7 +147,7 @@ class StageRoutines : StageParts {
                                        .beside = of_start(b, "state", affine("j"))}},
                          .body = std::move(body)};
     if (by_component()) {
-      iterate.ranges = {counting("j", unknowns())};
+      iterate.ranges = {counting("j", iterated())};
       iterate.lanes = layout_.packs();
       iterate.unknowns = {{.value = of_start(b, "value", affine("j")).name(),
                            .increment = of_start(b, "lack", affine("j")).name(),
@@ -155,9 +160,13 @@ class StageRoutines : StageParts {
   }
 
   void add_fixed_point(RoutineBuilder& b) const {
-    if (coordinates_) return coordinates_->add_fixed_point(b);
-    Body body{{call("evaluate")}};
-    b.body().push_back({iteration(b, Rule::fixed_point, std::move(body))});
+    Body body{{call(evaluation())}};
+    add_iteration(b, iteration(b, Rule::fixed_point, std::move(body)));
+  }
+  void add_iteration(RoutineBuilder& b, IterateArray iterate) const {
+    if (coordinates_) b.body().push_back({call("begin_coordinates")});
+    b.body().push_back({std::move(iterate)});
+    if (coordinates_) b.body().push_back({call("end_coordinates")});
   }
 
   // One elimination serves until it contracts slowly, over many steps.
@@ -168,15 +177,15 @@ class StageRoutines : StageParts {
     fresh.push_back({call("differentiate")});
     fresh.push_back({Factorise{matrix}});
     fresh.push_back({SetFlag{flag, true}});
-    Body body{{call("evaluate")}};
+    Body body{{call(evaluation())}};
     body.push_back({If{flag, false, std::move(fresh)}});
     const Expression residual = b.at("start", "residual");
     body.push_back({Assign{residual.name(), Expression(0)}});
     Body size{{Accumulate{residual.name(),
                           Expression::apply("abs", {of_start(b, "lack", affine("j"))})}}};
-    body.push_back(for_each(counting("j", unknowns()), std::move(size)));
+    body.push_back(for_each(counting("j", iterated()), std::move(size)));
     matrix_.add_elimination(b, body);
-    b.body().push_back({iteration(b, Rule::simplified_newton, std::move(body))});
+    add_iteration(b, iteration(b, Rule::simplified_newton, std::move(body)));
   }
 
   [[nodiscard]] Routine fixed_point() const {
@@ -276,31 +285,34 @@ class StageRoutines : StageParts {
              {"Newton where the fixed point contracts slowly, and then for 32 steps."}});
         break;
     }
-    Body again{{call("evaluate")}};
-    const Place factorised{"start", "factorised"};
-    if (has_newton()) {
-      Body contract;
-      matrix_.add_elimination(b, contract);
-      again.push_back({If{factorised, true, std::move(contract)}});
-    }
-    if (coordinates_) {
-      Body contract{{call("eliminate_momenta")}};
-      if (has_newton()) {
-        again.push_back({If{factorised, false, std::move(contract)}});
-      } else {
-        again.push_back(std::move(contract.front()));
-      }
-    }
-    b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
-                                    .point = {"start", "value"},
-                                    .lack = {"start", "lack"},
-                                    .gradient = {"start", "slope"},
-                                    .count = unknowns(),
-                                    .components = unknowns(),
-                                    .body = std::move(again)},
-                        {kRefinementRemark}});
+    add_refinement(b);
     add_result(b);
     return b.take();
+  }
+
+  void add_refinement(RoutineBuilder& b) const {
+    RefineArray refine{.refinement = {"start", "refinement"},
+                       .point = {"start", "value"},
+                       .lack = {"start", "lack"},
+                       .gradient = {"start", "slope"},
+                       .count = iterated(),
+                       .components = unknowns()};
+    const auto contract = [&](Body& body) {
+      if (!has_newton()) return;
+      Body multiply;
+      matrix_.add_elimination(b, multiply);
+      body.push_back({If{{"start", "factorised"}, true, std::move(multiply)}});
+    };
+    if (coordinates_) {
+      // What the rounded stages lack takes all of their equations, what it changes by when the
+      // coordinates move takes theirs alone.
+      refine.first = {{call("evaluate")}, {call("eliminate_momenta")}};
+      contract(refine.first);
+    }
+    refine.body = {{call(evaluation())}};
+    contract(refine.body);
+    b.body().push_back({std::move(refine), {kRefinementRemark}});
+    if (coordinates_) b.body().push_back({call("end_refinement")});
   }
 
   void add_result(RoutineBuilder& b) const {

@@ -57,9 +57,13 @@ class IterationWriter : public StatementWriter {
     if (!refine.rule.empty()) given.push_back(object({"start", refine.rule}));
     for (const Place& place : {refine.point, refine.lack, refine.gradient})
       given.push_back(object(place));
+    Value refined = action("Refinement", refine.refinement, "", std::move(given));
+    write(refine.first);
     add(While{inside([&] {
-      write(refine.body);
-      set(at({"more "}), action("Refinement", refine.refinement, "", std::move(given)));
+      if (refine.first.empty()) write(refine.body);
+      set(at({"more "}), std::move(refined));
+      if (refine.first.empty()) return;
+      branch(at({"more "}), Shape::braces, [&] { write(refine.body); });
     })});
   }
 

@@ -169,6 +169,10 @@ class Outline {
     read(refine.gradient);
   }
   void operator()(const RefineArray& refine) {
+    if (!refine.first.empty()) {
+      run(refine.first);
+      word("then");
+    }
     run(refine.body);
     word("refine " + refine.rule);
     whole("refinement", refine.refinement);

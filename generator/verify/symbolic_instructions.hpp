@@ -183,13 +183,14 @@ struct SymbolicMachine::Run {
     }
   }
   void operator()(const RefineArray& refine) const {
-    m.run(frame, refine.body);
+    m.run(frame, refine.first.empty() ? refine.body : refine.first);
     IterationTrace& trace = m.iterations.back();
     const Reference refinement = m.reference(frame, refine.refinement);
     const std::string stem = cell(refinement);
     const auto read_all = [&](const Place& array, std::vector<Expression>& values) {
-      for (const std::string& place : m.cells_of(m.reference(frame, array)))
-        values.push_back(m.read(place));
+      Reference unknowns = m.reference(frame, array);
+      unknowns.sizes = {refine.count};
+      for (const std::string& place : m.cells_of(unknowns)) values.push_back(m.read(place));
     };
     read_all(refine.point, trace.refined_at);
     read_all(refine.lack, trace.refined_lack);
@@ -203,6 +204,9 @@ struct SymbolicMachine::Run {
       trace.changes.push_back(m.free_symbol(place));
       m.write(place, trace.changes.back());
     }
+    if (refine.first.empty()) return;
+    m.run(frame, refine.body);
+    read_all(refine.lack, trace.moved_lack);
   }
   // With unknowns one pass through the body, else all of them.
   void operator()(const Sweep& sweep) const {

@@ -44,6 +44,7 @@ struct IterationTrace {
   // The same of arrays: where it looks, and what the unknowns lack there.
   std::vector<Expression> refined_at = {};
   std::vector<Expression> refined_lack = {};
+  std::vector<Expression> moved_lack = {};  // by another routine, as it would say of that point
   std::set<std::string> inside = {};  // definitions that depend on the unknowns
 };
 struct SweepTrace {

@@ -262,7 +262,7 @@ class Evaluator {
                  [&](const UnknownArray& u) { results_.push_back(number(f, u.increment)); });
   }
   void run(Frame& f, const RefineArray& refine) {
-    run(f, refine.body);
+    run(f, refine.first.empty() ? refine.body : refine.first);
     for (long i = 0; i < refine.components; ++i) {
       const std::string end = "[" + std::to_string(i) + "]";
       const double slope =
@@ -270,6 +270,15 @@ class Evaluator {
       results_.push_back(slope);
       cell(name(f, refine.refinement) + ".slope" + end) = slope;
     }
+    if (refine.first.empty()) return;
+    const std::string lack = f.objects[refine.lack.object].root + "." + refine.lack.field;
+    const auto add_lack = [&] {
+      for (long i = 0; i < refine.count; ++i)
+        results_.push_back(cell(lack + "[" + std::to_string(i) + "]"));
+    };
+    add_lack();
+    run(f, refine.body);
+    add_lack();
   }
   void run(Frame&, const InstructionOfRun auto&) {}  // routines of steps have none
   void run(Frame& f, const Return& end) {
