@@ -14,6 +14,7 @@ constexpr FixedBlock kCppBlocks[] = {
     {"sum_with_rest", "two_sum_with_rest"},
     {"collected_sum", "collect"},
     {"product_error", "product_error"},
+    {"difference_error", "difference_error"},
     {"sums", "sum_of lengths_of squares_of"},
     {"dense_matrix", "DenseMatrix"},
     {"symmetric_matrix", "SymmetricMatrix"},
@@ -61,6 +62,7 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"sum_with_rest", "two_sum_with_rest"},
     {"collected_sum", "collect"},
     {"lane_product_error", "product_error"},
+    {"lane_difference_error", "difference_error"},
     {"sums", "sum_of lengths_of squares_of"},
     {"lane_step",
      "StepReport require_finite stop_failed astray_lanes add_substep take_lanes move_lanes "
@@ -92,6 +94,7 @@ constexpr FixedBlock kCBlocks[] = {
     {"collected_sum", "collect"},
     {kEpsilon, "epsilon"},
     {"product_error", "product_error"},
+    {"difference_error", "difference_error"},
     {kVocabulary, "magnitude largest"},
     {"newton_rule",
      "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "

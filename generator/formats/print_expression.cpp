@@ -20,7 +20,7 @@ std::string ExpressionPrinter::operator()(const Expression& e) const {
 
 std::string ExpressionPrinter::call(const std::string& function,
                                     const std::string& arguments) const {
-  if (function == kProductError) return dialect_.block(function) + "(" + arguments + ")";
+  if (is_rounding_error(function)) return dialect_.block(function) + "(" + arguments + ")";
   const std::string name = lanes_ ? dialect_.lane_function(function) : dialect_.function(function);
   if (!name.starts_with("lane_")) functions_.insert(function);
   return name + "(" + arguments + ")";

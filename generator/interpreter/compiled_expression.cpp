@@ -51,10 +51,11 @@ constexpr int kDigits<Quad> = FLT128_MANT_DIG;
 template <class Real>
 NumericFunction<Real> numeric_function(const std::string& name, FunctionsOf functions) {
   if constexpr (std::is_same_v<Real, double>) {
-    if (functions == FunctionsOf::lanes && name != kProductError) return lane_function(name);
+    if (functions == FunctionsOf::lanes && !is_rounding_error(name)) return lane_function(name);
   }
   if (name == "pow") return OfScalar<Real>::power;
   if (name == kProductError) return NumericsOf<Real>::lost_of_product;
+  if (name == kDifferenceError) return NumericsOf<Real>::lost_of_difference;
   if (const Function* row = find_function(name)) return OfScalar<Real>::function(row->numbers);
   internal_error("no number for the function " + name);
 }

@@ -32,11 +32,11 @@ void StepBuilder::add_affine(const Block& block) {
   for (const int x : block.unknowns) {
     for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
   }
+  find_off(newton);
   std::vector<Expression> lack;
   for (std::size_t i = 0; i < block.unknowns.size(); ++i) {
-    const int x = block.unknowns[i];
-    lack.push_back(name_value(residual_name(block, i) + ")",
-                              lacking(x, stage_value_[index(x)], newton.where), newton.where));
+    lack.push_back(name_value(residual_name(block, i) + ")", lack_of(newton, block.unknowns[i]),
+                              newton.where));
   }
   for (std::size_t i = 0; i < lack.size(); ++i) {
     newton.increments.push_back(increment_symbol(block.unknowns[i]));
@@ -44,6 +44,24 @@ void StepBuilder::add_affine(const Block& block) {
   }
   correct_solution(newton);
   if (block.constant_matrix) multiply_out(newton, lack);
+}
+
+// With a constant matrix also how far what is torn out is from its rows: its sum was rounded.
+void StepBuilder::find_off(NewtonBlock& newton) {
+  if (!solves_constants_) return;
+  for (const int t : newton.block.torn) {
+    const Expression lack = name_value("R(" + name_of(t) + ")", lack_of(newton, t), newton.where);
+    newton.off[t] = name_value("off(" + name_of(t) + ")", -(lack / own_slope(t)), newton.where);
+  }
+}
+
+// What row i lacks where all that is torn out is at the solution of its own.
+Expression StepBuilder::lack_of(NewtonBlock& newton, int i) {
+  const Expression lack = lacking(i, stage_value_[index(i)], newton.where);
+  return lack - chain(newton, i, [&](int v) {
+           const auto off = newton.off.find(v);
+           return off == newton.off.end() ? Expression(0) : off->second;
+         });
 }
 
 // The corrections of the gradient by what the equations lack, their factors constant.
@@ -61,6 +79,7 @@ void StepBuilder::multiply_out(NewtonBlock& newton, const std::vector<Expression
       }
       terms.push_back(Expression::sum(std::move(factor)) * lack[i]);
     }
+    for (const auto& [t, off] : newton.off) terms.push_back(second_derivative(newton, k, t) * off);
     correction_[index(k)].second = Expression::sum(std::move(terms));
   }
 }

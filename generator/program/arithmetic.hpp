@@ -9,9 +9,13 @@
 
 namespace hamgen {
 
-// product_error(x, y) is what rounding takes from x y: zero in exact arithmetic, and no function of
-// the language.
+// What rounding takes from x y and from x - y: zero in exact arithmetic, and no functions of the
+// language.
 inline constexpr const char* kProductError = "product_error";
+inline constexpr const char* kDifferenceError = "difference_error";
+[[nodiscard]] inline bool is_rounding_error(const std::string& function) {
+  return function == kProductError || function == kDifferenceError;
+}
 
 enum class Operation { number, symbol, negate, add, subtract, multiply, divide, call };
 
@@ -19,7 +23,7 @@ struct Arithmetic {
   Operation operation = Operation::number;
   Rational number;   // of a number, never negative
   std::string name;  // of a symbol; of the function that is called: "pow", "sqrt" and
-                     // product_error too
+                     // those above too
   std::vector<Arithmetic> operands;  // one to negate, two of + - * /, the arguments of a call
 };
 

@@ -27,6 +27,8 @@ void add_cost(const Expression& e, Cost& total) {
       if (e.name() == kProductError) {
         total.additions += 10;
         total.multiplications += 7;
+      } else if (e.name() == kDifferenceError) {
+        total.additions += 6;
       } else {
         ++total.functions;
       }

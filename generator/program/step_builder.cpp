@@ -41,8 +41,13 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
     stage_value_.push_back(equations_.stage(i));
     gradient_.push_back(equations_.gradient_symbol(i));
   }
-  keeps_gradients_ = std::ranges::any_of(
-      equations_.stage_matrix, [](const auto& entry) { return !is_exact_weight(entry.second); });
+  solves_constants_ = std::ranges::any_of(plan_.blocks, [](const Block& block) {
+    return block.kind == BlockKind::linear && block.constant_matrix;
+  });
+  keeps_gradients_ =
+      solves_constants_ || std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
+        return !is_exact_weight(entry.second);
+      });
   const auto is_solved = [](const Block& block) {
     return block.kind == BlockKind::linear || block.kind == BlockKind::newton;
   };

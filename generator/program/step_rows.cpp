@@ -13,34 +13,14 @@ bool StepBuilder::is_exact_weight(const Expression& e) {
 }
 
 Expression StepBuilder::row(int i, int section) {
-  return row_of(i, section, [&](int k) { return row_terms(i, k, gradient_[index(k)], section); });
-}
-
-// Note [a stage moves by what the step moves by]
-// h times the rounded sum of a gradient and its correction is another number than both of them
-// times h, by which z moves: for h = 0.3 and alpha = 3/10 the form of a chain drifts by 8e-4 units
-// of rounding a step.
-Expression StepBuilder::row_at_solution(int i, int section) {
-  return row_of(i, section, [&](int k) {
-    const auto& [main, change] = correction_[index(k)];
-    if (change.is_zero()) return row_terms(i, k, gradient_[index(k)], section);
-    auto [large, lost] = row_terms(i, k, main, section);
-    return std::pair(large, lost + weight(i, k) * change);
-  });
-}
-
-template <class TermsOf>
-Expression StepBuilder::row_of(int i, int section, const TermsOf& terms_of) {
   std::vector<Expression> terms{carry_symbol(i)};
   std::vector<Expression> small = terms;
-  bool has_small = keeps_gradients_;
   for (const int k : equations_.row_gradients(i)) {
-    const auto [large, lost] = terms_of(k);
+    const auto [large, lost] = row_terms(i, k, gradient_[index(k)], section);
     terms.push_back(large);
     small.push_back(lost);
-    has_small = has_small || !lost.is_zero();
   }
-  if (has_small) {
+  if (keeps_gradients_) {
     terms[0] = named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
   }
   return equations_.mechanics.variable(i) +
@@ -53,18 +33,27 @@ Expression StepBuilder::weight(int i, int k) const {
 
 Expression StepBuilder::lacking(int i, const Expression& value, int section) {
   if (!keeps_gradients_) return value - row(i, section);
-  // The largest weights first: these differences cancel, and have no error.
+  // The largest weights first.  The last of these differences cancels and has no error, and of a
+  // small step none has.
   std::vector<int> components = equations_.row_gradients(i);
   std::ranges::stable_sort(components, std::greater<>(), [&](int k) {
     const Expression& entry = equations_.stage_matrix.at({i, k});
     return entry.is_number() ? Rational(abs(entry.number())) : Rational(1, 4);
   });
-  Expression difference =
-      named_rest("lack " + name_of(i), value - equations_.mechanics.variable(i), section);
   std::vector<Expression> small{carry_symbol(i)};
+  Expression difference = value;
+  const auto subtract = [&](const Expression& part, bool cancels) {
+    const Expression left = named_rest("lack " + name_of(i), difference - part, section);
+    if (solves_constants_ && !cancels) {
+      const Expression lost = Expression::apply(kDifferenceError, {difference, part});
+      small.push_back(-name_value("lost" + left.name().substr(4), lost, section));
+    }
+    difference = left;
+  };
+  subtract(equations_.mechanics.variable(i), components.empty());
   for (const int k : components) {
     const auto [large, lost] = row_terms(i, k, gradient_[index(k)], section);
-    difference = named_rest("lack " + name_of(i), difference - large, section);
+    subtract(large, k == components.back());
     small.push_back(lost);
   }
   return difference -

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generator/program/arithmetic.hpp"
 #include "generator/readback/c_names.hpp"
 #include "generator/readback/findings.hpp"
 
@@ -223,7 +224,7 @@ class AddressReader {
         differ(e.line, fmt::format("'{}' is nothing that this header has", callee.text));
       return with_values(e, callee.text);
     }
-    if (ours == "Real" || ours == "magnitude" || ours == "product_error")
+    if (ours == "Real" || ours == "magnitude" || is_rounding_error(ours))
       return with_values(e, ours);
     if (ours == "collect" || ours == "two_sum" || ours == "two_sum_with_rest") return sum(e, ours);
     for (const std::string type : {"NewtonRule_", "History_"}) {

@@ -244,7 +244,7 @@ MachineValue TextScope::converted(const CppExpression& argument) const {
 // A function of the mathematical library for this scalar, by its name without all that; any other
 // with "::" before it, but for what the fixed blocks are called in the routines.
 std::string TextScope::function(const std::string& name, int line) const {
-  if (name == kProductError) return name;
+  if (is_rounding_error(name)) return name;
   if (has_packs() && name.starts_with("lane_")) {
     const Function* row = find_function(name.substr(5));
     return row != nullptr ? std::string(row->cpp) : name.substr(5);

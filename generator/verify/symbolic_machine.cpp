@@ -21,9 +21,12 @@ std::vector<int> field_sizes(const Record* record, const std::string& field) {
   return it == record->fields.end() ? std::vector<int>{} : it->sizes;
 }
 
-bool has_product_error(const Expression& e) {
-  return (e.kind() == Kind::function && e.name() == kProductError) ||
-         std::ranges::any_of(e.operands(), has_product_error);
+bool is_error(const Expression& e) {
+  return e.kind() == Kind::function && is_rounding_error(e.name());
+}
+
+bool has_error(const Expression& e) {
+  return is_error(e) || std::ranges::any_of(e.operands(), has_error);
 }
 
 long count_of(const std::vector<int>& sizes) {
@@ -86,10 +89,8 @@ Expression SymbolicMachine::free_symbol(const std::string& name) {
 
 Expression SymbolicMachine::define(const std::string& name, const Expression& value) {
   if (is_trivial(value)) return value;
-  if (value.kind() == Kind::function && value.name() == kProductError) {
-    return without_rounding(name, value);
-  }
-  if (has_product_error(value)) return free_symbol(name);
+  if (is_error(value)) return without_rounding(name, value);
+  if (has_error(value)) return free_symbol(name);
   const auto [known, is_new] = known_.try_emplace({name, value}, Expression());
   if (!is_new) return known->second;
   known->second = Expression::symbol(unique(name), kRankOfTemporary);
@@ -98,20 +99,22 @@ Expression SymbolicMachine::define(const std::string& name, const Expression& va
   return known->second;
 }
 
-// What a product loses is free, and its rounded value, which stands before it, is the product less
-// that.
+// What a product or a difference loses is free, and its rounded value, which stands before it, is
+// the exact one less that.
 Expression SymbolicMachine::without_rounding(const std::string& name, const Expression& error) {
-  const Expression product = error.operands()[0] * error.operands()[1];
-  const auto known = lost_.find(product);
+  const Expression& x = error.operands()[0];
+  const Expression& y = error.operands()[1];
+  const Expression exact = error.name() == kProductError ? x * y : x - y;
+  const auto known = lost_.find(exact);
   if (known != lost_.end()) return known->second;
   for (std::size_t i = definitions_.size(); i-- > 0;) {
-    if (definitions_[i].value != product) continue;
+    if (definitions_[i].value != exact) continue;
     const Expression lost = free_symbol(name);
-    definitions_[i].value = product - lost;
-    lost_.emplace(product, lost);
+    definitions_[i].value = exact - lost;
+    lost_.emplace(exact, lost);
     return lost;
   }
-  return free_symbol(name);  // of a product that nobody has computed
+  return free_symbol(name);  // of what nobody has computed
 }
 
 Expression SymbolicMachine::set_free(Frame& frame, const Expression& value, std::size_t first) {

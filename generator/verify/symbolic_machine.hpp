@@ -153,7 +153,7 @@ class SymbolicMachine {
   std::set<std::string> symmetric_;  // of them
   std::vector<Statement> definitions_;
   std::map<std::string, std::size_t> defined_;  // where
-  std::map<Expression, Expression> lost_;       // by products, what rounding takes from them
+  std::map<Expression, Expression> lost_;       // by their exact values, what rounding takes from them
   std::map<std::string, int> names_;
   std::map<std::string, std::string> hints_;
   std::map<std::pair<std::string, Expression>, Expression> known_;

@@ -25,7 +25,7 @@ TEST(CertifyCommand, SaysWhatIsProvedAndOfWhichSteps) {
   EXPECT_EQ(text[0], "kepler, scene e06: implicit-midpoint, h = 0.01");
   EXPECT_TRUE(text[1].starts_with("  certified   each of 4 steps looked at lies within "))
       << text[1];
-  EXPECT_TRUE(text[1].ends_with(" units of rounding of an exactly symplectic map")) << text[1];
+  EXPECT_TRUE(text[1].ends_with(" of rounding of an exactly symplectic map")) << text[1];
   EXPECT_EQ(text[2], "  looked at   steps 1, 11, 21, ... of 40");
   EXPECT_TRUE(text[4].starts_with("  unique ")) << text[4];
 }

@@ -69,7 +69,27 @@ TEST(Drift, AnAffineBlockNeedsWhatItsEquationsLack) {
 
 TEST(Drift, AnAffineBlockNeedsASumWithoutAnError) {
   expect_drift_only_with({{"carry += lost;", ""}},
-                         {.model = oscillator(), .request = {}, .h = 0.37});
+                         {.model = oscillator(), .request = {}, .h = 1});
+}
+
+// Of a large step what zbar - z loses is as much as what the equations lack.
+TEST(Drift, AnAffineBlockOfALargeStepNeedsWhatDifferencesLose) {
+  expect_drift_only_with({{"= difference_error(", "= 0 * difference_error("}},
+                         {.model = oscillator(), .request = {}, .h = 1});
+}
+
+TEST(Drift, AnAffineBlockNeedsWhatProductsWithHLose) {
+  expect_drift_only_with({{"= product_error(", "= 0 * product_error("}},
+                         {.model = oscillator(), .request = {}, .h = 0.7});
+}
+
+// The momenta are those with which the equations hold, and what the last increment adds is beside
+// them.
+TEST(Drift, ALargeStepOfNewtonMovesByWhatItsEquationsWereSolvedWith) {
+  expect_drift_only_with({{"= carry.q[0] + h * change_H_p_1", "= carry.q[0]"},
+                          {"= carry.q[1] + h * change_H_p_2", "= carry.q[1]"},
+                          {"= carry.q[2] + h * change_H_p_3", "= carry.q[2]"}},
+                         {.model = soft_chain(3), .request = {}, .h = 1});
 }
 
 // What rounding takes from a product with a simple fraction is a pattern.

@@ -58,6 +58,34 @@ TYPED_TEST(ExactArithmetic, AnExactProductHasNoError) {
   }
 }
 
+// 1 - x u/16 and x u/16 - 1, with u the unit: of numbers on the grid of u/2 below 1, so many
+// sixteenths are lost, whichever is the larger one.
+TYPED_TEST(ExactArithmetic, ADifferenceAndItsErrorAreExact) {
+  using Real = typename TypeParam::Scalar;
+  const Real sixteenth = TypeParam::unit / 16;
+  for (int x = -40; x < 40; ++x) {
+    const Real small = x * sixteenth;
+    for (const Real sign : {Real(1), Real(-1)}) {
+      const Real difference = sign - small;
+      const Real lost = TypeParam::lost_of_difference(sign, small);
+      EXPECT_TRUE((difference - sign) + lost == -small) << x;
+      EXPECT_TRUE(lost == -((difference - sign) + small)) << x;
+      EXPECT_TRUE(TypeParam::lost_of_difference(small, sign) == -lost) << x;
+    }
+  }
+}
+
+// Neighbours within a factor of two: no error.
+TYPED_TEST(ExactArithmetic, ADifferenceThatCancelsHasNoError) {
+  using Real = typename TypeParam::Scalar;
+  const Real unit = TypeParam::unit;
+  for (int i = 0; i < 1000; ++i) {
+    const Real x = 1 + i * unit;
+    const Real y = 1 + 31 * i * unit;
+    EXPECT_TRUE(TypeParam::lost_of_difference(x, y) == 0) << i;
+  }
+}
+
 // x = b + x/4 with a gradient g(x) = 3 x: at a point that is off by d = 3/8 units the equations
 // lack (3/4) d, the solution is d away, and g lacks 3 d.
 TYPED_TEST(ExactArithmetic, AFixedPointIsRefinedBelowItsLastPlace) {

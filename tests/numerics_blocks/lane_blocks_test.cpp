@@ -291,5 +291,21 @@ TEST(LaneBlocks, WhatAProductLosesIsExact) {
   }
 }
 
+TEST(LaneBlocks, WhatADifferenceLosesIsExact) {
+  Numbers numbers;
+  packs::Real x = 0;
+  packs::Real y = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    x.set(lane, numbers.next() / 3);
+    y.set(lane, std::exp(9 * numbers.next()));
+  }
+  const packs::Real error = packs::difference_error(x, y);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const __float128 exact = __float128(x[lane]) - y[lane];
+    EXPECT_TRUE(error[lane] == static_cast<double>(exact - (x[lane] - y[lane])));
+    EXPECT_EQ(error[lane], of_double::difference_error(x[lane], y[lane]));
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::numerics_blocks_test

@@ -1,0 +1,6 @@
+// x - y less its rounded value (Knuth): exact whatever their sizes.
+static inline Real difference_error(Real x, Real y) {
+  const Real difference = x - y;
+  const Real part = x - difference;
+  return (x - (difference + part)) + (part - y);
+}
