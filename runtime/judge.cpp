@@ -51,6 +51,15 @@ HalfProducts half_products(std::span<const double> state, std::span<const double
           .p = half_product(state.last(n), gradient.last(n))};
 }
 
+// |q| |H_q| + |p| |H_p|, an energy in whatever units q and p are.  Where this is 0 without being at
+// rest, |z| |grad H|, which is never less.
+double energy_of_sizes(std::span<const double> state, std::span<const double> gradient) {
+  const std::size_t n = state.size() / 2;
+  const double sum = norm_of(state.first(n)) * norm_of(gradient.first(n)) +
+                     norm_of(state.last(n)) * norm_of(gradient.last(n));
+  return sum > 0.0 ? sum : norm_of(state) * norm_of(gradient);
+}
+
 }  // namespace
 
 Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> parameters,
@@ -62,8 +71,7 @@ Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> param
   const std::vector<double> state = rounded(start);
   const std::vector<double> gradient = library_->gradient(parameters_, state);
   const HalfProducts half = half_products(state, gradient);
-  energy_scale_ = std::max({std::fabs(energy_.hi), norm_of(state) * norm_of(gradient),
-                            std::fabs(half.p), std::fabs(half.q)});
+  energy_scale_ = std::max(std::fabs(energy_.hi), energy_of_sizes(state, gradient));
   energy_terms_ = std::max({std::fabs(energy_.hi), terms(state), std::fabs(half.q)});
   q_size_ = std::max(1.0, largest_component(state));
   p_size_ = std::max(q_size_, std::sqrt(2.0 * energy_scale_));

@@ -20,8 +20,8 @@ class Judge {
 
   // H at the start.
   [[nodiscard]] Wide energy() const { return energy_; }
-  // The largest of |H|, |z| |grad H| and the halves of |p H_p| and |q H_q| at the start: what an
-  // energy error is compared with, even if H happens to vanish there.
+  // The larger of |H| and |q| |H_q| + |p| |H_p| at the start, energies both, whatever the units of
+  // q and p: what a jump is measured by, even if H happens to vanish there.
   [[nodiscard]] double energy_scale() const { return energy_scale_; }
   // The largest of |H|, terms() and |q H_q|/2 at the start, energies all of them, whatever the
   // units of q and p: what a person compares an energy error with.

@@ -32,13 +32,17 @@ std::vector<const BenchRow*> rows_by_step(const Bench& bench, std::size_t method
   return rows;
 }
 
-// Of points from the largest step on: without the first ones to which a smaller step is both faster
-// and better, as where a solver takes more iterations than a larger step saves.
+// Of points from the largest step on: without the first ones to which any smaller step is both
+// faster and better, as where a solver takes more iterations than a larger step saves.
 void drop_dominated(std::vector<PlotPoint>& points) {
-  const auto wins = std::ranges::adjacent_find(points, [](const auto& large, const auto& small) {
-    return large.x < small.x || large.y < small.y;
-  });
-  points.erase(points.begin(), points.size() < 2 ? points.begin() : wins);
+  auto first = points.begin();
+  for (; first != points.end(); ++first) {
+    const bool loses = std::any_of(first + 1, points.end(), [first](const PlotPoint& small) {
+      return small.x <= first->x && small.y <= first->y;
+    });
+    if (!loses) break;
+  }
+  points.erase(points.begin(), first);
 }
 
 }  // namespace

@@ -93,6 +93,23 @@ bool has_points(const PlotPanel& panel, std::size_t i) {
                              [&panel](const auto& point) { return drawable(panel, point); });
 }
 
+struct PanelRanges {
+  Range x, y;
+};
+
+PanelRanges ranges_of(const PlotPanel& panel) {
+  PanelRanges ranges;
+  for (const PlotSeries& series : panel.series) {
+    for (const PlotPoint& point : series.points) {
+      if (!drawable(panel, point)) continue;
+      const double low = series.style == PlotStyle::band ? point.low : point.y;
+      ranges.x = {std::min(ranges.x.low, point.x), std::max(ranges.x.high, point.x)};
+      ranges.y = {std::min(ranges.y.low, low), std::max(ranges.y.high, point.y)};
+    }
+  }
+  return ranges;
+}
+
 // A multiple of 1, 2 or 5 times a power of ten, `count` times in the range at most.
 double round_distance(const Range& range, double count) {
   const double wish = (range.high - range.low) / count;
@@ -114,6 +131,13 @@ std::string square_tics(const Range& x, const Range& y, int width, int height) {
     return fmt::format("set {}tics {:.9g}\n", name, round_distance(range, std::min(count, 8.0)));
   };
   return tics('x', x, 45.0) + tics('y', y, 30.0);
+}
+
+// Gnuplot puts up to ten numbers on an axis, however short it is: one needs 40 pixels.
+std::string narrow_tics(const Range& x, bool logarithmic, int width) {
+  const double fit = 0.8 * width / 40.0;
+  if (logarithmic || fit >= 8.0) return "";
+  return fmt::format("set xtics {:.9g}\n", round_distance(x, fit));
 }
 
 // The power of ten that the numbers on a linear axis leave to its label; 0: none.
@@ -193,15 +217,9 @@ std::string legend_text(const PlotPanel& panel, int picture_width) {
 std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {
   PlotAxis x{.name = 'x', .label = panel.x_label, .logarithmic = panel.logarithmic_x, .range = {}};
   PlotAxis y{.name = 'y', .label = panel.y_label, .logarithmic = panel.logarithmic_y, .range = {}};
-  for (const PlotSeries& series : panel.series) {
-    for (const PlotPoint& point : series.points) {
-      if (!drawable(panel, point)) continue;
-      const double low = series.style == PlotStyle::band ? point.low : point.y;
-      x.range = {std::min(x.range.low, point.x), std::max(x.range.high, point.x)};
-      y.range = {std::min(y.range.low, low), std::max(y.range.high, point.y)};
-    }
-  }
-  x.range = padded(x.range, panel.logarithmic_x);
+  const PanelRanges ranges = ranges_of(panel);
+  y.range = ranges.y;
+  x.range = padded(ranges.x, panel.logarithmic_x);
   constexpr double near = 100.0;  // the data come to the floor
   constexpr double room = 30.0;   // below it
   if (panel.floor && y.range.low < near * *panel.floor)
@@ -215,7 +233,7 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
                   gnuplot_text(panel.title));
   text += axis_text(x) + axis_text(y);
   text += panel.square ? "set size ratio -1\n" + square_tics(x.drawn(), y.drawn(), width, height)
-                       : std::string("set size noratio\n");
+                       : "set size noratio\n" + narrow_tics(x.drawn(), x.logarithmic, width);
   text += floor_text(panel, y.range) + legend_text(panel, width);
   std::string plots;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -231,6 +249,14 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
 }
 
 }  // namespace
+
+bool suits_one_unit(const PlotPanel& panel) {
+  constexpr double strip = 0.25;
+  const PanelRanges ranges = ranges_of(panel);
+  const double across = ranges.x.high - ranges.x.low;
+  const double up = ranges.y.high - ranges.y.low;
+  return std::min(across, up) > strip * std::max(across, up);
+}
 
 int legend_rows(const PlotPanel& panel, int width) {
   const auto names = std::ranges::count_if(

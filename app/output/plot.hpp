@@ -40,6 +40,9 @@ struct Plot {
   bool stacked = false;  // panels one below the other, not side by side
 };
 
+// Whether one unit on both axes would leave no mere strip.
+[[nodiscard]] bool suits_one_unit(const PlotPanel& panel);
+
 // Of the names below a panel in a picture of this width; 0 without names.
 [[nodiscard]] int legend_rows(const PlotPanel& panel, int width);
 

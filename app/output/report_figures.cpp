@@ -100,6 +100,7 @@ class EnergyWatch {
   }
 
   [[nodiscard]] const OrbitSummary& summary() const { return summary_; }
+  [[nodiscard]] bool shows_each_step() const { return bin_ == 1; }
   [[nodiscard]] Figure energy() const {
     const PlotSeries each{
         .label = "", .points = band_.points, .style = PlotStyle::lines, .colour = 0};
@@ -274,7 +275,8 @@ ReportFigures report_figures(const ReportSubject& subject, const SourceText& sou
   const EnergyWatch watch(subject);
   result.orbit = watch.summary();
   figures.push_back(watch.energy());
-  figures.push_back(energy_at_first(subject, result.orbit.run.energy_terms));
+  if (!watch.shows_each_step())
+    figures.push_back(energy_at_first(subject, result.orbit.run.energy_terms));
   std::ranges::move(watch.conserved(), std::back_inserter(figures));
   if (!has_reference) return result;
   figures.push_back(state_over_time(*subject.scene, source, bench, request, floor));

@@ -66,22 +66,6 @@ PlotSeries thin_line(const std::vector<double>& x, const std::vector<double>& y,
   return series;
 }
 
-// One unit for both axes, unless one would be a strip.
-bool is_square(const PlotPanel& panel) {
-  constexpr double strip = 0.35;
-  std::vector<double> x;
-  std::vector<double> y;
-  for (const PlotSeries& series : panel.series) {
-    for (const PlotPoint& point : series.points) {
-      x.push_back(point.x);
-      y.push_back(point.y);
-    }
-  }
-  const double across = extent(x);
-  const double up = extent(y);
-  return std::min(across, up) > strip * std::max(across, up);
-}
-
 std::vector<double> component(const OrbitStates& states, std::size_t i) {
   std::vector<double> values;
   for (const std::vector<double>& state : states) values.push_back(state[i]);
@@ -112,17 +96,22 @@ struct Space {
   std::vector<std::string> names;
   std::vector<std::size_t> places;
   std::size_t bodies = 1;
-  bool has_time = false;
 };
+
+// Without a time, which is the last one and no place.
+std::size_t coordinates_of(const Model& model) {
+  const bool has_time = !model.coordinates.empty() && model.coordinates.back().is_time;
+  return element_names(model.coordinates).size() - (has_time ? 1 : 0);
+}
 
 // Coordinates of a point, or of bodies where they are arrays over the same range.
 Space space_of(const Model& model) {
   Space space;
   std::size_t place = 0;
   for (const Variable& each : model.coordinates) {
+    if (each.is_time) continue;
     space.names.push_back(each.name);
     space.places.push_back(place);
-    space.has_time = space.has_time || each.is_time;
     const auto count = each.range ? static_cast<std::size_t>(each.range->size()) : std::size_t{1};
     place += count;
     if (&each == &model.coordinates.front()) space.bodies = count;
@@ -143,7 +132,7 @@ PlotPanel plane(const Space& space, const DrawnOrbit& orbit, std::size_t first,
                                      component(orbit.states, space.places[second] + body),
                                      space.bodies > 1 ? std::to_string(body + 1) : "",
                                      static_cast<int>(body)));
-  panel.square = !space.has_time && is_square(panel);
+  panel.square = suits_one_unit(panel);
   return panel;
 }
 
@@ -166,14 +155,14 @@ Figure orbit_in_space(const Space& space, const DrawnOrbit& orbit, const std::st
 
 Figure coordinates_over_time(const Model& model, const DrawnOrbit& orbit, const std::string& what) {
   const std::vector<std::string> names = element_names(model.coordinates);
+  const std::size_t all = coordinates_of(model);
   PlotPanel panel{.title = "", .x_label = "t", .y_label = "coordinates", .series = {}};
-  const std::size_t count = std::min(names.size(), kBodies);
+  const std::size_t count = std::min(all, kBodies);
   for (std::size_t i = 0; i < count; ++i)
     panel.series.push_back(thin_line(orbit.times, component(orbit.states, i),
                                      plain_symbol(names[i]), static_cast<int>(i)));
-  const std::string shown = names.size() > count
-                                ? fmt::format("The first {} of {} coordinates", count, names.size())
-                                : std::string("The coordinates");
+  const std::string shown = all > count ? fmt::format("The first {} of {} coordinates", count, all)
+                                        : std::string("The coordinates");
   return {.name = "orbit",
           .caption = fmt::format("{} over time: {}.", shown, what),
           .plot = {.panels = {panel}, .width = 1000, .height = 420},
@@ -213,7 +202,7 @@ Figure portrait(const BenchMethod& method, const SceneValues& scene, const Drawn
 std::vector<Figure> orbit_figures(const BenchMethod& method, const SceneValues& scene) {
   const Model& model = method.plugin.model;
   const Space space = space_of(model);
-  const std::size_t count = element_names(model.coordinates).size();
+  const std::size_t count = coordinates_of(model);
   const bool is_wave = count > 1 && space.names.empty();
   const long steps = std::min(*scene.steps, is_wave ? kWaveSteps : kOrbitSteps);
   DrawnOrbit orbit = orbit_from(

@@ -162,7 +162,9 @@ std::string formula_line(const std::string& left, const MathFormula& right) {
   std::string text = "<div class='formula'>";
   bool is_first = true;
   for (const std::string& piece : math_pieces(right)) {
-    text += fmt::format("{}<math displaystyle='true'><mrow>{}{}</mrow></math>", is_first ? "" : " ",
+    text += fmt::format("{}<math displaystyle='true'><mrow>{}{}</mrow></math>",
+                        is_first ? "" : "<wbr>",  // the sign has its own room
+
                         is_first ? left + "<mo>=</mo>" : "", piece);
     is_first = false;
   }

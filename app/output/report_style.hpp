@@ -33,7 +33,7 @@ p, ul { max-width: 44rem; margin: .7rem 0; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; min-width: 0; }
 .answers strong { font-weight: 600; }
-.wide { overflow-x: auto; max-width: 100%;
+.wide, .formula { overflow-x: auto; max-width: 100%;
   background: linear-gradient(to right, var(--paper) 30%, transparent) left / 3rem 100%,
     linear-gradient(to left, var(--paper) 30%, transparent) right / 3rem 100%,
     linear-gradient(to right, var(--shade), transparent) left / .6rem 100%,
@@ -41,7 +41,7 @@ dd { margin: 0; overflow-wrap: anywhere; min-width: 0; }
   background-repeat: no-repeat; background-attachment: local, local, scroll, scroll; }
 math { font-family: Formula, 'TeX Gyre Pagella Math', 'Latin Modern Math', 'Cambria Math', math;
   font-size: 1.04em; }
-.formula { overflow-x: auto; overflow-y: hidden; padding: .4rem 0 .4rem 1.5rem; text-indent: -1.5rem;
+.formula { overflow-y: hidden; padding: .4rem 0 .4rem 1.5rem; text-indent: -1.5rem;
   line-height: 2.1; }
 .formula math { font-size: 1.12em; text-indent: 0; }
 .value { white-space: nowrap; }

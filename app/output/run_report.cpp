@@ -8,6 +8,7 @@
 #include "app/output/certify_output.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/plain_number.hpp"
+#include "app/output/summary_entry.hpp"
 #include "app/output/wide_text.hpp"
 #include "app/studies/initial_data.hpp"
 #include "runtime/csv_writer.hpp"
@@ -18,39 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using runtime::number_text;
 
-constexpr std::size_t line_width = 96;
-
-// "  solver      text ...", wrapped under the text.
-std::string entry(std::string_view label, const std::string& text) {
-  constexpr std::size_t indent = 14;
-  std::string result = fmt::format("  {:<{}}", label, indent - 2);
-  std::size_t column = indent;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (column > indent && column + 1 + word.size() > line_width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    }
-    if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-    begin = end + 1;
-  }
-  return result + "\n";
-}
-
 // What the scene made unnecessary, at most about two lines of it; the plan says what it lacks
 // itself.
 std::string left_out_text(const PluginSource& plugin) {
   const std::size_t count = std::min(plugin.left_out_for_scene, plugin.left_out.size());
   std::string text;
   for (std::size_t i = 0; i < count; ++i) {
-    if (text.size() + plugin.left_out[i].size() > 2 * line_width && i > 0)
+    if (text.size() + plugin.left_out[i].size() > 2 * summary_width && i > 0)
       return text + fmt::format("; and {} more, see hamgen show --stage plan", count - i);
     text += (i == 0 ? "" : "; ") + plugin.left_out[i];
   }
@@ -348,21 +323,22 @@ std::string summary_text(const RunReport& report) {
   std::string solver = plugin.solver;
   if (summary.iterations > 0)
     solver += fmt::format("; {:.3g} iterations/step", summary.iterations_per_step());
-  text += entry("solver", solver);
-  if (plugin.left_out_for_scene > 0) text += entry("left out", left_out_text(plugin));
-  for (const std::string& line : event_texts(report)) text += entry("event", line);
+  text += summary_entry("solver", solver);
+  if (plugin.left_out_for_scene > 0) text += summary_entry("left out", left_out_text(plugin));
+  for (const std::string& line : event_texts(report)) text += summary_entry("event", line);
   if (const std::string ending = ending_text(report); !ending.empty())
-    text += entry("ended", ending);
-  text += entry("energy", energy_text(report));
+    text += summary_entry("ended", ending);
+  text += summary_entry("energy", energy_text(report));
   for (std::size_t i = 0; i < plugin.invariant_names.size(); ++i) {
     if (is_watched(*report.scene, plugin.invariant_names[i])) continue;
     const bool formula = is_formula(plugin.invariant_names[i], *report.scene);
-    text += entry(formula ? "observed" : "invariant", invariant_text(report, i));
+    text += summary_entry(formula ? "observed" : "invariant", invariant_text(report, i));
   }
-  text += entry("last state", last_state_text(report));
-  if (report.certificate) text += entry("certified", certificate_sentence(*report.certificate));
-  text += entry("time", time_text(report));
-  if (!report.trajectory.empty()) text += entry("trajectory", report.trajectory);
+  text += summary_entry("last state", last_state_text(report));
+  if (report.certificate)
+    text += summary_entry("certified", certificate_sentence(*report.certificate));
+  text += summary_entry("time", time_text(report));
+  if (!report.trajectory.empty()) text += summary_entry("trajectory", report.trajectory);
   // It may be a command, to be pasted: not wrapped.
   return text + fmt::format("  {:<12}{}\n", "header", report.header);
 }

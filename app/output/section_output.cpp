@@ -43,6 +43,24 @@ std::string csv_field(const std::string& text) {
   return '"' + quoted + '"';
 }
 
+// Of some that ended: where those began that did not.
+std::string advice(const Section& section, const SectionTitle& title) {
+  std::vector<double> first;
+  std::vector<double> second;
+  for (const SectionOrbit& orbit : section.orbits) {
+    if (orbit.status != runtime::Status::done) continue;
+    first.push_back(orbit.first);
+    second.push_back(orbit.second);
+  }
+  if (first.size() < 2) return "help: a smaller --h\n";
+  const auto [left, right] = std::ranges::minmax(first);
+  const auto [low, high] = std::ranges::minmax(second);
+  return fmt::format(
+      "help: a smaller --h; those that did not end began in {}={:.3g}:{:.3g}, {}={:.3g}:{:.3g}, "
+      "and --from 'A=LOW:HIGH,B=LOW:HIGH' says where orbits begin\n",
+      title.first, left, right, title.second, low, high);
+}
+
 std::string of_scene(const SectionTitle& title) {
   return title.scene.empty() ? title.model : title.model + ", scene " + title.scene;
 }
@@ -69,10 +87,7 @@ std::string section_summary(const Section& section, const SectionTitle& title) {
   }
   for (const auto& [ending, count] : endings)
     text += fmt::format("  ended      {} of the orbits: {}\n", count, ending);
-  if (!endings.empty())
-    text +=
-        fmt::format("help: a smaller --h, or start where orbits stay: --from '{}=-1:1,{}=-1:1'\n",
-                    title.first, title.second);
+  if (!endings.empty()) text += advice(section, title);
   if (without > 0)
     text += fmt::format("  never      {} of the orbits did not cross it in {} steps\n", without,
                         section.orbits.front().steps);

@@ -46,18 +46,16 @@ class TrajectoryPlotter {
   }
 
   Plot usual() {
-    const std::vector<std::string> state = state_names();
-    const std::size_t n = state.size() / 2;
-    const auto begin = state.begin();
-    const auto middle = begin + static_cast<std::ptrdiff_t>(n);
-    if (n == 1) across({{state[0], state[1]}});
+    const auto [q, p] = state_names();
+    const std::size_t n = q.size();
+    if (n == 1) across({{q[0], p[0]}});
     if (n == 2 || n == 3) {
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = i + 1; j < n; ++j) across({{state[i], state[j]}});
+        for (std::size_t j = i + 1; j < n; ++j) across({{q[i], q[j]}});
       }
     }
-    if (n > 3) over_time({begin, middle}, "coordinates");
-    if (n > 0) over_time({middle, state.end()}, "momenta");
+    if (n > 3) over_time(q, "coordinates");
+    if (n > 0) over_time(p, "momenta");
     if (n == 0) over_time(others(), "");
     if (energy_) over_time({kEnergyErrorColumn}, "energy error");
     return finish();
@@ -95,12 +93,18 @@ class TrajectoryPlotter {
     return values;
   }
 
-  // Behind step and t, before H: q then p.
-  std::vector<std::string> state_names() const {
+  // Behind step and t, before H: q then p, without the model's own time and its momentum, the last.
+  struct StateNames {
+    std::vector<std::string> q, p;
+  };
+  StateNames state_names() const {
     const std::size_t first = 2;
     if (!energy_ || *energy_ <= first || (*energy_ - first) % 2 != 0) return {};
-    return {table_.columns.begin() + first,
-            table_.columns.begin() + static_cast<std::ptrdiff_t>(*energy_)};
+    const auto begin = table_.columns.begin() + first;
+    const auto end = table_.columns.begin() + static_cast<std::ptrdiff_t>(*energy_);
+    const auto middle = begin + (end - begin) / 2;
+    const std::ptrdiff_t times = *end == "H+p_t" ? 1 : 0;
+    return {{begin, middle - times}, {middle, end - times}};
   }
   std::vector<std::string> others() const {
     std::vector<std::string> names;
@@ -210,10 +214,9 @@ class TrajectoryPlotter {
 
   // One over another in one panel; two coordinates of a space have the same unit.
   void across(const std::vector<Curve>& curves) {
-    const std::vector<std::string> state = state_names();
-    const std::size_t n = state.size() / 2;
-    const auto is_coordinate = [&](const std::string& name) {
-      return n > 1 && static_cast<std::size_t>(std::ranges::find(state, name) - state.begin()) < n;
+    const std::vector<std::string> q = state_names().q;
+    const auto is_coordinate = [&q](const std::string& name) {
+      return std::ranges::find(q, name) != q.end();
     };
     const bool one = curves.size() == 1;
     PlotPanel panel{.title = title(one ? curves[0].y + " over " + curves[0].x : "orbits"),
@@ -226,6 +229,7 @@ class TrajectoryPlotter {
       panel.series.push_back(
           series(one ? "" : x, values_of(x), values_of(y), static_cast<int>(panel.series.size())));
     }
+    panel.square = panel.square && suits_one_unit(panel);
     plot_.panels.push_back(std::move(panel));
   }
 
@@ -269,8 +273,11 @@ class TrajectoryPlotter {
       const std::string label = one ? "" : plain_symbol(names[i]);
       const int colour = static_cast<int>(i);
       const auto [values, low, high] = values_between(names[i]);
-      if (!std::ranges::is_sorted(times) || !turns_often(values, low, high)) {
+      const bool is_sorted = std::ranges::is_sorted(times);
+      if (!is_sorted || !turns_often(values, low, high)) {
         panel.series.push_back(series(label, times, values, colour));
+        // The rows between two that were kept are near them.
+        if (is_sorted) panel.series.back().style = PlotStyle::lines;
         continue;
       }
       PlotSeries band = band_of(times, low, high);

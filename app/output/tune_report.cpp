@@ -75,7 +75,10 @@ std::string verdict_of(const TuneReport& report) {
   const std::optional<double> gain = report.gain();
   if (!best.measured.failure.empty()) return "worth nothing here: the tuned run failed";
   const bool worth = !gain || *gain >= kWorthTuning;
-  std::string text = worth ? "" : "worth nothing here: ";
+  // Nothing is gained in the energy; the phase may still be better.
+  const bool phase = midpoint.state_error && best.state_error &&
+                     *midpoint.state_error >= kWorthTuning * *best.state_error;
+  std::string text = worth ? "" : phase ? "no flatter: " : "worth nothing here: ";
   if (!gain) text += "the energy spread is gone";
   if (gain && *gain < 1.0) text += "the energy spread does not shrink";
   if (gain && *gain >= 1.0)

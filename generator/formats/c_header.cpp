@@ -34,15 +34,19 @@ void require_c(const EmitContext& context) {
   const auto refuse = [](const std::string& what) {
     throw UsageError(fmt::format(
         "--format c-header: {}\nhelp: what is written in C are steps that are explicit, or solved "
-        "by Newton's iteration of a size up to 3, in float, double or long double: --scheme "
-        "stormer-verlet, --format cpp-header",
+        "by Newton's iteration of a size up to 3, in float, double or long double; C can call any "
+        "other one as a plugin: --format cpp-plugin",
         what));
   };
-  if (context.options.lanes > 0) refuse("there are no lanes in C");
+  if (context.options.lanes > 0)
+    throw UsageError("--format c-header: there are no lanes in C\nhelp: --format cpp-header");
   if (context.quad()) refuse("C has no quad numbers");
   if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
   if (context.options.tangent) refuse("there is no tangent map in C");
-  if (context.options.shared_support) refuse("there is no shared support in C");
+  if (context.options.shared_support) {
+    throw UsageError(
+        "--format c-header: there is no shared support in C\nhelp: leave out --support");
+  }
   if (const Field* own = parameter_of_method(context.contents))
     refuse(fmt::format("'{}' is a parameter of the method", own->name));
   for (const Piece& piece : context.contents.method) {

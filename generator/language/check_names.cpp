@@ -71,12 +71,7 @@ class NameCheck {
     }
     const Symbol* symbol = symbols_.find(name.name);
     if (symbol == nullptr) return unknown(node, name.name);
-    if (!role_.kinds.contains(symbol->kind)) {
-      return fail(
-          node.span,
-          fmt::format("{} cannot use '{}', {}", role_.what, name.name, description(symbol->kind)),
-          fmt::format("it may use {}", role_.allows));
-    }
+    if (!role_.kinds.contains(symbol->kind)) return not_allowed(node, name.name, symbol->kind);
     const bool ordered =
         symbol->kind == parameter || symbol->kind == definition || symbol->kind == size;
     if (ordered && role_.before && symbol->span.begin >= *role_.before) {
@@ -97,9 +92,18 @@ class NameCheck {
     }
   }
 
+  void not_allowed(const Node& node, const std::string& name, SymbolKind kind) {
+    const bool counts = kind == parameter && role_.kinds == std::set{size};
+    fail(node.span, fmt::format("{} cannot use '{}', {}", role_.what, name, description(kind)),
+         counts ? fmt::format("a number of elements is a size: size {} = 8", name)
+                : fmt::format("it may use {}", role_.allows));
+  }
+
   void unknown(const Node& node, const std::string& name) {
     good_ = false;
     if (symbols_.is_spoiled(name)) return;
+    if (const auto kind = symbols_.announced(name); kind && !role_.kinds.contains(*kind))
+      return not_allowed(node, name, *kind);
     if (const std::string meaning = reserved_meaning(name); !meaning.empty()) {
       return fail(node.span, fmt::format("'{}' is reserved: {}", name, meaning),
                   fmt::format("{} may use {}", role_.what, role_.allows));

@@ -132,6 +132,26 @@ void check_known_name(const Observed& observed, const Symbol* symbol, const Know
   }
 }
 
+// Settings of other programs.
+struct OtherSetting {
+  std::string_view name, help;
+};
+constexpr std::string_view kLength =
+    "a scene is so many steps long: steps = 1000; --time T takes as many as T has room for";
+constexpr std::string_view kStep = "the step size is h: h = 0.1";
+constexpr OtherSetting kOtherSettings[] = {
+    {"time", kLength}, {"T", kLength},        {"t_end", kLength},
+    {"tmax", kLength}, {"duration", kLength}, {"dt", kStep},
+    {"step", kStep},   {"timestep", kStep},   {"step_size", kStep}};
+
+std::string help_for_setting(const std::string& name, const Symbols& symbols) {
+  const auto* const other = std::ranges::find(kOtherSettings, name, &OtherSetting::name);
+  if (other != std::end(kOtherSettings)) return std::string(other->help);
+  std::vector<std::string> candidates = symbols.names({coordinate, momentum, parameter});
+  candidates.insert(candidates.end(), {"h", "steps", "every", "observe"});
+  return symbols.suggestion(name, candidates);
+}
+
 }  // namespace
 
 void check_setting(Setting& setting, const KnownValues& known, Symbols& symbols) {
@@ -143,10 +163,8 @@ void check_setting(Setting& setting, const KnownValues& known, Symbols& symbols)
       (symbol->kind == coordinate || symbol->kind == momentum || symbol->kind == parameter);
   if (symbol == nullptr) {
     if (symbols.is_spoiled(setting.name)) return;
-    std::vector<std::string> candidates = symbols.names({coordinate, momentum, parameter});
-    candidates.insert(candidates.end(), {"h", "steps", "every", "observe"});
     symbols.report(name_span, fmt::format("unknown name '{}'", setting.name),
-                   symbols.suggestion(setting.name, candidates));
+                   help_for_setting(setting.name, symbols));
   } else if (!settable) {
     symbols.report(
         name_span,

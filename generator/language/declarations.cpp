@@ -17,6 +17,8 @@ class Declarations {
 
   void run(const std::map<std::string, long>& overrides) {
     for (const std::string& name : syntax_.spoiled) symbols_.spoil(name);
+    for (const ParameterStatement& each : syntax_.parameters)
+      symbols_.announce(each.declarator.name.text, SymbolKind::parameter);
     for (const Formula& size : syntax_.sizes) declare_size(size, overrides);
     declare_variables(syntax_.coordinates, SymbolKind::coordinate, model_.coordinates);
     declare_variables(syntax_.momenta, SymbolKind::momentum, model_.momenta);

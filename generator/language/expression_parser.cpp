@@ -339,9 +339,10 @@ void ExpressionParser::expect_operator_or_end() {
          "remove it, or write its opener");
   }
   reject_non_operator();
+  const bool goes_on = is_symbol(token, ",") || is_symbol(token, ";");
   fail(token.span, fmt::format("expected an operator or the end of the line, {}", describe(token)),
-       is_symbol(token, ",") ? "one formula a line: what follows begins a line of its own"
-                             : "the terms of an expression are joined by + - * / ^");
+       goes_on ? "one formula a line: what follows begins a line of its own"
+               : "the terms of an expression are joined by + - * / ^");
 }
 
 // What can never go on an expression, wherever it stands.

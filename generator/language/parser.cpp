@@ -210,6 +210,11 @@ class Parser {
       in_.fail(in_.peek().span, fmt::format("unexpected '{}'", in_.peek().text),
                "separate names by commas; an array may end in 'periodic' or 'with q[0] = 0'");
     }
+    if (in_.peek().kind == TokenKind::unit) {
+      const std::string unit = printable(in_.peek().text);
+      in_.fail(in_.peek().span, fmt::format("the unit '[{}]' stands too late", unit),
+               fmt::format("write [{}] behind the name, before 'periodic' or 'with'", unit));
+    }
     result.comment = end();
     return result;
   }
@@ -245,12 +250,26 @@ class Parser {
     equals(fmt::format("parameter {} = 1", result.declarator.name.text));
     const std::size_t begin = in_.peek().span.begin;
     result.is_list = is_symbol(in_.peek(), "[");
+    reject_bare_unit();
     result.values = result.is_list ? value_list(in_) : std::vector<NodePtr>{in_.expression()};
     result.value_span = {begin, in_.previous().span.end};
     if (in_.peek().kind == TokenKind::unit) result.declarator.unit = in_.next().text;
     if (!result.is_list) in_.expect_operator_or_end();
     result.comment = end();
     syntax_.parameters.push_back(std::move(result));
+  }
+
+  // "parameter m = 1 kg"
+  void reject_bare_unit() const {
+    const Token& number = in_.peek();
+    const Token& unit = in_.peek(1);
+    const TokenKind behind = in_.peek(2).kind;
+    const bool ends = behind == TokenKind::newline || behind == TokenKind::end;
+    if (number.kind != TokenKind::number || unit.kind != TokenKind::name || !ends) return;
+    in_.fail({number.span.begin, unit.span.end},
+             fmt::format("missing operator between '{}' and '{}'", number.text, unit.text),
+             fmt::format("write {0} [{1}] if {1} is a unit, {0}*{1} for a product", number.text,
+                         unit.text));
   }
 
   // event hit = r - 1e-3 falling

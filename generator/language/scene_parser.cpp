@@ -14,6 +14,12 @@ bool at_setting_end(const ExpressionParser& in) {
   return in.at_line_end() || is_symbol(in.peek(), ";") || is_symbol(in.peek(), "}");
 }
 
+// A line that belongs to no scene; "time = 20" is a setting that there is not.
+bool at_statement(const ExpressionParser& in) {
+  const std::string_view word = in.peek().text;
+  return begins_statement(word) && (word == "H" || !is_symbol(in.peek(1), "="));
+}
+
 // observe energy, L
 void observe(ExpressionParser& in, SceneStatement& statement) {
   in.next();
@@ -116,7 +122,7 @@ SceneStatement parse_scene(ExpressionParser& in, const Name& name,
   const Span opener = in.previous().span;
   if (in.peek().kind == TokenKind::newline) statement.scene.comment = in.peek().text;
   while (!in.accept("}")) {
-    if (in.peek().kind == TokenKind::end || begins_statement(in.peek().text)) {
+    if (in.peek().kind == TokenKind::end || at_statement(in)) {
       diagnostics.push_back({Severity::error, opener, "'{' is never closed", "add '}'"});
       return statement;
     }

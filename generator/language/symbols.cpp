@@ -61,6 +61,12 @@ Symbol* Symbols::find(const std::string& name) {
   return place == symbols_.end() ? nullptr : &place->second;
 }
 
+std::optional<SymbolKind> Symbols::announced(const std::string& name) const {
+  const auto place = announced_.find(name);
+  if (place == announced_.end()) return {};
+  return place->second;
+}
+
 std::vector<std::string> Symbols::names(const std::set<SymbolKind>& kinds) const {
   std::vector<std::string> result;
   for (const auto& [name, symbol] : symbols_) {

@@ -37,6 +37,10 @@ class Symbols {
   // Names of these kinds, for "did you mean".
   [[nodiscard]] std::vector<std::string> names(const std::set<SymbolKind>& kinds) const;
 
+  // A name that is declared behind all that may use it.
+  void announce(const std::string& name, SymbolKind kind) { announced_.emplace(name, kind); }
+  [[nodiscard]] std::optional<SymbolKind> announced(const std::string& name) const;
+
   // A name on a line that could not be read: nothing is said of it.
   void spoil(const std::string& name) { spoiled_.insert(name); }
   [[nodiscard]] bool is_spoiled(const std::string& name) const { return spoiled_.contains(name); }
@@ -51,6 +55,7 @@ class Symbols {
   const SourceText& source_;
   std::vector<Diagnostic>& diagnostics_;
   std::map<std::string, Symbol> symbols_;
+  std::map<std::string, SymbolKind> announced_;
   std::set<std::string> spoiled_;
 };
 

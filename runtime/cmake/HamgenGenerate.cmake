@@ -24,7 +24,7 @@ FORMAT     c-header emits NAME.h; a cpp-plugin, NAME.plugin.cpp, becomes a sourc
 the rest   as the options of `hamgen generate`; a list for several degrees of freedom is one value,
            ALPHA "1/2,1/3".  SIZES and SET are both --set
 
-Nothing is linked, except libquadmath for SCALAR quad.  A header whose plan needs Eigen (see
+Nothing is linked, except libquadmath for SCALAR quad and libm for a c-header.  A header whose plan needs Eigen (see
 `hamgen show --stage plan`) expects Eigen3::Eigen from the project.
 ]]
 # Where plugin.h is: beside this file in the sources, else where the package says.
@@ -153,7 +153,9 @@ function(hamgen_generate)
     set_source_files_properties(${header} PROPERTIES GENERATED ON)
     target_include_directories(${arg_TARGET} PRIVATE ${HAMGEN_PLUGIN_INCLUDE_DIRECTORY})
   endif()
-  if(NOT arg_FORMAT STREQUAL c-header)
+  if(arg_FORMAT STREQUAL c-header)
+    target_link_libraries(${arg_TARGET} ${scope} m)  # a program in C has it not by itself
+  else()
     target_compile_features(${arg_TARGET} ${scope} cxx_std_17)
   endif()
   if(arg_SCALAR STREQUAL quad)

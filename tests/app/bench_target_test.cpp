@@ -193,6 +193,26 @@ TEST(BenchPicture, OfManyMethodsShowsThoseThatAreSomewhereTheQuickest) {
   EXPECT_EQ(drawn().size(), 8u);
 }
 
+// The two largest steps take longer than the third and are worse, though not each of them than the
+// next: a solver that hardly converges.
+TEST(BenchPicture, LeavesOutLargeStepsThatASmallerOneBeats) {
+  Bench bench{.observed = app::Observed::state};
+  bench.methods.push_back(BenchMethod{.spec = "method"});
+  long steps = 1;
+  for (const auto& [time, error] :
+       {std::pair{2.8e-5, 1e-2}, {2.9e-5, 1e-4}, {3e-6, 1e-8}, {4e-6, 1e-12}}) {
+    BenchRow row{.method = 0, .h = Rational(1, steps), .steps = steps, .outcome = "done"};
+    ++steps;
+    row.state_error = error;
+    row.samples = {time};
+    bench.rows.push_back(std::move(row));
+  }
+  const app::PlotPanel panel = app::bench_panel(bench, app::Observed::state);
+  ASSERT_EQ(panel.series.size(), 1u);
+  ASSERT_EQ(panel.series[0].points.size(), 2u);
+  EXPECT_EQ(panel.series[0].points[0].y, 1e-8);
+}
+
 const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
 
 // The step of the answer for one method.

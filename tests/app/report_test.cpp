@@ -1,6 +1,7 @@
 // hamgen report: its files, and the page in a browser.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -70,6 +71,25 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
   ASSERT_TRUE(runtime::run_process(request).succeeded());
   // Without the dark form, which the command puts in.
   EXPECT_GT(std::filesystem::file_size(drawn), size / 2);
+}
+
+// A time of the model's own is no axis of space, a run that is shown step by step is so once, and
+// the signs between terms have the same room on both sides.
+TEST(Report, OfADrivenSystemShowsItsPhasePortraitAndNothingTwice) {
+  const Scratch scratch;
+  const std::string directory = scratch.path("out");
+  ASSERT_EQ(
+      hamgen({"report", HAMGEN_SOURCE_DIR "/hamiltonians/driven_oscillator.ham", "-o", directory,
+              "--rounds", "1", "--quiet", "--schemes", "implicit-midpoint", "--steps", "300"})
+          .status,
+      0);
+  const std::string page = read(directory + "/report.html");
+  EXPECT_TRUE(contains(page, "<figure id='portrait'"));
+  EXPECT_TRUE(contains(page, "<figure id='energy'"));
+  EXPECT_FALSE(contains(page, "<figure id='orbit'"));
+  EXPECT_FALSE(contains(page, "<figure id='energy_zoom'"));
+  EXPECT_TRUE(contains(page, "</math><wbr><math displaystyle='true'><mrow><mo form='infix'>"));
+  EXPECT_FALSE(contains(page, "</math> <math displaystyle='true'>"));
 }
 
 std::string without_pictures(std::string page) {
@@ -199,7 +219,8 @@ std::string as_attribute(const std::string& page) {
 
 // A page with the report in three frames, as wide as a telephone, a tablet and a screen, that says
 // what it sees of each: width of the contents, pictures, how many of those are drawn and how many
-// letters they have as large as they must be, the font of formulas, and the smallest text.
+// letters they have as large as they must be, the font of formulas, the smallest text, how light
+// paper and ink are, and how much of each picture is lighter than half.
 std::string probe_page(const std::string& page) {
   std::string text = "<!DOCTYPE html><meta charset='utf-8'><body>\n";
   for (const char* width : {"390", "820", "1400"})
@@ -207,6 +228,18 @@ std::string probe_page(const std::string& page) {
             as_attribute(page) + "\"></iframe>\n";
   return text + R"(<pre id='seen'></pre><script>
 const drawnWidth = image => Number(atob(image.currentSrc.split(',')[1]).match(/viewBox="0 0 ([0-9]+)/)[1]);
+const light = colour => colour.match(/[0-9.]+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) / 765;
+const lightPart = image => {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 100;
+  const paper = canvas.getContext('2d');
+  paper.drawImage(image, 0, 0, 100, 100);
+  const bytes = paper.getImageData(0, 0, 100, 100).data;
+  let count = 0;
+  for (let i = 0; i < bytes.length; i += 4)
+    if (bytes[i + 3] > 128 && bytes[i] + bytes[i + 1] + bytes[i + 2] > 384) ++count;
+  return count / 10000;
+};
 window.addEventListener('load', async () => {
   const seen = [];
   for (const frame of document.querySelectorAll('iframe')) {
@@ -215,6 +248,7 @@ window.addEventListener('load', async () => {
     const images = [...page.images];
     const text = [...page.querySelectorAll('p, td, th, li, dt, dd, figcaption, pre')];
     const boxes = [...page.querySelectorAll('main, figure, dl, h1, h2')];
+    const style = frame.contentWindow.getComputedStyle(page.body);
     seen.push({width: frame.clientWidth, contents: page.documentElement.scrollWidth,
       outside: boxes.filter(b => b.getBoundingClientRect().right > frame.clientWidth).length,
       pictures: images.length,
@@ -223,19 +257,16 @@ window.addEventListener('load', async () => {
       formulas: page.querySelectorAll('math').length,
       font: [...page.fonts].filter(f => f.family == 'Formula' && f.status == 'loaded').length,
       open: page.querySelectorAll('details[open]').length,
+      paper: light(style.backgroundColor), ink: light(style.color),
+      lightest: Math.max(...images.map(lightPart)),
       smallest: Math.min(...text.map(e => parseFloat(frame.contentWindow.getComputedStyle(e).fontSize)))});
   }
   document.getElementById('seen').textContent = JSON.stringify(seen);
 });</script>)";
 }
 
-TEST(Report, ShowsInABrowserWideAndNarrow) {
-  const Scratch scratch;
-  // Two degrees of freedom with the longest formulas, verdicts and tables.
-  const std::string directory = scratch.path("out");
-  ASSERT_EQ(report(HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham", directory).status, 0);
-  const std::string probe =
-      scratch.write("probe.html", probe_page(read(directory + "/report.html")));
+// What the probe says in a browser that likes its pages dark, or light.
+json seen_in_browser(const Scratch& scratch, const std::string& probe, bool dark) {
   // As root and in a container there is neither a sandbox nor much shared memory.
   runtime::ProcessRequest request;
   request.command = {"chromium",
@@ -243,7 +274,8 @@ TEST(Report, ShowsInABrowserWideAndNarrow) {
                      "--no-sandbox",
                      "--disable-gpu",
                      "--disable-dev-shm-usage",
-                     "--user-data-dir=" + scratch.path("profile"),
+                     std::string("--blink-settings=preferredColorScheme=") + (dark ? "0" : "1"),
+                     "--user-data-dir=" + scratch.path(dark ? "dark" : "light"),
                      "--enable-logging=stderr",
                      "--virtual-time-budget=20000",
                      "--dump-dom",
@@ -254,27 +286,48 @@ TEST(Report, ShowsInABrowserWideAndNarrow) {
   try {
     result = runtime::run_process(request);
   } catch (const runtime::ToolError&) {
-    FAIL() << "chromium is not there, so the page was not opened in a browser; "
-              "scripts/install-dependencies test installs it";
+    ADD_FAILURE() << "chromium is not there, so the page was not opened in a browser; "
+                     "scripts/install-dependencies test installs it";
+    return json::array();
   }
-  ASSERT_TRUE(result.succeeded()) << runtime::end_text(result, request);
+  EXPECT_TRUE(result.succeeded()) << runtime::end_text(result, request);
   EXPECT_FALSE(contains(result.output, "CONSOLE")) << "the browser's console has messages";
-  const std::size_t begin = result.output.rfind("<pre id=\"seen\">");
-  ASSERT_NE(begin, std::string::npos);
-  const std::size_t first = begin + std::string("<pre id=\"seen\">").size();
-  const json seen =
-      json::parse(result.output.substr(first, result.output.find("</pre>", first) - first));
-  ASSERT_EQ(seen.size(), 3u);
-  for (const json& frame : seen) {
-    EXPECT_LE(frame["contents"].get<int>(), frame["width"].get<int>()) << frame;
-    EXPECT_GE(frame["pictures"].get<int>(), 6) << frame;
-    EXPECT_EQ(frame["drawn"], frame["pictures"]) << frame;
-    EXPECT_EQ(frame["outside"], 0) << frame;
-    EXPECT_TRUE(frame["shrunk"].empty()) << frame;  // letters of 15 pixels stay above 11
-    EXPECT_EQ(frame["font"], 1) << "the font of formulas is not there: " << frame;
-    EXPECT_EQ(frame["open"], 0) << frame;
-    EXPECT_GE(frame["formulas"].get<int>(), 5) << frame;
-    EXPECT_GE(frame["smallest"].get<double>(), 12.0) << frame;
+  const std::string mark = "<pre id=\"seen\">";
+  const std::size_t begin = result.output.rfind(mark);
+  if (begin == std::string::npos) return json::array();
+  const std::size_t first = begin + mark.size();
+  return json::parse(result.output.substr(first, result.output.find("</pre>", first) - first));
+}
+
+TEST(Report, ShowsInABrowserWideAndNarrowLightAndDark) {
+  const Scratch scratch;
+  // Two degrees of freedom with the longest formulas, verdicts and tables.
+  const std::string directory = scratch.path("out");
+  ASSERT_EQ(report(HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham", directory).status, 0);
+  const std::string probe =
+      scratch.write("probe.html", probe_page(read(directory + "/report.html")));
+  for (const bool dark : {false, true}) {
+    const json seen = seen_in_browser(scratch, probe, dark);
+    ASSERT_EQ(seen.size(), 3u);
+    for (const json& frame : seen) {
+      EXPECT_LE(frame["contents"].get<int>(), frame["width"].get<int>()) << frame;
+      EXPECT_GE(frame["pictures"].get<int>(), 6) << frame;
+      EXPECT_EQ(frame["drawn"], frame["pictures"]) << frame;
+      EXPECT_EQ(frame["outside"], 0) << frame;
+      EXPECT_TRUE(frame["shrunk"].empty()) << frame;  // letters of 15 pixels stay above 11
+      EXPECT_EQ(frame["font"], 1) << "the font of formulas is not there: " << frame;
+      EXPECT_EQ(frame["open"], 0) << frame;
+      EXPECT_GE(frame["formulas"].get<int>(), 5) << frame;
+      EXPECT_GE(frame["smallest"].get<double>(), 12.0) << frame;
+      const double paper = frame["paper"];
+      const double ink = frame["ink"];
+      EXPECT_EQ(paper < 0.2, dark) << frame;
+      EXPECT_GT(std::fabs(paper - ink), 0.6) << frame;
+      // Of a picture on dark paper lines and letters are light, and no box.
+      if (dark) {
+        EXPECT_LT(frame["lightest"].get<double>(), 0.3) << frame;
+      }
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/output/section_output.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/interpreted_orbit.hpp"
@@ -110,6 +111,19 @@ TEST(SectionCommand, WritesPointsPictureAndJson) {
   }
   EXPECT_EQ(rows, 15);
   EXPECT_TRUE(contains(read(scratch.path("s.svg")), "</svg>"));
+}
+
+// Where orbits end, those say where to begin that did not.
+TEST(SectionCommand, SaysWhereOrbitsBeganThatStayed) {
+  app::Section section;
+  for (const auto& [first, second, status] : {std::tuple{-0.1, 0.2, runtime::Status::done},
+                                              {0.3, -0.4, runtime::Status::done},
+                                              {0.9, 0.9, runtime::Status::jumped}})
+    section.orbits.push_back({.first = first, .second = second, .status = status, .points = {}});
+  const app::SectionTitle title{.first = "x", .second = "px"};
+  EXPECT_TRUE(contains(app::section_summary(section, title), "x=-0.1:0.3, px=-0.4:0.2"));
+  section.orbits.erase(section.orbits.begin());
+  EXPECT_TRUE(contains(app::section_summary(section, title), "help: a smaller --h\n"));
 }
 
 TEST(SectionCommand, RefusesWhatIsNoSection) {

@@ -105,6 +105,21 @@ TEST(Tune, SaysThatItIsWorthNothingWhereTheGainIsSmall) {
       << harmonic.out;
 }
 
+// A flat energy is not all: the phase of this one is better by more than a factor of two.
+TEST(Tune, DoesNotCallABetterPhaseWorthNothing) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("bead.ham",
+                    "coordinate q\nmomentum p\ntime t\n"
+                    "H = p^2/(2*(1 + q^2)) + q^2/2 + q^4/4 - 0.3*q*cos(1.7*t)\n"
+                    "scene driven { q = 0.5; h = 0.05; steps = 20000 }\n");
+  const Result result = hamgen({"tune", model, "--time", "250"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "no flatter: the energy spread shrinks by a factor of 1."))
+      << result.out;
+  EXPECT_TRUE(contains(result.out, "the state error shrinks by a factor of")) << result.out;
+}
+
 TEST(Tune, TheGaugeItPrintsGivesTheSpreadItPrints) {
   const json result =
       tuned({kHenonHeiles, "--time", "50", "--samples", "200", "--gauge-form", "matrix"});

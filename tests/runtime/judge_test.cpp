@@ -12,7 +12,7 @@ namespace {
 
 using tests::oscillator_library;
 
-// omega = 2, (q, p) = (1, 0): H = 2, |z| |grad H| = 1*4, q H_q/2 = 2, p H_p/2 = 0.
+// omega = 2, (q, p) = (1, 0): H = 2, |q| |H_q| + |p| |H_p| = 1*4, q H_q/2 = 2, p H_p/2 = 0.
 Judge judge(bool defined_everywhere = false) {
   return {oscillator_library(), std::vector<Wide>{{2.0}, {0.0}}, std::vector<Wide>{{1.0}, {0.0}},
           defined_everywhere};
@@ -37,6 +37,16 @@ TEST(Judge, MeasuresByTheStart) {
   EXPECT_EQ(judge().terms(std::vector<double>{3.0, 2.0}), 18.0);
   EXPECT_TRUE(judge().keeps_energy(std::vector<double>{3.0, 2.0}, 1.75));
   EXPECT_FALSE(judge().keeps_energy(std::vector<double>{3.0, 2.0}, 1.85));
+}
+
+// q in units a million times larger, and omega larger for it: the energies are the same.
+TEST(Judge, MeasuresEnergiesWhateverTheUnits) {
+  for (const double unit : {1.0, 0x1p-20, 0x1p20}) {
+    const Judge here(oscillator_library(), std::vector<Wide>{{1.0 / unit}, {0.0}},
+                     std::vector<Wide>{{unit}, {1.0}}, false);
+    EXPECT_EQ(here.energy(), (Wide{1.0}));
+    EXPECT_EQ(here.energy_scale(), 2.0) << unit;
+  }
 }
 
 TEST(Judge, TellsFailuresApart) {
