@@ -64,11 +64,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_de6a87d7::float64 {
+namespace hamgen_eab24986::float64 {
 using Real = double;
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
-#define HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -78,8 +78,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
-#define HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
+#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -89,8 +89,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_SUM_WITH_REST
-#define HAMGEN_DE6A87D7_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
+#define HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
@@ -101,14 +101,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-}  // namespace hamgen_de6a87d7::float64
+}  // namespace hamgen_eab24986::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xd1b31fc2
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xc732deea
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_d1b31fc2 {
+inline namespace emitted_c732deea {
 
-namespace numerics = ::hamgen_de6a87d7::float64;
+namespace numerics = ::hamgen_eab24986::float64;
 using numerics::StepReport, numerics::two_sum_with_rest;
 
 // What depends on h and the parameters alone.
@@ -234,9 +234,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_d1b31fc2
+}  // namespace emitted_c732deea
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xd1b31fc2
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xc732deea
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -92,11 +92,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_de6a87d7::float64 {
+namespace hamgen_eab24986::float64 {
 using Real = double;
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
-#define HAMGEN_DE6A87D7_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -106,15 +106,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_VOCABULARY
-#define HAMGEN_DE6A87D7_FLOAT64_VOCABULARY
+#ifndef HAMGEN_EAB24986_FLOAT64_VOCABULARY
+#define HAMGEN_EAB24986_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
-#define HAMGEN_DE6A87D7_FLOAT64_TWO_SUM
+#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -124,14 +124,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_VERDICT
-#define HAMGEN_DE6A87D7_FLOAT64_VERDICT
+#ifndef HAMGEN_EAB24986_FLOAT64_VERDICT
+#define HAMGEN_EAB24986_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_NEWTON_RULE
-#define HAMGEN_DE6A87D7_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
+#define HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -221,8 +221,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_HISTORY
-#define HAMGEN_DE6A87D7_FLOAT64_HISTORY
+#ifndef HAMGEN_EAB24986_FLOAT64_HISTORY
+#define HAMGEN_EAB24986_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -314,8 +314,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_DE6A87D7_FLOAT64_FORGET
-#define HAMGEN_DE6A87D7_FLOAT64_FORGET
+#ifndef HAMGEN_EAB24986_FLOAT64_FORGET
+#define HAMGEN_EAB24986_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -325,14 +325,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_de6a87d7::float64
+}  // namespace hamgen_eab24986::float64
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x9603c238
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x4ec374bf
 namespace kepler::implicit_midpoint {
-inline namespace emitted_9603c238 {
+inline namespace emitted_4ec374bf {
 
-namespace numerics = ::hamgen_de6a87d7::float64;
+namespace numerics = ::hamgen_eab24986::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -539,9 +539,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_9603c238
+}  // namespace emitted_4ec374bf
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x9603c238
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x4ec374bf
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

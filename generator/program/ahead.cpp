@@ -80,7 +80,10 @@ DerivativesAhead derivatives_ahead(const Environment& environment, const Lowered
                   .arguments = {parameters_argument()},
                   .places = coefficients}};
   Routine& routine = ahead.routine;
-  if (!coefficients.empty()) routine.arguments.push_back({.name = "k", .record = "Coefficients"});
+  const Symbols used = used_symbols(split.of_point);
+  const bool takes_coefficients = std::ranges::any_of(
+      coefficients, [&](const auto& entry) { return used.contains(entry.first); });
+  if (takes_coefficients) routine.arguments.push_back({.name = "k", .record = "Coefficients"});
   routine.arguments.push_back({.name = "at", .record = "Derivatives", .changes = true});
   environment.bind_parameters(routine);
   for (std::size_t j = 0; j < unknowns.size(); ++j) {

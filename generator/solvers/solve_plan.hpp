@@ -89,6 +89,6 @@ struct SolvePlan {
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 // What is said of SolvePlan::ahead.
-inline constexpr std::string_view kAhead = "derivatives of H a step ahead";
+inline constexpr std::string_view kAhead = "derivatives ahead";
 
 }  // namespace hamgen
