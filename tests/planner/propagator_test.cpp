@@ -59,7 +59,7 @@ TEST(Propagator, EvaluatesTheNextStepsDerivativesAhead) {
   EXPECT_NE(shown("reset").find("self.at <- new Derivatives\n"), std::string::npos)
       << shown("reset");
   const std::string solve = shown("solve");
-  const std::size_t loop = solve.find("newton(");
+  const std::size_t loop = solve.find("iterate with Newton's rule:");
   const std::size_t taken = solve.find(R"(    if at.ready:
       bar(q) <- at.point[0]
     if not at.ready:

@@ -52,7 +52,7 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        "pendulum",
        {},
        "if (at.ready) q_bar = at.point[0];",
-       ""},
+       "if (at.ready) q_bar = start.value[0];"},
       {"taken by every iteration", "pendulum", {}, "at.ready = false;", "at.ready = true;"},
       {"evaluated where the last step was",
        "pendulum",
@@ -103,7 +103,7 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        "const bool rises = at_low < 0 &&",
        "const bool rises = at_low > 0 &&"},
   };
-  EXPECT_EQ(faults.size(), 24U);
+  EXPECT_EQ(faults.size(), 27U);
   for (const Fault& fault : faults) expect_found(fault);
 }
 
