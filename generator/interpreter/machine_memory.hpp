@@ -131,8 +131,7 @@ class MachineMemory : public MachineIterations<Real> {
     } else if (forget.type == "bool") {
       object.flags.at(field) = 0;
     } else {
-      Object<Real> fresh = make_object<Real>(
-          *code_.record(forget.type == "Derivatives" ? "Derivatives" : "Start"), code_);
+      Object<Real> fresh = make_object<Real>(*code_.record("Start"), code_);
       if (field.empty()) {
         renew(object, std::move(fresh));
       } else {

@@ -168,7 +168,7 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
   LoweredStep lowered = lowered_step(plan);
   lowered.unchecked = wishes.unchecked;
   lowered.plain_sums = wishes.plain_sums;
-  // Lanes wait for each other's functions less than for their own.
+  // Lanes are trajectories that wait together: their functions are under way side by side.
   if (wishes.trajectories_in_lanes) lowered.plan.ahead = false;
   if (plan.stage_solver) {
     const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
