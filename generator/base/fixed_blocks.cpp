@@ -35,6 +35,7 @@ constexpr FixedBlock kCppBlocks[] = {
     {"refinement", "Refinement"},
     {"history", "History"},
     {"forget", "forget"},
+    {"ahead", "extrapolate_twice"},
     {.name = "bracketed_root", .defines = "bracketed_root", .events = true},
     {.name = "crossings", .defines = "cubic_between find_crossings", .events = true},
     {.name = "crossing_list", .defines = "CrossingList", .events = true},

@@ -126,6 +126,8 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   CodeWriter method;
   const int unknowns = program.unknowns;
   if (unknowns > 0) method.lines(block_text("history", dialect, unknowns) + "\n");
+  if (program.record("Derivatives") != nullptr)
+    method.lines(block_text("ahead", dialect, unknowns) + "\n");
   write_pieces(method, context, dialect, context.contents.method);
   CodeWriter out;
   write_preamble(out, context);

@@ -76,6 +76,8 @@ void Interpreter<Real>::forget() {
   for (std::size_t i = 0; i < substeps(); ++i) {
     if (const Record* start = code_->record("Start"))
       kept("start", i) = make_object<Real>(*start, *code_);
+    if (const Record* at = code_->record("Derivatives"))
+      kept("at", i) = make_object<Real>(*at, *code_);
     if (code_->unknowns > 0) kept("history", i).history = Blocks<Real>::history(code_->unknowns);
   }
 }

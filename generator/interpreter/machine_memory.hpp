@@ -48,10 +48,11 @@ class MachineMemory : public MachineIterations<Real> {
         return true;
       };
     }
-    const bool records = use.action == "record";
-    return [this, first, records, values = whole(given[1])] {
+    return [this, first, action = use.action, values = whole(given[1])] {
       AnyHistory<Real>& history = *object(first).history;
-      records ? history.record(span(values)) : history.extrapolate(span(values));
+      if (action == "record") history.record(span(values));
+      if (action == "extrapolate") history.extrapolate(span(values));
+      if (action == "extrapolate_twice") history.extrapolate_twice(span(values));
       return true;
     };
   }

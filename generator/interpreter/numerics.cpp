@@ -44,6 +44,11 @@ class HistoryOf final : public AnyHistory<Real> {
     history_.extrapolate(all.padded);
     std::copy_n(all.padded, solution.size(), solution.begin());
   }
+  void extrapolate_twice(std::span<Real> solution) const override {
+    Padded<Real, Size> all(solution);
+    NumericsOf<Real>::look_twice(history_, all.padded);
+    std::copy_n(all.padded, solution.size(), solution.begin());
+  }
   [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first,
                            int count) const override {
     return history_.error(degree, Padded<Real, Size>(solution).padded, first, count);

@@ -56,6 +56,7 @@ struct AnyHistory {
   [[nodiscard]] virtual bool known() const = 0;
   virtual void record(std::span<const Real> solution) = 0;
   virtual void extrapolate(std::span<Real> solution) const = 0;
+  virtual void extrapolate_twice(std::span<Real> solution) const = 0;
   [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first,
                                    int count) const = 0;
 };

@@ -186,6 +186,13 @@ void add_member(Program& code, const Environment& environment, const LoweredStep
     code.routines.push_back(coefficients.prepare);
   }
   if (parts.start) code.records.push_back(start_record(solves, code.unknowns));
+  std::optional<DerivativesAhead> ahead;
+  if (lowered.plan.ahead) {
+    ahead = derivatives_ahead(environment, lowered, coefficients.places);
+    code.records.push_back(ahead->record);
+    code.routines.push_back(ahead->routine);
+    parts.ahead = &*ahead;
+  }
   code.routines.push_back(solve_routine(environment, lowered, parts, coefficients.places));
   code.rules = rules_of(code.routines.back());
   code.retries = code.unknowns > 0;

@@ -44,6 +44,7 @@ class ContentsBuilder {
     add_record("Coefficients");
     add_with_callees("prepare");
     add_record("Start");
+    add_record("Derivatives");
     add_with_callees("solve");
     add_steps();
     add_with_callees("events");

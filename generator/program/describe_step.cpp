@@ -125,6 +125,7 @@ bool needs_eigen(const LoweredStep& lowered) {
 
 std::string solver_text(const LoweredStep& lowered) {
   std::string text = lowered.plan.solver;
+  if (lowered.plan.ahead) text += "; " + std::string(kAhead);
   if (lowered.second_order) text += "; momenta eliminated";
   const int packs = lowered.stage_layout ? lowered.stage_layout->packs() : 0;
   if (packs > 0) text += fmt::format("; stages in {} lanes", packs);

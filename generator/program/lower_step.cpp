@@ -168,6 +168,8 @@ LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
   LoweredStep lowered = lowered_step(plan);
   lowered.unchecked = wishes.unchecked;
   lowered.plain_sums = wishes.plain_sums;
+  // Lanes are trajectories that wait together: their functions are under way side by side.
+  if (wishes.trajectories_in_lanes) lowered.plan.ahead = false;
   if (plan.stage_solver) {
     const auto stages = static_cast<int>(lowered.sequence.stages.weight.size());
     const int dimension = 2 * plan.equations.mechanics.degrees_of_freedom;

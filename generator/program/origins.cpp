@@ -110,7 +110,7 @@ class TermTracer {
       }
     });
     const std::map<std::string, Terms> results = results_of(routine);
-    std::map<std::string, Terms> known;
+    std::map<std::string, Terms> known = known_at_a_point(routine);
     for (Instruction* instruction : all) forward(*instruction, moved, results, known);
     std::map<std::string, Terms> wanted;
     for (Instruction* instruction : all | std::views::reverse) {
@@ -145,6 +145,16 @@ class TermTracer {
       }
     }
     return results;
+  }
+
+  // Derivatives that another routine evaluates.
+  [[nodiscard]] std::map<std::string, Terms> known_at_a_point(const Routine& routine) const {
+    std::map<std::string, Terms> known;
+    for (const auto& [symbol, place] : routine.places) {
+      const auto source = sources_.find(symbol);
+      if (place.object == "at" && source != sources_.end()) known.insert(*source);
+    }
+    return known;
   }
 
   void forward(Instruction& instruction, const std::set<std::string>& moved,
@@ -200,7 +210,7 @@ void trace_origins(Program& code, const Environment& environment, const StepEqua
   }
   TermTracer tracer(environment, equations);
   for (Routine& routine : code.routines) {
-    if (routine.name == "solve") tracer.trace(routine);
+    if (routine.name == "solve" || routine.name == "derivatives") tracer.trace(routine);
   }
 }
 

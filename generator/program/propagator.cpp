@@ -34,6 +34,7 @@ class PropagatorBuilder : public PropagatorParts {
                         .object = "k"});
     }
     if (start_) add(routine, Declare{"Start", {"start"}});
+    if (ahead_) add(routine, Declare{"Derivatives", {"at"}});
     add_room(routine);
     add(routine, solve({{"carry", {"new State"}}}));
     if (!code_.unchecked) add(routine, failed(body_of(Return{.report = "report"})));

@@ -20,6 +20,7 @@ class PropagatorParts {
         coefficients_(code.record("Coefficients") != nullptr),
         start_(code.record("Start") != nullptr),
         extrapolates_(code.unknowns > 0),
+        ahead_(code.record("Derivatives") != nullptr),
         rest_(code.has_rest()),
         carry_(code.has_carry()),
         counts_(!code.facts.has_time) {}
@@ -98,6 +99,7 @@ class PropagatorParts {
     if (composed_) add_field("Real", "lengths", true);
     if (coefficients_) add_field("Coefficients", "k", true);
     if (start_) add_field("Start", "start", true);
+    if (ahead_) add_field("Derivatives", "at", true);
     if (extrapolates_) add_field(fmt::format("History<{}>", code_.unknowns), "history", true);
     if (large_) add_field("State", "dz", false);
     if (large_ && rest_) add_field("State", "rest", false);
@@ -195,8 +197,24 @@ class PropagatorParts {
                         {"", "", {{rule.first, {}}}},
                         {"", "", {{rule.count, {}}}}}});
     }
+    if (ahead_) look_ahead(routine);
     if (extrapolates_)
       add(routine, Use{"History", "record", {{own("history")}, {own("start"), "value"}}});
+  }
+  // Note [derivatives ahead]: where the solutions before this one predict the next.
+  void look_ahead(Routine& routine) const {
+    const std::string at = own("at");
+    Call derivatives{.routine = "derivatives", .arguments = {}};
+    for (const Argument& argument : code_.routine("derivatives")->arguments)
+      derivatives.arguments.push_back({own(argument.name)});
+    add(routine, If{{own("start"), "known"},
+                    true,
+                    body_of(Use{"History", "extrapolate_twice", {{own("history")}, {at, "point"}}},
+                            derivatives, SetFlag{{at, "ready"}})});
+    routine.body.back().remark = {
+        "What the next step takes of H is evaluated where the solutions before this one predict "
+        "it:",
+        "nothing of that waits for this step."};
   }
   // With what the run keeps.
   [[nodiscard]] Call solve_kept(const std::string& z, const std::string& carry) const {
@@ -206,6 +224,7 @@ class PropagatorParts {
                   {"z", {z}},
                   {"carry", {carry}},
                   {"start", {own("start")}},
+                  {"at", {own("at")}},
                   {"dz", room("dz")},
                   {"rest", room("rest")}});
   }
@@ -249,12 +268,13 @@ class PropagatorParts {
         add(routine, Forget{{"self.start", field.name}, field.type, substeps()});
       }
     }
+    if (ahead_) add(routine, Forget{{"self.at"}, "Derivatives", substeps()});
     if (extrapolates_) add(routine, Forget{{"self.history"}, "History", substeps()});
     return routine;
   }
 
   const Program& code_;
-  bool composed_, large_, coefficients_, start_, extrapolates_, rest_, carry_, counts_;
+  bool composed_, large_, coefficients_, start_, extrapolates_, ahead_, rest_, carry_, counts_;
 };
 
 }  // namespace hamgen

@@ -22,8 +22,10 @@ class SolveRoutine {
                                : "dz + rest = Z - z for one step from z + carry; rest is small."},
                 .result = {.type = "StepReport", .object = "report"},
                 .places = coefficients};
+    ahead_ = parts.ahead;
     add_arguments(parts);
     environment_.bind_parameters(routine_);
+    if (ahead_ != nullptr) routine_.places.insert(ahead_->places.begin(), ahead_->places.end());
     for (int i = 0; i < size(); ++i) {
       routine_.places.insert_or_assign("carry(" + variable(i) + ")",
                                        environment_.place("carry", i));
@@ -55,6 +57,7 @@ class SolveRoutine {
     list.push_back(state_argument("z"));
     list.push_back(state_argument("carry"));
     if (parts.start) list.push_back({.name = "start", .record = "Start", .changes = true});
+    if (parts.ahead) list.push_back({.name = "at", .record = "Derivatives", .changes = true});
     list.push_back(state_argument("dz", true));
     if (!lowered_.rests.empty()) list.push_back(state_argument("rest", true));
   }
@@ -87,9 +90,12 @@ class SolveRoutine {
     for (const Expression& e : lowered_.rests) collect_symbols(e, later);
     std::vector<std::string> result;
     for (const Statement& st : solve.body) {
-      if (later.contains(st.name)) result.push_back(st.name);
+      if (later.contains(st.name) && !stands_at_point(st.name)) result.push_back(st.name);
     }
     return result;
+  }
+  [[nodiscard]] bool stands_at_point(const std::string& symbol) const {
+    return ahead_ != nullptr && ahead_->places.contains(symbol);
   }
 
   void add_stage(std::size_t s) {
@@ -114,7 +120,12 @@ class SolveRoutine {
                     .unknowns = {},
                     .body = {},
                     .kept = kept(s)};
-    append(iterate.body, solve.body);
+    if (ahead_ != nullptr) {
+      take_derivatives(iterate.body, solve);
+      append(iterate.body, split_body(environment_, lowered_).rest);
+    } else {
+      append(iterate.body, solve.body);
+    }
     for (std::size_t j = 0; j < solve.variables.size(); ++j) {
       const LoopVariable& v = solve.variables[j];
       iterate.unknowns.push_back({.symbol = v.name,
@@ -137,6 +148,24 @@ class SolveRoutine {
     } else {
       routine_.body.push_back({std::move(refinement_), {kRefinementRemark}});
     }
+  }
+
+  // The first iteration takes those that are known, and their point; else they are evaluated.
+  void take_derivatives(Body& body, const Solve& solve) {
+    const Place ready{"at", "ready"};
+    Body take;
+    Body evaluate;
+    for (std::size_t j = 0; j < solve.variables.size(); ++j) {
+      const std::string symbol = to_text(ahead_->point[j]);
+      const std::string& unknown = solve.variables[j].name;
+      routine_.places[symbol] = ahead_->point[j];
+      take.push_back({Assign{unknown, Expression::symbol(symbol, kRankOfVariable)}});
+      evaluate.push_back({Assign{symbol, Expression::symbol(unknown, kRankOfVariable)}});
+    }
+    evaluate.push_back({call_of(ahead_->routine)});
+    body.push_back({If{ready, true, std::move(take)}});
+    body.push_back({If{ready, false, std::move(evaluate)}});
+    body.push_back({SetFlag{ready, false}});
   }
 
   void add_sweeps(const Solve& solve) {
@@ -225,6 +254,7 @@ class SolveRoutine {
   const LoweredStep& lowered_;
   Routine routine_;
   Refine refinement_;
+  const DerivativesAhead* ahead_ = nullptr;
   int memory_ = 0;  // elements of start.value in use
 };
 

@@ -14,6 +14,9 @@ class RunWriter : public IterationWriter {
     std::vector<Value> list;
     for (const Place& place : use.arguments)
       list.push_back(place.object.empty() ? index(place.indices.front()) : object(place));
+    // A function beside the block, where there are templates.
+    const bool beside = use.action == "extrapolate_twice" && form_.references;
+    if (beside) return void(add(Do{call(use.action, std::move(list))}));
     Value value = with_parts(use.action.empty() ? Value::Kind::call : Value::Kind::action,
                              use.action.empty() ? use.block : use.action, std::move(list));
     value.type = use.block;
@@ -76,7 +79,7 @@ class RunWriter : public IterationWriter {
  private:
   // A place becomes what it begins with.
   void begin(const Place& place, const std::string& type) {
-    if (type == "Start") return set(object(place), zeros(type));
+    if (type == "Start" || type == "Derivatives") return set(object(place), zeros(type));
     if (type == "History" && form_.references)
       return void(add(Do{call("forget", {object(place)})}));
     if (type == "History") return void(add(Do{action(type, place, "forget")}));

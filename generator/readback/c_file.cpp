@@ -94,6 +94,7 @@ class CFileReader {
       read_pieces(contents_.system);
     } else if (macro == of_method()) {
       if (code_.unknowns > 0) read_tested("c/history");
+      if (code_.record("Derivatives") != nullptr) read_tested("c/ahead");
       read_pieces(contents_.method);
     } else if (macro == "HAMGEN_C_" + names_.block("pi")) {
       expect({"static const Real hamgen::pi = " + std::string(kConstant) + ";",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "generator/solvers/ahead.hpp"
 #include "generator/solvers/blocks.hpp"
 #include "generator/solvers/solve_plan.hpp"
 
@@ -304,6 +305,7 @@ SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver)
   SolvePlan plan =
       is_member ? plan_member(equations, *solver) : plan_without_member(equations, solver);
   plan.rule = solver->rule;
+  plan.ahead = waits_for_functions(plan);
   if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {
     plan.solver = fmt::format("{} substeps, each: {}", composition->substeps.size(), plan.solver);
   }
@@ -325,6 +327,7 @@ std::string to_text(const SolvePlan& plan) {
       if (!is_said) text += line + "\n";
     }
   }
+  if (plan.ahead) text += std::string(kAhead) + "\n";
   if (plan.equations.function) text += to_text(*plan.equations.function);
   text += "left out:\n";
   for (const std::string& item : plan.left_out) text += "  " + item + "\n";

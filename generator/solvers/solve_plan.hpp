@@ -70,6 +70,7 @@ struct SolvePlan {
   std::optional<int> sweeps = {};        // the paper's Algorithm 1 with this many corrector sweeps
   std::optional<ArrayPlan> arrays = {};  // set if the sums stay loops; then there are no blocks
   std::optional<StageSolver> stage_solver = {};  // of an implicit Runge-Kutta method
+  bool ahead = false;                            // are derivatives of H evaluated a step ahead?
   std::string_view rule = kFixedPointRule;       // by which a fixed point ends that is alone
   std::string solver = {};  // one line for people: "Newton of size 1; p torn out"
   std::vector<std::string> left_out = {};
@@ -87,5 +88,7 @@ struct SolvePlan {
 [[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
+// What is said of SolvePlan::ahead.
+inline constexpr std::string_view kAhead = "derivatives ahead";
 
 }  // namespace hamgen

@@ -227,6 +227,7 @@ std::vector<Identities> all_identities(const StepUnderProof& step, const SolvePl
     add(loop_member_identities(step, of_step, scheme.member(), plan.sweeps));
   } else if (scheme.has_member()) {
     parts.push_back(member_identities(step, of_step, scheme.member(), plan.sweeps));
+    if (step.code.routine("derivatives") != nullptr) parts.push_back(ready_identities(step));
     if (!plan.sweeps && step.code.routine("tangent") != nullptr) {
       parts.push_back(tangent_identities(step, of_step, scheme.member()));
     }

@@ -37,6 +37,8 @@ class FunctionValues {
 [[nodiscard]] Identities member_identities(const StepUnderProof& step,
                                            const Derivatives& derivatives, const Member& member,
                                            std::optional<int> sweeps);
+// The same solve where derivatives have been evaluated before.
+[[nodiscard]] Identities ready_identities(const StepUnderProof& step);
 // All routines of a member whose sums are loops but the energy and its tangent map.
 [[nodiscard]] std::vector<Identities> loop_member_identities(const StepUnderProof& step,
                                                              const Derivatives& derivatives,

@@ -61,6 +61,43 @@ TYPED_TEST(History, APolynomialIsGoneOnWithExactly) {
   EXPECT_EQ(past.best, 3);
 }
 
+// What comes after the next value is what the same polynomial says of it.
+TYPED_TEST(History, APolynomialIsGoneOnWithTwiceExactly) {
+  using Real = typename TypeParam::Scalar;
+  auto value = [](int k, int i) { return Real((k - 9) * (k - 10) * (k - 11 + i) + 3 * k); };
+  typename TypeParam::template Past<2> past;
+  for (int k = 0; k < 40; ++k) {
+    if (k >= 8) {
+      Real after[2];
+      TypeParam::extrapolate_twice(past, after);
+      EXPECT_TRUE(after[0] == value(k + 1, 0)) << k;
+      EXPECT_TRUE(after[1] == value(k + 1, 1)) << k;
+    }
+    const Real x[2] = {value(k, 0), value(k, 1)};
+    past.record(x);
+  }
+}
+
+// Of any sequence it is what the history would predict if its prediction came true.
+TYPED_TEST(History, ItIsGoneOnWithTwiceAsIfThePredictionCameTrue) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template Past<1> past;
+  for (int k = 0; k < 60; ++k) {
+    const Real x[1] = {Real((k * k * 7 + k * 3) % 11)};
+    past.record(x);
+    if (past.age == 15) continue;  // the next record chooses another degree
+    auto come_true = past;
+    Real next[1];
+    past.extrapolate(next);
+    come_true.record(next);
+    Real expected[1];
+    come_true.extrapolate(expected);
+    Real after[1];
+    TypeParam::extrapolate_twice(past, after);
+    EXPECT_TRUE(after[0] == expected[0]) << k;
+  }
+}
+
 // Of an alternating sequence the last value misses by 2, its line by 4, its parabola by 8.
 TYPED_TEST(History, NoDegreeIsHigherThanItHelps) {
   using Real = typename TypeParam::Scalar;

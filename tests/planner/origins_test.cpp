@@ -39,15 +39,19 @@ TEST(Origins, AreTheTermsOfHInTheirLines) {
 
 TEST(Origins, OfDerivativesAreTheTermsWithTheirVariables) {
   EXPECT_EQ(between(origins(kTwoForces), "solve(", "  return"),
-            R"(solve(par, k, h, z, carry, &start, &dz):
+            R"(solve(par, k, h, z, carry, &start, &at, &dz):
 step                  |  q = z.q
 step                  |  p = z.p
 step                  |  iterate with Newton's rule:
-iteration H 2 3       |    H(q) = c*sin(bar(q)) + bar(q)*#0
+iteration             |    if at.ready:
+iteration             |      bar(q) <- at.point[0]
+iteration             |    if not at.ready:
+iteration             |      at.point[0] <- bar(q)
+iteration             |      derivatives(par, k, at)
+iteration             |    at.ready <- false
 iteration H 2 3       |    #2 = #1*H(q)
 iteration H 2 3       |    rest(p) = #2 + carry(p)
 iteration H 2 3       |    bar(p) = p + rest(p)
-iteration H 2 3       |    H(q,q) = #0 + c*cos(bar(q))
 iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
 iteration             |    rest(q) = carry(q) + bar(p)*#3
 iteration             |    R(q) = bar(q) - q - rest(q)
@@ -71,6 +75,12 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
 run                   |  #0 <- w^2
 step size             |  #1 <- -h/2
 step size             |  #3 <- h/2
+derivatives(par, k, &at):
+iteration             |  bar(q) = at.point[0]
+iteration H 2 3       |  H(q) = c*sin(bar(q)) + bar(q)*#0
+iteration H 2 3       |  H(q,q) = #0 + c*cos(bar(q))
+iteration H 2 3       |  at.H_q <- H(q)
+iteration H 2 3       |  at.H_q_q <- H(q,q)
 )");
 }
 

@@ -8,6 +8,7 @@ namespace hamgen {
 namespace {
 
 constexpr const char* kSwing = "system swing\ncoordinate q\nmomentum p\nH = p^2/2 - cos(q)\n";
+constexpr const char* kQuartic = "system quartic\ncoordinate q\nmomentum p\nH = p^2/2 + q^4/4\n";
 
 // The routine of this name in what `show --stage program` prints.
 std::string shown(const std::string& routine, const Request& request = {},
@@ -21,7 +22,7 @@ std::string shown(const std::string& routine, const Request& request = {},
 }
 
 TEST(Propagator, TriesAgainFromTheState) {
-  EXPECT_EQ(shown("step"), R"(step():
+  EXPECT_EQ(shown("step", {}, kQuartic), R"(step():
   new State: dz
   self.start.known <- self.history.known > 0
   if self.start.known:
@@ -41,6 +42,33 @@ TEST(Propagator, TriesAgainFromTheState) {
   self.steps += 1
   return report
 )");
+}
+
+// Where the solutions before this step predict the next one, of a step that has ended well.
+TEST(Propagator, EvaluatesTheNextStepsDerivativesAhead) {
+  const std::string step = shown("step");
+  const std::size_t failed = step.find("    return report\n");
+  const std::size_t ahead = step.find(R"(  if self.start.known:
+    History.extrapolate_twice(self.history, self.at.point)
+    derivatives(self.par, self.at)
+    self.at.ready <- true
+  History.record(self.history, self.start.value)
+)");
+  ASSERT_NE(ahead, std::string::npos) << step;
+  EXPECT_LT(failed, ahead) << step;
+  EXPECT_NE(shown("reset").find("self.at <- new Derivatives\n"), std::string::npos)
+      << shown("reset");
+  const std::string solve = shown("solve");
+  const std::size_t loop = solve.find("iterate with Newton's rule:");
+  const std::size_t taken = solve.find(R"(    if at.ready:
+      bar(q) <- at.point[0]
+    if not at.ready:
+      at.point[0] <- bar(q)
+      derivatives(par, at)
+    at.ready <- false
+)");
+  ASSERT_NE(taken, std::string::npos) << solve;
+  EXPECT_LT(loop, taken) << solve;
 }
 
 TEST(Propagator, ForgetsWhatTheSubstepsOfAStepThatFailedHaveSeen) {

@@ -94,7 +94,7 @@ TEST(ReadBackOfC, ATextThatComputesTheSameIsTheSame) {
       {"k.c1 = -0.5 * h;", "k.c1 = -(h * 0x1p-1);  // half"},
       {"const double q = z->q;\n", "/* q */ double\n  q=z->q;\n"},
       {"  (void)par;\n", ""},
-      {"dz->p = rest_dp - h * H_q;", "dz->p = rest_dp + -H_q * h;"},
+      {"dz->p = rest_dp - h * at->H_q;", "dz->p = rest_dp + -at->H_q * h;"},
   };
   for (const auto& [from, to] : freedoms) {
     std::string changed = header.text;

@@ -48,6 +48,17 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        "lengths_[i] = h * fractions[i];",
        "lengths_[i] = h * fractions[0];"},
       {"q and p exchanged", "pendulum", {}, "const Real q = z.q;", "const Real q = z.p;"},
+      {"derivatives that are ready, at another point",
+       "pendulum",
+       {},
+       "if (at.ready) q_bar = at.point[0];",
+       "if (at.ready) q_bar = start.value[0];"},
+      {"taken by every iteration", "pendulum", {}, "at.ready = false;", "at.ready = true;"},
+      {"evaluated where the last step was",
+       "pendulum",
+       {},
+       "extrapolate_twice(history_, at_.point);",
+       "history_.extrapolate(at_.point);"},
       {"index of the solution", kNonseparable, {}, "delta_r = vector[1];", "delta_r = vector[2];"},
       {"stops at 1e9 eps",
        kNonseparable,
@@ -92,7 +103,7 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
        "const bool rises = at_low < 0 &&",
        "const bool rises = at_low > 0 &&"},
   };
-  EXPECT_EQ(faults.size(), 24U);
+  EXPECT_EQ(faults.size(), 27U);
   for (const Fault& fault : faults) expect_found(fault);
 }
 
@@ -134,7 +145,7 @@ TEST(ReadBackOf, ATextThatComputesTheSameIsTheSame) {
       {"k.c1 = -0.5 * h;", "k.c1 = -(h * 0x1p-1);  // half"},
       {"const Real q = z.q;\n", "/* q */ Real\n  q=z.q;\n"},
       {"delta_q = -R_q / R_q_q;", "delta_q = -(R_q / R_q_q);"},
-      {"dz.p = rest_dp - h * H_q;", "dz.p = rest_dp + -H_q * h;"},
+      {"dz.p = rest_dp - h * at.H_q;", "dz.p = rest_dp + -at.H_q * h;"},
   };
   for (const auto& [from, to] : freedoms) {
     std::string changed = header.text;
