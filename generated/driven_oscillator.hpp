@@ -75,11 +75,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_eab24986::float64 {
+namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
-#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -89,8 +89,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
-#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -100,26 +100,27 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
-#define HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
-// with the old carry in it: the new carry is what the rounded sums of all three lose.
+// with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
+// first is exact where the rest is the smaller of the two, else to the last place of the carry.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
-  Real lost = 0;
-  two_sum(increment, lost, rest);
-  two_sum(value, carry, increment);
+  const Real moved = increment + rest;
+  const Real lost = rest - (moved - increment);
+  two_sum(value, carry, moved);
   carry += lost;
 }
 #endif
 
-}  // namespace hamgen_eab24986::float64
+}  // namespace hamgen_0d4ab561::float64
 
 #ifndef HAMGEN_METHOD_driven_oscillator_implicit_midpoint
-#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0x24728f20
+#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0x9e6f6726
 namespace driven_oscillator::implicit_midpoint {
-inline namespace emitted_24728f20 {
+inline namespace emitted_9e6f6726 {
 
-namespace numerics = ::hamgen_eab24986::float64;
+namespace numerics = ::hamgen_0d4ab561::float64;
 using numerics::StepReport, numerics::two_sum_with_rest;
 
 // What depends on h and the parameters alone.
@@ -248,9 +249,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_24728f20
+}  // namespace emitted_9e6f6726
 }  // namespace driven_oscillator::implicit_midpoint
-#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0x24728f20
+#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0x9e6f6726
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

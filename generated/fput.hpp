@@ -132,11 +132,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_eab24986::float64 {
+namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
-#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -146,15 +146,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VOCABULARY
-#define HAMGEN_EAB24986_FLOAT64_VOCABULARY
+#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
-#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -164,20 +164,21 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
-#define HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
-// with the old carry in it: the new carry is what the rounded sums of all three lose.
+// with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
+// first is exact where the rest is the smaller of the two, else to the last place of the carry.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
-  Real lost = 0;
-  two_sum(increment, lost, rest);
-  two_sum(value, carry, increment);
+  const Real moved = increment + rest;
+  const Real lost = rest - (moved - increment);
+  two_sum(value, carry, moved);
   carry += lost;
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_SUMS
-#define HAMGEN_EAB24986_FLOAT64_SUMS
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUMS
+#define HAMGEN_0D4AB561_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -213,8 +214,8 @@ inline Real squares_of(const Real (&vector)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_BAND_MATRIX
-#define HAMGEN_EAB24986_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_0D4AB561_FLOAT64_BAND_MATRIX
+#define HAMGEN_0D4AB561_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -279,14 +280,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VERDICT
-#define HAMGEN_EAB24986_FLOAT64_VERDICT
+#ifndef HAMGEN_0D4AB561_FLOAT64_VERDICT
+#define HAMGEN_0D4AB561_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
-#define HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
+#define HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -376,8 +377,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_EAB24986_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_0D4AB561_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -399,8 +400,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_EAB24986_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_0D4AB561_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments and of what these are
 // rounded with, and whether each is close to its end.
 struct Distance {
@@ -466,8 +467,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_EAB24986_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_0D4AB561_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -549,8 +550,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_REFINEMENT
-#define HAMGEN_EAB24986_FLOAT64_REFINEMENT
+#ifndef HAMGEN_0D4AB561_FLOAT64_REFINEMENT
+#define HAMGEN_0D4AB561_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -645,8 +646,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_HISTORY
-#define HAMGEN_EAB24986_FLOAT64_HISTORY
+#ifndef HAMGEN_0D4AB561_FLOAT64_HISTORY
+#define HAMGEN_0D4AB561_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -738,8 +739,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_FORGET
-#define HAMGEN_EAB24986_FLOAT64_FORGET
+#ifndef HAMGEN_0D4AB561_FLOAT64_FORGET
+#define HAMGEN_0D4AB561_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -749,14 +750,14 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_eab24986::float64
+}  // namespace hamgen_0d4ab561::float64
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x3f38d8c6
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xb2167a18
 namespace fput::implicit_midpoint {
-inline namespace emitted_3f38d8c6 {
+inline namespace emitted_b2167a18 {
 
-namespace numerics = ::hamgen_eab24986::float64;
+namespace numerics = ::hamgen_0d4ab561::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -1020,9 +1021,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_3f38d8c6
+}  // namespace emitted_b2167a18
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x3f38d8c6
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xb2167a18
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

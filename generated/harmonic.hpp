@@ -11,8 +11,9 @@
 //   solve     linear solve of size 2 for q, p, constant matrix hoisted
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per step: 15 + - *
+//   cost      per step: 69 + - *
 #pragma once
+#include <cmath>
 
 #if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ || \
     defined __NO_SIGNED_ZEROS__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__ > 0)
@@ -64,11 +65,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_eab24986::float64 {
+namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
-#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -78,8 +79,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
-#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+inline Real magnitude(Real x) { return std::fabs(x); }
+inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
+inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
+#endif
+
+#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -89,41 +97,72 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
-#define HAMGEN_EAB24986_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
-// with the old carry in it: the new carry is what the rounded sums of all three lose.
+// with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
+// first is exact where the rest is the smaller of the two, else to the last place of the carry.
 inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
-  Real lost = 0;
-  two_sum(increment, lost, rest);
-  two_sum(value, carry, increment);
+  const Real moved = increment + rest;
+  const Real lost = rest - (moved - increment);
+  two_sum(value, carry, moved);
   carry += lost;
 }
 #endif
 
-}  // namespace hamgen_eab24986::float64
+#ifndef HAMGEN_0D4AB561_FLOAT64_PRODUCT_ERROR
+#define HAMGEN_0D4AB561_FLOAT64_PRODUCT_ERROR
+// x * y less its rounded value, by Dekker's product of halves: exact without a fused multiply-add,
+// unless 2^27 x overflows.
+inline Real product_error(Real x, Real y) {
+  constexpr auto find_splitter = [] {
+    Real power = 1;
+    while (power * power * epsilon < 2) power *= 2;
+    return power + 1;
+  };
+  constexpr Real splitter = find_splitter();
+  const Real large_x = splitter * x;
+  const Real large_y = splitter * y;
+  const Real x_hi = large_x - (large_x - x);
+  const Real y_hi = large_y - (large_y - y);
+  const Real x_lo = x - x_hi;
+  const Real y_lo = y - y_hi;
+  return x_lo * y_lo - (((x * y - x_hi * y_hi) - x_lo * y_hi) - x_hi * y_lo);
+}
+#endif
+
+#ifndef HAMGEN_0D4AB561_FLOAT64_DIFFERENCE_ERROR
+#define HAMGEN_0D4AB561_FLOAT64_DIFFERENCE_ERROR
+// x - y less its rounded value (Knuth): exact whatever their sizes.
+inline Real difference_error(Real x, Real y) {
+  const Real difference = x - y;
+  const Real part = x - difference;
+  return (x - (difference + part)) + (part - y);
+}
+#endif
+
+}  // namespace hamgen_0d4ab561::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xc732deea
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xc357b940
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_c732deea {
+inline namespace emitted_c357b940 {
 
-namespace numerics = ::hamgen_eab24986::float64;
-using numerics::StepReport, numerics::two_sum_with_rest;
+namespace numerics = ::hamgen_0d4ab561::float64;
+using numerics::StepReport, numerics::two_sum_with_rest, numerics::product_error,
+    numerics::difference_error;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
-  Real c1 = 0.0;   // w^2
-  Real c2 = 0.0;   // h*w^2/2
-  Real c3 = 0.0;   // 1/(1 + h^2*w^2/4)
-  Real c4 = 0.0;   // h/2/(1 + h^2*w^2/4)
-  Real c5 = 0.0;   // -h*w^2/2/(1 + h^2*w^2/4)
-  Real c6 = 0.0;   // h/2
-  Real c7 = 0.0;   // -h/2
-  Real c8 = 0.0;   // h/(1 + h^2*w^2/4)
-  Real c9 = 0.0;   // -h^2*w^2/2/(1 + h^2*w^2/4)
-  Real c10 = 0.0;  // h*w^2/(1 + h^2*w^2/4)
-  Real c11 = 0.0;  // h^2*w^2/2/(1 + h^2*w^2/4)
+  Real c1 = 0.0;  // w^2
+  Real c2 = 0.0;  // h*w^2/2
+  Real c3 = 0.0;  // 1/(1 + h^2*w^2/4)
+  Real c4 = 0.0;  // h/2/(1 + h^2*w^2/4)
+  Real c5 = 0.0;  // -h*w^2/2/(1 + h^2*w^2/4)
+  Real c6 = 0.0;  // h/(1 + h^2*w^2/4)
+  Real c7 = 0.0;  // -h^2*w^2/2/(1 + h^2*w^2/4)
+  Real c8 = 0.0;  // h*w^2/(1 + h^2*w^2/4)
+  Real c9 = 0.0;  // h^2*w^2/2/(1 + h^2*w^2/4)
 };
 
 inline Coefficients prepare(const Parameters& par, Real h) {
@@ -133,12 +172,10 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   k.c3 = 1.0 / (1.0 + 0.5 * h * k.c2);
   k.c4 = 0.5 * h * k.c3;
   k.c5 = -k.c3 * k.c2;
-  k.c6 = 0.5 * h;
-  k.c7 = -0.5 * h;
-  k.c8 = h * k.c3;
-  k.c9 = h * k.c5;
-  k.c10 = h * k.c3 * k.c1;
-  k.c11 = h * k.c4 * k.c1;
+  k.c6 = h * k.c3;
+  k.c7 = h * k.c5;
+  k.c8 = h * k.c3 * k.c1;
+  k.c9 = h * k.c4 * k.c1;
   return k;
 }
 
@@ -151,14 +188,24 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   const Real q_bar = q * k.c3 + p * k.c4;
   const Real p_bar = q * k.c5 + p * k.c3;
   const Real H_q = q_bar * k.c1;
-  const Real rest_q = carry.q + p_bar * k.c6;
-  const Real R_q = q_bar - q - rest_q;
-  const Real rest_p = carry.p + k.c7 * H_q;
-  const Real R_p = p_bar - p - rest_p;
-  dz.q = h * p_bar;
-  rest.q = carry.q - k.c8 * R_p - k.c9 * R_q;
-  dz.p = -h * H_q;
-  rest.p = carry.p + k.c10 * R_q + k.c11 * R_p;
+  const Real rest_lack_q = q_bar - q;
+  const Real lost_lack_q = difference_error(q_bar, q);
+  const Real h_H_p = h * p_bar;
+  const Real lost_h_H_p = product_error(h, p_bar);
+  const Real rest_lack_q_new = -(0.5 * h_H_p - rest_lack_q);
+  const Real rest_beside_q = carry.q + 0.5 * lost_h_H_p - lost_lack_q;
+  const Real R_q = -(rest_beside_q - rest_lack_q_new);
+  const Real rest_lack_p = p_bar - p;
+  const Real lost_lack_p = difference_error(p_bar, p);
+  const Real h_H_q = h * H_q;
+  const Real lost_h_H_q = product_error(h, H_q);
+  const Real rest_lack_p_new = 0.5 * h_H_q + rest_lack_p;
+  const Real rest_beside_p = carry.p - 0.5 * lost_h_H_q - lost_lack_p;
+  const Real R_p = -(rest_beside_p - rest_lack_p_new);
+  dz.q = h_H_p;
+  rest.q = carry.q + lost_h_H_p - k.c6 * R_p - k.c7 * R_q;
+  dz.p = -h_H_q;
+  rest.p = carry.p - lost_h_H_q + k.c8 * R_q + k.c9 * R_p;
   // False for infinities and NaN alike.
   const Real length = dz.q * dz.q + rest.q * rest.q + dz.p * dz.p + rest.p * rest.p;
   report.converged = length <= 1.0e308;
@@ -234,9 +281,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_c732deea
+}  // namespace emitted_c357b940
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xc732deea
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xc357b940
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

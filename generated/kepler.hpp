@@ -13,7 +13,7 @@
 //             gamma terms: gamma = 0
 //             parameters e: the step does not use them
 //             2 of the unknowns: torn out
-//   cost      per iteration: 52 + - *, 2 /, 1 sqrt and functions; per step besides: 18 + - *
+//   cost      per iteration: 52 + - *, 2 /, 1 sqrt and functions; per step besides: 8 + - *
 #pragma once
 #include <cmath>
 
@@ -92,11 +92,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_eab24986::float64 {
+namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
-#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -106,15 +106,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VOCABULARY
-#define HAMGEN_EAB24986_FLOAT64_VOCABULARY
+#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
-#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -124,14 +124,27 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VERDICT
-#define HAMGEN_EAB24986_FLOAT64_VERDICT
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
+// first is exact where the rest is the smaller of the two, else to the last place of the carry.
+inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
+  const Real moved = increment + rest;
+  const Real lost = rest - (moved - increment);
+  two_sum(value, carry, moved);
+  carry += lost;
+}
+#endif
+
+#ifndef HAMGEN_0D4AB561_FLOAT64_VERDICT
+#define HAMGEN_0D4AB561_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
-#define HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
+#define HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -221,8 +234,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_HISTORY
-#define HAMGEN_EAB24986_FLOAT64_HISTORY
+#ifndef HAMGEN_0D4AB561_FLOAT64_HISTORY
+#define HAMGEN_0D4AB561_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -314,8 +327,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_FORGET
-#define HAMGEN_EAB24986_FLOAT64_FORGET
+#ifndef HAMGEN_0D4AB561_FLOAT64_FORGET
+#define HAMGEN_0D4AB561_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -325,15 +338,15 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_eab24986::float64
+}  // namespace hamgen_0d4ab561::float64
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x4ec374bf
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x58dad1b1
 namespace kepler::implicit_midpoint {
-inline namespace emitted_4ec374bf {
+inline namespace emitted_58dad1b1 {
 
-namespace numerics = ::hamgen_eab24986::float64;
-using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
+namespace numerics = ::hamgen_0d4ab561::float64;
+using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
 // What depends on h and the parameters alone.
@@ -356,20 +369,21 @@ struct Start {
   NewtonRule<2> rule_0;
 };
 
-// dz = Z - z for one step from z + carry.
+// dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, Start& start, State& dz) {
+                                      const State& z, const State& carry, Start& start, State& dz,
+                                      State& rest) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
   const Real p1 = z.p1;
   const Real p2 = z.p2;
   Real H_q1 = 0.0;
-  Real t1 = 0.0;
+  Real p1_bar = 0.0;
   Real H_q1_q1 = 0.0;
   Real H_q1_q2 = 0.0;
   Real H_q2 = 0.0;
-  Real t2 = 0.0;
+  Real p2_bar = 0.0;
   Real H_q2_q2 = 0.0;
   Real delta_q1 = 0.0;
   Real delta_q2 = 0.0;
@@ -378,28 +392,26 @@ struct Start {
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
   start.rule_0.begin(start.known);
   for (int iteration = 1;; ++iteration) {
-    const Real t3 = q1_bar * q1_bar;
-    const Real t4 = q2_bar * q2_bar;
-    const Real t5 = t3 + t4;
-    const Real t6 = 1.0 / t5;
-    const Real t7 = std::sqrt(t5);
-    const Real t8 = t6 * t7;
+    const Real t1 = q1_bar * q1_bar;
+    const Real t2 = q2_bar * q2_bar;
+    const Real t3 = t1 + t2;
+    const Real t4 = 1.0 / t3;
+    const Real t5 = std::sqrt(t3);
+    const Real t6 = t4 * t5;
+    const Real t7 = t4 * t6;
+    H_q1 = q1_bar * t7;
+    const Real rest_p1 = carry.p1 + k.c1 * H_q1;
+    p1_bar = p1 + rest_p1;
+    const Real t8 = t4 * t4;
     const Real t9 = t6 * t8;
-    H_q1 = q1_bar * t9;
-    t1 = k.c1 * H_q1;
-    const Real rest_p1 = t1 + carry.p1;
-    const Real p1_bar = p1 + rest_p1;
-    const Real t10 = t6 * t6;
-    const Real t11 = t8 * t10;
-    H_q1_q1 = t9 - 3.0 * t3 * t11;
+    H_q1_q1 = t7 - 3.0 * t1 * t9;
     const Real d_p1_d_q1 = k.c1 * H_q1_q1;
-    H_q1_q2 = -3.0 * q1_bar * q2_bar * t11;
+    H_q1_q2 = -3.0 * q1_bar * q2_bar * t9;
     const Real d_p1_d_q2 = k.c1 * H_q1_q2;
-    H_q2 = q2_bar * t9;
-    t2 = k.c1 * H_q2;
-    const Real rest_p2 = t2 + carry.p2;
-    const Real p2_bar = p2 + rest_p2;
-    H_q2_q2 = t9 - 3.0 * t4 * t11;
+    H_q2 = q2_bar * t7;
+    const Real rest_p2 = carry.p2 + k.c1 * H_q2;
+    p2_bar = p2 + rest_p2;
+    H_q2_q2 = t7 - 3.0 * t2 * t9;
     const Real d_p2_d_q2 = k.c1 * H_q2_q2;
     const Real rest_q1 = carry.q1 + p1_bar * k.c2;
     const Real rest_q2 = carry.q2 + p2_bar * k.c2;
@@ -432,20 +444,19 @@ struct Start {
   // The last increments correct the gradient to first order: no evaluation at the solution.
   const Real change_H_q1 = delta_q1 * H_q1_q1 + delta_q2 * H_q1_q2;
   const Real change_H_q2 = delta_q1 * H_q1_q2 + delta_q2 * H_q2_q2;
-  const Real rest_beside_p1 = carry.p1 + k.c1 * change_H_q1;
-  const Real rest_p1_new = t1 + rest_beside_p1;
-  const Real p1_bar_new = p1 + rest_p1_new;
-  const Real rest_beside_p2 = carry.p2 + k.c1 * change_H_q2;
-  const Real rest_p2_new = t2 + rest_beside_p2;
-  const Real p2_bar_new = p2 + rest_p2_new;
-  const Real rest_dp1 = carry.p1 - h * change_H_q1;
-  const Real rest_dp2 = carry.p2 - h * change_H_q2;
-  dz.q1 = carry.q1 + h * p1_bar_new;
-  dz.q2 = carry.q2 + h * p2_bar_new;
-  dz.p1 = rest_dp1 - h * H_q1;
-  dz.p2 = rest_dp2 - h * H_q2;
+  const Real change_H_p1 = k.c1 * change_H_q1;
+  const Real change_H_p2 = k.c1 * change_H_q2;
+  dz.q1 = h * p1_bar;
+  rest.q1 = carry.q1 + h * change_H_p1;
+  dz.q2 = h * p2_bar;
+  rest.q2 = carry.q2 + h * change_H_p2;
+  dz.p1 = -h * H_q1;
+  rest.p1 = carry.p1 - h * change_H_q1;
+  dz.p2 = -h * H_q2;
+  rest.p2 = carry.p2 - h * change_H_q2;
   // False for infinities and NaN alike.
-  const Real length = dz.q1 * dz.q1 + dz.q2 * dz.q2 + dz.p1 * dz.p1 + dz.p2 * dz.p2;
+  const Real length = dz.q1 * dz.q1 + rest.q1 * rest.q1 + dz.q2 * dz.q2 + rest.q2 * rest.q2 +
+                      dz.p1 * dz.p1 + rest.p1 * rest.p1 + dz.p2 * dz.p2 + rest.p2 * rest.p2;
   report.converged = length <= 1.0e308;
   if (!report.converged) report.increment = length;
   return report;
@@ -455,13 +466,13 @@ struct Start {
 [[nodiscard]] inline StepReport step(const Parameters& par, Real h, State& z) {
   const Coefficients k = prepare(par, h);
   Start start;
-  State dz;
-  const StepReport report = solve(par, k, h, z, State(), start, dz);
+  State dz, rest;
+  const StepReport report = solve(par, k, h, z, State(), start, dz, rest);
   if (!report.converged) return report;
-  z.q1 += dz.q1;
-  z.q2 += dz.q2;
-  z.p1 += dz.p1;
-  z.p2 += dz.p2;
+  z.q1 += dz.q1 + rest.q1;
+  z.q2 += dz.q2 + rest.q2;
+  z.p1 += dz.p1 + rest.p1;
+  z.p2 += dz.p2 + rest.p2;
   return report;
 }
 
@@ -473,24 +484,24 @@ class Propagator {
 
   // One step; on failure the state stays as it was.
   StepReport step() {
-    State dz;
+    State dz, rest;
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, dz, rest);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const long long wasted = report.iterations;
       start_ = Start();
-      report = solve(par_, k_, h_, z_, carry_, start_, dz);
+      report = solve(par_, k_, h_, z_, carry_, start_, dz, rest);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
     start_.rule_0.watch(history_, start_.value, 0, 2);
     history_.record(start_.value);
-    two_sum(z_.q1, carry_.q1, dz.q1);
-    two_sum(z_.q2, carry_.q2, dz.q2);
-    two_sum(z_.p1, carry_.p1, dz.p1);
-    two_sum(z_.p2, carry_.p2, dz.p2);
+    two_sum_with_rest(z_.q1, carry_.q1, dz.q1, rest.q1);
+    two_sum_with_rest(z_.q2, carry_.q2, dz.q2, rest.q2);
+    two_sum_with_rest(z_.p1, carry_.p1, dz.p1, rest.p1);
+    two_sum_with_rest(z_.p2, carry_.p2, dz.p2, rest.p2);
     ++steps_;
     return report;
   }
@@ -539,9 +550,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_4ec374bf
+}  // namespace emitted_58dad1b1
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x4ec374bf
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x58dad1b1
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

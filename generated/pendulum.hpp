@@ -12,7 +12,7 @@
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
 //             1 of the unknowns: torn out
-//   cost      per iteration: 12 + - *, 1 /, 2 sqrt and functions; per step besides: 7 + - *
+//   cost      per iteration: 12 + - *, 1 /, 2 sqrt and functions; per step besides: 2 + - *
 #pragma once
 #include <cmath>
 
@@ -66,11 +66,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_eab24986::float64 {
+namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EAB24986_FLOAT64_STEP_REPORT
-#define HAMGEN_EAB24986_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -80,15 +80,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VOCABULARY
-#define HAMGEN_EAB24986_FLOAT64_VOCABULARY
+#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_TWO_SUM
-#define HAMGEN_EAB24986_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -98,14 +98,27 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_VERDICT
-#define HAMGEN_EAB24986_FLOAT64_VERDICT
+#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+// value + carry = value + increment + rest, for an increment that is not small and a rest that is,
+// with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
+// first is exact where the rest is the smaller of the two, else to the last place of the carry.
+inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real rest) {
+  const Real moved = increment + rest;
+  const Real lost = rest - (moved - increment);
+  two_sum(value, carry, moved);
+  carry += lost;
+}
+#endif
+
+#ifndef HAMGEN_0D4AB561_FLOAT64_VERDICT
+#define HAMGEN_0D4AB561_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
-#define HAMGEN_EAB24986_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
+#define HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -195,8 +208,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_HISTORY
-#define HAMGEN_EAB24986_FLOAT64_HISTORY
+#ifndef HAMGEN_0D4AB561_FLOAT64_HISTORY
+#define HAMGEN_0D4AB561_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -288,8 +301,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_FORGET
-#define HAMGEN_EAB24986_FLOAT64_FORGET
+#ifndef HAMGEN_0D4AB561_FLOAT64_FORGET
+#define HAMGEN_0D4AB561_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -299,8 +312,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_EAB24986_FLOAT64_AHEAD
-#define HAMGEN_EAB24986_FLOAT64_AHEAD
+#ifndef HAMGEN_0D4AB561_FLOAT64_AHEAD
+#define HAMGEN_0D4AB561_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -315,15 +328,15 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_eab24986::float64
+}  // namespace hamgen_0d4ab561::float64
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x884cac0a
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x2cf32992
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_884cac0a {
+inline namespace emitted_2cf32992 {
 
-namespace numerics = ::hamgen_eab24986::float64;
-using numerics::StepReport, numerics::magnitude, numerics::two_sum, numerics::Verdict,
+namespace numerics = ::hamgen_0d4ab561::float64;
+using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
 // What depends on h and the parameters alone.
@@ -363,14 +376,14 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
   at.H_q_q = H_q_q;
 }
 
-// dz = Z - z for one step from z + carry.
+// dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
                                       const State& z, const State& carry, Start& start,
-                                      Derivatives& at, State& dz) {
+                                      Derivatives& at, State& dz, State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
-  Real t1 = 0.0;
+  Real p_bar = 0.0;
   Real delta_q = 0.0;
   Real q_bar = start.known ? start.value[0] : q;
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
@@ -382,9 +395,8 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
       derivatives(par, at);
     }
     at.ready = false;
-    t1 = k.c1 * at.H_q;
-    const Real rest_p = t1 + carry.p;
-    const Real p_bar = p + rest_p;
+    const Real rest_p = carry.p + k.c1 * at.H_q;
+    p_bar = p + rest_p;
     const Real d_p_d_q = k.c1 * at.H_q_q;
     const Real rest_q = carry.q + p_bar * k.c2;
     const Real R_q = q_bar - q - rest_q;
@@ -407,14 +419,13 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
   start.value[0] = q_bar + delta_q;
   // The last increments correct the gradient to first order: no evaluation at the solution.
   const Real change_H_q = delta_q * at.H_q_q;
-  const Real rest_beside_p = carry.p + k.c1 * change_H_q;
-  const Real rest_p_new = t1 + rest_beside_p;
-  const Real p_bar_new = p + rest_p_new;
-  const Real rest_dp = carry.p - h * change_H_q;
-  dz.q = carry.q + h * p_bar_new;
-  dz.p = rest_dp - h * at.H_q;
+  const Real change_H_p = k.c1 * change_H_q;
+  dz.q = h * p_bar;
+  rest.q = carry.q + h * change_H_p;
+  dz.p = -h * at.H_q;
+  rest.p = carry.p - h * change_H_q;
   // False for infinities and NaN alike.
-  const Real length = dz.q * dz.q + dz.p * dz.p;
+  const Real length = dz.q * dz.q + rest.q * rest.q + dz.p * dz.p + rest.p * rest.p;
   report.converged = length <= 1.0e308;
   if (!report.converged) report.increment = length;
   return report;
@@ -425,11 +436,11 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
   const Coefficients k = prepare(par, h);
   Start start;
   Derivatives at;
-  State dz;
-  const StepReport report = solve(par, k, h, z, State(), start, at, dz);
+  State dz, rest;
+  const StepReport report = solve(par, k, h, z, State(), start, at, dz, rest);
   if (!report.converged) return report;
-  z.q += dz.q;
-  z.p += dz.p;
+  z.q += dz.q + rest.q;
+  z.p += dz.p + rest.p;
   return report;
 }
 
@@ -441,15 +452,15 @@ class Propagator {
 
   // One step; on failure the state stays as it was.
   StepReport step() {
-    State dz;
+    State dz, rest;
     start_.known = history_.known > 0;
     if (start_.known) history_.extrapolate(start_.value);
-    StepReport report = solve(par_, k_, h_, z_, carry_, start_, at_, dz);
+    StepReport report = solve(par_, k_, h_, z_, carry_, start_, at_, dz, rest);
     if (!report.converged && start_.known) {
       // Extrapolation may lead astray, the state itself seldom does.
       const long long wasted = report.iterations;
       start_ = Start();
-      report = solve(par_, k_, h_, z_, carry_, start_, at_, dz);
+      report = solve(par_, k_, h_, z_, carry_, start_, at_, dz, rest);
       report.iterations += wasted;
     }
     if (!report.converged) return report;
@@ -462,8 +473,8 @@ class Propagator {
       at_.ready = true;
     }
     history_.record(start_.value);
-    two_sum(z_.q, carry_.q, dz.q);
-    two_sum(z_.p, carry_.p, dz.p);
+    two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);
+    two_sum_with_rest(z_.p, carry_.p, dz.p, rest.p);
     ++steps_;
     return report;
   }
@@ -514,9 +525,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_884cac0a
+}  // namespace emitted_2cf32992
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x884cac0a
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x2cf32992
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -145,6 +145,10 @@ std::vector<Row> all_rows() {
   add(rows, stiff, "midpoint", {});
   add(rows, stiff, "gauss-4", {.scheme = "gauss-4"});
 
+  const Problem large{.name = "oscillator, h w = 1.3", .model = oscillator(), .h = 1};
+  add(rows, large, "midpoint", {});
+  add(rows, large, "gauss-4", {.scheme = "gauss-4"});
+
   const Problem orbit{.name = "Kepler, L",
                       .model = kepler(),
                       .conserved = Conserved::invariant,
@@ -179,6 +183,14 @@ std::vector<Row> all_rows() {
     add(rows, six_at_large, std::string(scheme) + ", Newton",
         {.scheme = scheme, .solver = "newton"});
   }
+  // h omega is 2.3 for the fastest.
+  const Problem six_at_one{.name = "chain of 6, h = 1", .model = chain(6), .h = 1};
+  add(rows, six_at_one, "midpoint", {});
+  add(rows, six_at_one, "gauss-4", {.scheme = "gauss-4"});
+  const Problem soft_at_one{.name = "soft chain of 6, h = 1", .model = soft_chain(6), .h = 1};
+  add(rows, soft_at_one, "midpoint", {});
+  const Problem band_at_one{.name = "chain of 25, loops, h = 1", .model = chain(25), .h = 1};
+  add(rows, band_at_one, "midpoint", {});
   const Problem thirty{.name = "chain of 30, Eigen", .model = chain(30)};
   add(rows, thirty, "midpoint", {.alpha = list_of(30, "1/2")});
 

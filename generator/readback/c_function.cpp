@@ -69,6 +69,7 @@ class AddressReader {
   void read(CppArgument& argument) {
     using Pass = CppArgument::Pass;
     argument.type = type(argument.type, function_.line);
+    if (argument.name.empty()) differ(function_.line, "an argument without a name");
     const bool address = argument.pass == Pass::pointer;
     if (argument.pass != Pass::value && !address)
       differ(function_.line, "an argument that C has not");

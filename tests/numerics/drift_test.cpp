@@ -68,14 +68,14 @@ TEST(Drift, AnAffineBlockNeedsWhatItsEquationsLack) {
 }
 
 TEST(Drift, AnAffineBlockNeedsASumWithoutAnError) {
-  expect_drift_only_with({{"carry += lost;", ""}},
-                         {.model = oscillator(), .request = {}, .h = 1});
+  expect_drift_only_with({{"carry += lost;", ""}}, {.model = oscillator(), .request = {}, .h = 7},
+                         {.starts = 32});
 }
 
 // Of a large step what zbar - z loses is as much as what the equations lack.
 TEST(Drift, AnAffineBlockOfALargeStepNeedsWhatDifferencesLose) {
   expect_drift_only_with({{"= difference_error(", "= 0 * difference_error("}},
-                         {.model = oscillator(), .request = {}, .h = 1});
+                         {.model = oscillator(), .request = {}, .h = 1}, {.starts = 32});
 }
 
 TEST(Drift, AnAffineBlockNeedsWhatProductsWithHLose) {
@@ -84,12 +84,11 @@ TEST(Drift, AnAffineBlockNeedsWhatProductsWithHLose) {
 }
 
 // The momenta are those with which the equations hold, and what the last increment adds is beside
-// them.
+// them: where they took it in, this row drifted by 3e-3 units.
 TEST(Drift, ALargeStepOfNewtonMovesByWhatItsEquationsWereSolvedWith) {
   expect_drift_only_with({{"= carry.q[0] + h * change_H_p_1", "= carry.q[0]"},
-                          {"= carry.q[1] + h * change_H_p_2", "= carry.q[1]"},
-                          {"= carry.q[2] + h * change_H_p_3", "= carry.q[2]"}},
-                         {.model = soft_chain(3), .request = {}, .h = 1});
+                          {"= carry.q[1] + h * change_H_p_2", "= carry.q[1]"}},
+                         {.model = soft_chain(6), .request = {}, .h = 1});
 }
 
 // What rounding takes from a product with a simple fraction is a pattern.
@@ -132,7 +131,7 @@ TEST(Drift, WhatGaussStagesLackIsSummedFromTheirDifference) {
 // Which of two neighbours the rounded stages are depends on where they came from.
 TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
   expect_drift_only_with({{"start.refinement.change[", "0 * start.refinement.change["}},
-                         {.model = chain(6), .request = {.scheme = "gauss-4"}, .h = 0.3});
+                         {.model = chain(6), .request = {.scheme = "gauss-4"}, .h = 0.2});
 }
 
 // The row of a momentum that is affine in itself, with a factor that is rounded alike at every
@@ -140,7 +139,7 @@ TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
 TEST(Drift, ATornMomentumIsSolvedForWhatItsRowLacks) {
   expect_drift_only_with(
       {{" + k.c2 * (rest_beside", " + 0 * k.c2 * (rest_beside"}},
-      {.model = chain(6), .request = {.alpha = "3/10", .beta = "1/7", .gamma = "-1/9"}});
+      {.model = soft_chain(6), .request = {.alpha = "3/10", .beta = "1/7", .gamma = "-1/9"}});
 }
 
 TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {

@@ -39,7 +39,7 @@ TEST(Origins, AreTheTermsOfHInTheirLines) {
 
 TEST(Origins, OfDerivativesAreTheTermsWithTheirVariables) {
   EXPECT_EQ(between(origins(kTwoForces), "solve(", "  return"),
-            R"(solve(par, k, h, z, carry, &start, &at, &dz):
+            R"(solve(par, k, h, z, carry, &start, &at, &dz, &rest):
 step                  |  q = z.q
 step                  |  p = z.p
 step                  |  iterate with Newton's rule:
@@ -49,22 +49,20 @@ iteration             |    if not at.ready:
 iteration             |      at.point[0] <- bar(q)
 iteration             |      derivatives(par, k, at)
 iteration             |    at.ready <- false
-iteration H 2 3       |    #2 = #1*H(q)
-iteration H 2 3       |    rest(p) = #2 + carry(p)
+iteration H 2 3       |    rest(p) = carry(p) + #1*H(q)
 iteration H 2 3       |    bar(p) = p + rest(p)
 iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
-iteration             |    rest(q) = carry(q) + bar(p)*#3
+iteration             |    rest(q) = carry(q) + bar(p)*#2
 iteration             |    R(q) = bar(q) - q - rest(q)
 iteration H 2 3       |    R(q,q) = 1 + #1*d(p)/d(q)
 iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
-step      H 2 3       |  rest(beside p) = carry(p) + #1*change(H(q))
-step      H 2 3       |  rest(p)* = #2 + rest(beside p)
-step      H 2 3       |  bar(p)* = p + rest(p)*
-step      H 2 3       |  rest(dp) = carry(p) - h*change(H(q))
-step      H 1         |  dz.q <- carry(q) + h*bar(p)*
-step      H 2 3       |  dz.p <- rest(dp) - h*H(q)
+step      H 2 3       |  change(H(p)) = #1*change(H(q))
+step      H 1         |  dz.q <- h*bar(p)
+step      H 1         |  rest.q <- carry(q) + h*change(H(p))
+step      H 2 3       |  dz.p <- -h*H(q)
+step      H 2 3       |  rest.p <- carry(p) - h*change(H(q))
 step                  |)");
 }
 
@@ -74,7 +72,7 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
             R"(prepare(par, h):
 run                   |  #0 <- w^2
 step size             |  #1 <- -h/2
-step size             |  #3 <- h/2
+step size             |  #2 <- h/2
 derivatives(par, k, &at):
 iteration             |  bar(q) = at.point[0]
 iteration H 2 3       |  H(q) = c*sin(bar(q)) + bar(q)*#0

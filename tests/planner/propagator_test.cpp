@@ -23,22 +23,22 @@ std::string shown(const std::string& routine, const Request& request = {},
 
 TEST(Propagator, TriesAgainFromTheState) {
   EXPECT_EQ(shown("step", {}, kQuartic), R"(step():
-  new State: dz
+  new State: dz, rest
   self.start.known <- self.history.known > 0
   if self.start.known:
     History.extrapolate(self.history, self.start.value)
-  report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz)
+  report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz, rest)
   if not report.converged and self.start.known:
     wasted = report.iterations
     self.start <- new Start
-    report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz)
+    report <- solve(self.par, self.k, self.h, self.z, self.carry, self.start, dz, rest)
     report.iterations += wasted
   if not report.converged:
     return report
   NewtonRule.watch(self.start.rule_0, self.history, self.start.value, 0, 1)
   History.record(self.history, self.start.value)
-  two_sum(self.z.q, self.carry.q, dz.q)
-  two_sum(self.z.p, self.carry.p, dz.p)
+  two_sum_with_rest(self.z.q, self.carry.q, dz.q, rest.q)
+  two_sum_with_rest(self.z.p, self.carry.p, dz.p, rest.p)
   self.steps += 1
   return report
 )");

@@ -26,8 +26,9 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
       {"dz added twice",
        "pendulum",
        {},
-       "two_sum(z_.q, carry_.q, dz.q);",
-       "two_sum(z_.q, carry_.q, dz.q);\n    two_sum(z_.q, carry_.q, dz.q);"},
+       "two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);",
+       "two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);\n"
+       "    two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);"},
       {"what is written may be what is read",
        "fput",
        {.scheme = "gauss-4"},
@@ -109,7 +110,11 @@ TEST(PlantedFault, OfTheTextIsFoundAtItsLine) {
 
 TEST(PlantedFault, OfRoundingAloneIsFound) {
   const std::vector<Fault> faults = {
-      {"carry dropped", "pendulum", {}, "two_sum(z_.p, carry_.p, dz.p);", "z_.p += dz.p;"},
+      {"carry dropped",
+       "pendulum",
+       {},
+       "two_sum_with_rest(z_.p, carry_.p, dz.p, rest.p);",
+       "z_.p += dz.p + rest.p;"},
       {"order of a sum", "pendulum", {}, "q_bar - q - rest_q", "q_bar - (q + rest_q)"},
       {"order of a product",
        "pendulum",
@@ -145,7 +150,7 @@ TEST(ReadBackOf, ATextThatComputesTheSameIsTheSame) {
       {"k.c1 = -0.5 * h;", "k.c1 = -(h * 0x1p-1);  // half"},
       {"const Real q = z.q;\n", "/* q */ Real\n  q=z.q;\n"},
       {"delta_q = -R_q / R_q_q;", "delta_q = -(R_q / R_q_q);"},
-      {"dz.p = rest_dp - h * at.H_q;", "dz.p = rest_dp + -at.H_q * h;"},
+      {"rest.p = carry.p - h * change_H_q;", "rest.p = carry.p + -change_H_q * h;"},
   };
   for (const auto& [from, to] : freedoms) {
     std::string changed = header.text;
@@ -166,8 +171,8 @@ TEST(ReadBackOf, NamesOfLocalsAreFree) {
   EXPECT_EQ(header.read(changed).outcome, ReadBack::Outcome::same);
   // ... but not where two become one.
   changed = header.text;
-  const std::size_t at = changed.find("const Real rest_dp = carry.p");
-  changed.replace(at, 18, "const Real H_q_new");
+  const std::size_t at = changed.find("const Real change_H_p = ");
+  changed.replace(at, 21, "const Real change_H_q");
   EXPECT_NE(header.read(changed).outcome, ReadBack::Outcome::same);
 }
 
@@ -200,7 +205,7 @@ TEST(ReadBackOf, WhatIsNotUnderstoodIsNotProved) {
 // A comment that swallows the next line for a compiler: nothing of it may be taken for code.
 TEST(ReadBackOf, CommentsThatGoOnAreNotUnderstood) {
   const Emitted header = emitted("pendulum", {});
-  const std::string from = "  two_sum(z_.q, carry_.q, dz.q);";
+  const std::string from = "  two_sum_with_rest(z_.q, carry_.q, dz.q, rest.q);";
   for (const char* before :
        {"// \\\n", "// \\ \t\n", "// \\\r\n", "// ?\?/\n", "/* *\\\n/ z_.q = 0; /* */",
         "/* *\\ \n/ z_.q = 0; /* */", "// \rz_.q = 0;\n"}) {
