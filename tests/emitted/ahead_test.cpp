@@ -30,12 +30,12 @@ int main() {
     derivatives(par, ready);
     ready.ready = true;
     other.value[0] = 7;  // of no consequence
-    State dz, dz_ready;
-    const StepReport report = solve(par, k, h, z, carry, start, fresh, dz);
-    const StepReport report_ready = solve(par, k, h, z, carry, other, ready, dz_ready);
+    State dz, dz_ready, rest, rest_ready;
+    const StepReport report = solve(par, k, h, z, carry, start, fresh, dz, rest);
+    const StepReport report_ready = solve(par, k, h, z, carry, other, ready, dz_ready, rest_ready);
     if (!report.converged || !report_ready.converged) std::puts("no solution");
     if (report.iterations != report_ready.iterations) std::puts("other iterations");
-    if (!same(dz, dz_ready)) std::puts("another step");
+    if (!same(dz, dz_ready) || !same(rest, rest_ready)) std::puts("another step");
     if (start.value[0] != other.value[0]) std::puts("another solution");
     if (fresh.ready || ready.ready) std::puts("taken, and ready again");
   }
