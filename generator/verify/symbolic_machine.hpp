@@ -45,7 +45,7 @@ struct IterationTrace {
   std::vector<Expression> refined_at = {};
   std::vector<Expression> refined_lack = {};
   std::vector<Expression> moved_lack = {};  // by another routine, as it would say of that point
-  std::set<std::string> inside = {};  // definitions that depend on the unknowns
+  std::set<std::string> inside = {};        // definitions that depend on the unknowns
 };
 struct SweepTrace {
   int count = 0;
@@ -153,7 +153,7 @@ class SymbolicMachine {
   std::set<std::string> symmetric_;  // of them
   std::vector<Statement> definitions_;
   std::map<std::string, std::size_t> defined_;  // where
-  std::map<Expression, Expression> lost_;       // by their exact values, what rounding takes from them
+  std::map<Expression, Expression> lost_;  // by their exact values, what rounding takes from them
   std::map<std::string, int> names_;
   std::map<std::string, std::string> hints_;
   std::map<std::pair<std::string, Expression>, Expression> known_;
