@@ -65,6 +65,11 @@ runtime::PluginSource to_compile(const PluginSource& plugin) {
 // up that it packs into 512 bits, as in steps of chains of 16 to 24.  Stages are packed as they are
 // emitted, and what is packed besides costs time (double pendulum, gauss-16: 2.2 us a step, 1.6
 // without).
+//
+// Note [products that are summed unrounded]
+// Of two sums side by side, x y - z and u v + w, g++ 12.2 makes one instruction that does not round
+// the products, also with -ffp-contract=off: what a product loses is then another number than the
+// one that is summed.  So it has no such instruction.
 runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice& choice) {
   runtime::Compiler compiler = chosen_compiler(choice);
 #if defined(__x86_64__) || defined(__i386__)
@@ -75,6 +80,8 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
     compiler.command.emplace_back(plugin.has_stages ? "-fno-tree-slp-vectorize"
                                                     : "-mprefer-vector-width=128");
   }
+  compiler.command.emplace_back("-mno-fma");
+  if (!plugin.has_stages) compiler.command.emplace_back("-mno-avx512vl");
 #endif
   return compiler;
 }

@@ -203,7 +203,9 @@ void add_tangent(Program& code, const Environment& environment, const LoweredSte
   const SolvePlan& plan = lowered.plan;
   const Method& method = plan.equations.scheme.method;
   const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
-  if (plan.arrays) add(curvature_routine(environment, plan.equations));
+  if (plan.arrays && code.routine("curvature") == nullptr) {
+    add(curvature_routine(environment, plan.equations));
+  }
   if (std::holds_alternative<Splitting>(method))
     return add(splitting_tangent(environment, lowered));
   if (std::holds_alternative<RungeKutta>(method)) {

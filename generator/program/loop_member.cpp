@@ -7,6 +7,7 @@
 #include "generator/program/loop_stage.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/step_weights.hpp"
+#include "generator/program/tangent_products.hpp"
 
 namespace hamgen {
 
@@ -35,6 +36,10 @@ class LoopMember : LoopStage {
     if (both()) {
       code_.routines.push_back(contract_routine());
       code_.routines.push_back(newton_routine());
+    }
+    if (is_linear()) {
+      code_.routines.push_back(gradient_error());
+      code_.routines.push_back(curvature_routine(environment_, plan_.equations));
     }
     code_.routines.push_back(solve());
     if (solved) code_.unknowns = unknowns();
@@ -72,6 +77,11 @@ class LoopMember : LoopStage {
     array("slope", 2 * n_, raised() ? "grad K(zbar), dK/dq first" : "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
       array("lack", unknowns(), "of the equations at zbar, then the increment");
+    if (is_linear()) {
+      array("lost", 2 * n_, "of the slope by rounding");
+      array("moved", 2 * n_, "from the rounded stage to the solution");
+      array("change", 2 * n_, "of the slope on that way");
+    }
     if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
     if (newton() || both()) {
       start.fields.push_back({.name = "matrix", .type = "Matrix"});
@@ -130,7 +140,11 @@ class LoopMember : LoopStage {
       case ArrayMethod::gradient_only:
         break;
     }
-    add_result(b, fixed_point());
+    if (is_linear()) {
+      add_exact_result(b);
+    } else {
+      add_result(b, fixed_point());
+    }
     return b.take();
   }
 
@@ -363,6 +377,74 @@ class LoopMember : LoopStage {
     }
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back({std::move(end)});
+  }
+
+  // See Note [linear equations in loops]
+  void add_exact_result(RoutineBuilder& b) const {
+    Body& body = b.body();
+    const auto at = [&](const char* field, bool momentum) {
+      return b.at("start", field, {affine("i", momentum ? n_ : 0)});
+    };
+    const auto call = [&](const char* routine, std::vector<Place> arguments) {
+      std::vector<Place> list = {{"par"}};
+      if (raised()) list.push_back({"h"});
+      list.push_back({"start", "value"});
+      list.push_back(arrays_.reduced ? Place{"start", "momentum"}
+                                     : Place{"start", "value", {affine(n_)}});
+      list.insert(list.end(), arguments.begin(), arguments.end());
+      body.push_back({Call{.routine = routine, .arguments = std::move(list)}});
+    };
+    const auto by = [](const std::optional<Expression>& weight, const Expression& value) {
+      return weight ? *weight * value : Expression(0);
+    };
+    call("gradient_error", {{"start", "slope"}, {"start", "change"}, {"start", "lost"}});
+    body.back().remark = {
+        "What the equations lack at the rounded solution, and the way to their own."};
+    Expression own(1);
+    if (needs_drift())
+      own = Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
+    Body lack;
+    Expression lost_q = at("lost", false);
+    Expression lost_p = at("lost", true);
+    const Expression of_p =
+        exact_lack(b, lack, true, -by(weights_.p_by_q, lost_q) - by(weights_.p_by_p, lost_p));
+    if (arrays_.reduced) {
+      lack.push_back({Assign{at("moved", true).name(), of_p * own}});
+      lost_p = b.let(lack, "p_lost_in_all", lost_p + mass(b) * at("moved", true));
+    } else {
+      lack.push_back({Assign{at("lack", true).name(), of_p}});
+    }
+    const Expression of_q =
+        exact_lack(b, lack, false, by(weights_.q_by_p, lost_p) + by(weights_.q_by_q, lost_q));
+    lack.push_back({Assign{at("lack", false).name(), of_q}});
+    body.push_back(for_each(elements(), std::move(lack)));
+    body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
+    Body moved{{Assign{at("moved", false).name(), at("lack", false)}}};
+    body.push_back(for_each(counting("i", unknowns()), std::move(moved)));
+    call("curvature", {{"start", "moved"}, {"start", "change"}});
+
+    Return end{.ranges = {elements()}};
+    Body each;
+    for (const bool is_p : {false, true}) {
+      const char* field = is_p ? "p" : "q";
+      const Expression sign(is_p ? -1 : 1);
+      const auto [flow, flow_lost] = StepWeights::flow_of(
+          b, each, !is_p, b.at("start", "slope", {affine("i", is_p ? 0 : n_)}));
+      Expression change = at("lost", !is_p) + at("change", !is_p);
+      // The torn momenta move with the force.
+      if (!is_p && arrays_.reduced) {
+        change += -mass(b) * own * by(weights_.p_by_q, at("change", false));
+      }
+      const Expression dz = state(b, "dz", field);
+      const Expression rest = state(b, "rest", field);
+      each.push_back({Assign{dz.name(), sign * flow}});
+      each.push_back({Assign{
+          rest.name(), state(b, "carry", field) + sign * flow_lost + sign * step_size() * change}});
+      end.finite.push_back(dz.name());
+      end.finite.push_back(rest.name());
+    }
+    body.push_back(for_each(elements(), std::move(each)));
+    body.push_back({std::move(end)});
   }
 
   Program& code_;

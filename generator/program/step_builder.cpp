@@ -163,6 +163,7 @@ void StepBuilder::define_gradient(int k, int section) {
   known_gradient_[index(k)] = true;
   lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), section,
                    keeps_gradients_ ? Lowering::Keep::yes : Lowering::Keep::no);
+  if (solves_constants_ && keeps_losses_) find_lost_of_gradient(k, section);
 }
 
 void StepBuilder::define(const Expression& symbol, const Expression& value, int section) {

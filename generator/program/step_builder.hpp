@@ -102,8 +102,11 @@ class StepBuilder {
                                                             int section);
   // h times this, and what rounding took from it: where h is a simple fraction a pattern again.
   std::pair<Expression, Expression> flow_of(int k, const Expression& gradient, int section);
+  // What rounding took from dH/dz_k itself.
+  void find_lost_of_gradient(int k, int section);
   // Does dH/dz_k depend on the stage?
   [[nodiscard]] bool is_of_state(int k) const;
+  [[nodiscard]] bool depends_on_state(const Expression& e) const;
   // A number of its own, defined once by this name.
   Expression name_once(const std::string& name, const Expression& value, int section,
                        Lowering::Keep keep = Lowering::Keep::yes);
@@ -169,6 +172,7 @@ class StepBuilder {
   std::vector<bool> known_gradient_;
   // A gradient component as the last iteration evaluated it, and what its increment adds.
   std::vector<std::pair<Expression, Expression>> correction_;
+  std::map<std::string, Expression> lost_of_gradient_;  // by its name
   std::map<std::string, int> rests_;  // how many have been named, by what they belong to
   std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;

@@ -93,12 +93,66 @@ std::pair<Expression, Expression> StepBuilder::flow_of(int k, const Expression& 
   const std::string text = "h*" + gradient.name();
   const Expression flow = name_once(text, step_size() * gradient, section, Lowering::Keep::apart);
   if (!keeps_losses_ || !is_of_state(k)) return {flow, Expression(0)};
-  return {flow, name_once("lost(" + text + ")",
-                          Expression::apply(kProductError, {step_size(), gradient}), section)};
+  Expression lost = name_once("lost(" + text + ")",
+                              Expression::apply(kProductError, {step_size(), gradient}), section);
+  const auto of_gradient = lost_of_gradient_.find(gradient.name());
+  if (of_gradient != lost_of_gradient_.end()) {
+    lost =
+        name_once("lost(" + text + ") in all", lost + step_size() * of_gradient->second, section);
+  }
+  return {flow, lost};
+}
+
+// Where its factors are constant it is the sum of their products with the stage: what is left of it
+// when they are subtracted, and what products and differences lose.
+void StepBuilder::find_lost_of_gradient(int k, int section) {
+  const Expression gradient = gradient_[index(k)];
+  Substitution zero;
+  for (int v = 0; v < 2 * n_; ++v) zero.emplace(equations_.stage(v).name(), Expression(0));
+  std::vector<Expression> parts;
+  std::vector<Expression> small;
+  if (const Expression at_zero = substitute(equations_.stage_gradient(k), zero);
+      !at_zero.is_zero()) {
+    parts.push_back(name_once("(" + to_text(at_zero) + ")", at_zero, kCoefficients));
+  }
+  for (int v = 0; v < 2 * n_; ++v) {
+    const Expression factor = equations_.stage_hessian(k, v);
+    if (factor.is_zero()) continue;
+    if (depends_on_state(factor)) return;
+    const Expression& value = stage_value_[index(v)];
+    const std::string text = to_text(factor) + "*" + value.name();
+    const Expression number =
+        factor.is_number() ? factor : name_once("(" + to_text(factor) + ")", factor, kCoefficients);
+    parts.push_back(
+        name_once("part(" + text + ")", number * value, section, Lowering::Keep::apart));
+    if (!is_exact_weight(factor)) {
+      small.push_back(name_once("lost(" + text + ")",
+                                Expression::apply(kProductError, {number, value}), section));
+    }
+  }
+  // The last difference cancels and has no error.
+  Expression left = gradient;
+  for (std::size_t j = 0; parts.size() > 1 && j < parts.size(); ++j) {
+    const Expression difference = named_rest("left " + gradient.name(), left - parts[j], section);
+    if (j + 1 < parts.size()) {
+      const Expression lost = Expression::apply(kDifferenceError, {left, parts[j]});
+      small.push_back(-name_value("lost" + difference.name().substr(4), lost, section));
+    } else {
+      small.push_back(-difference);
+    }
+    left = difference;
+  }
+  if (small.empty()) return;
+  lost_of_gradient_[gradient.name()] =
+      name_once("lost(" + gradient.name() + ")", Expression::sum(std::move(small)), section);
 }
 
 bool StepBuilder::is_of_state(int k) const {
-  const std::set<std::string> used = symbols(equations_.stage_gradient(k));
+  return depends_on_state(equations_.stage_gradient(k));
+}
+
+bool StepBuilder::depends_on_state(const Expression& e) const {
+  const std::set<std::string> used = symbols(e);
   for (int v = 0; v < 2 * n_; ++v) {
     if (used.contains(equations_.stage(v).name())) return true;
   }

@@ -57,14 +57,23 @@ void StepWeights::bind(Routine& routine) const {
   for (const NamedWeight& c : coefficients) routine.places["k." + c.name] = {"k", c.name};
 }
 
+void StepWeights::add_product(RoutineBuilder& b, Body& body, StageRow& row, const std::string& name,
+                              const Expression& sign, const Expression& weight,
+                              const Expression& slope, bool exactly) {
+  row.large.push_back(sign * b.let(body, exactly ? name + "_rounded" : name, weight * slope));
+  if (!exactly) return;
+  const Expression lost = Expression::apply(kProductError, {weight, slope});
+  row.small += sign * b.let(body, name + "_lost", lost);
+}
+
 void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q,
-                            const Expression& slope) const {
+                            const Expression& slope, bool exactly) const {
   const auto& by = is_q ? q_by_p : p_by_q;
   if (!by) return;
   const std::string stem = is_q ? "q_" : "p_";
   const Expression sign(is_q ? 1 : -1);
   if (!shares) {
-    row.large.push_back(sign * b.let(body, stem + "push", *by * slope));
+    add_product(b, body, row, stem + "push", sign, *by, slope, exactly);
     return;
   }
   const auto [flow, flow_lost] = flow_of(b, body, is_q, slope);
@@ -89,19 +98,21 @@ std::pair<Expression, Expression> StepWeights::flow_of(RoutineBuilder& b, Body& 
           b.let(body, stem + "flow_lost", Expression::apply(kProductError, {step_size(), slope}))};
 }
 
-StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at) const {
+StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at,
+                               bool exactly) const {
   StageRow row;
   bind(b.routine());
-  add_share(b, body, row, true, at.by_p);
-  if (q_by_q) row.large.push_back(b.let(body, "q_turn", *q_by_q * at.by_q));
+  add_share(b, body, row, true, at.by_p, exactly);
+  if (q_by_q) add_product(b, body, row, "q_turn", Expression(1), *q_by_q, at.by_q, exactly);
   return row;
 }
 
-StageRow StepWeights::row_of_p(RoutineBuilder& b, Body& body, const Gradient& at) const {
+StageRow StepWeights::row_of_p(RoutineBuilder& b, Body& body, const Gradient& at,
+                               bool exactly) const {
   StageRow row;
   bind(b.routine());
-  add_share(b, body, row, false, at.by_q);
-  if (p_by_p) row.large.push_back(-b.let(body, "p_turn", *p_by_p * at.by_p));
+  add_share(b, body, row, false, at.by_q, exactly);
+  if (p_by_p) add_product(b, body, row, "p_turn", Expression(-1), *p_by_p, at.by_p, exactly);
   return row;
 }
 

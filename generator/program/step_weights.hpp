@@ -43,16 +43,22 @@ struct StepWeights {
   // Binds the symbols of the weights.
   void bind(Routine& routine) const;
 
-  // The row's products as locals of the body.
-  [[nodiscard]] StageRow row_of_q(RoutineBuilder& b, Body& body, const Gradient& at) const;
-  [[nodiscard]] StageRow row_of_p(RoutineBuilder& b, Body& body, const Gradient& at) const;
+  // The row's products as locals of the body; `exactly`: all with their errors.
+  [[nodiscard]] StageRow row_of_q(RoutineBuilder& b, Body& body, const Gradient& at,
+                                  bool exactly = false) const;
+  [[nodiscard]] StageRow row_of_p(RoutineBuilder& b, Body& body, const Gradient& at,
+                                  bool exactly = false) const;
   // h times a slope as a local of the body, and what rounding took from it.
   static std::pair<Expression, Expression> flow_of(RoutineBuilder& b, Body& body, bool is_q,
                                                    const Expression& slope);
 
  private:
-  void add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q,
-                 const Expression& slope) const;
+  void add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q, const Expression& slope,
+                 bool exactly) const;
+  // sign * weight * slope
+  static void add_product(RoutineBuilder& b, Body& body, StageRow& row, const std::string& name,
+                          const Expression& sign, const Expression& weight, const Expression& slope,
+                          bool exactly);
 };
 
 }  // namespace hamgen

@@ -319,8 +319,10 @@ class LoopMemberClaims {
                     const std::vector<Expression>& increments,
                     const std::function<Expression(int)>& g) {
     const auto m = static_cast<int>(unknowns.size());
-    const bool solved = machine.systems.size() == 1;
-    claim("the number of linear systems", Expression(std::ssize(machine.systems)), Expression(1));
+    const std::size_t systems = has("gradient_error") ? 2 : 1;
+    const bool solved = machine.systems.size() == systems;
+    claim("the number of linear systems", Expression(std::ssize(machine.systems)),
+          Expression(static_cast<long>(systems)));
     if (!solved) return;
     const EliminatedSystem& system = machine.systems.front();
     const auto call = std::ranges::find(machine.calls, "differentiate", &CallTrace::routine);
@@ -339,8 +341,59 @@ class LoopMemberClaims {
             unknowns[at(i)] + increments[at(i)]);
     }
     const std::vector<Expression> point = stage_of(machine, moved, "at the end");
+    if (systems == 2) {
+      claim_linear(machine, point);
+      return;
+    }
     const auto last = [&](int k) { return slope(machine, point, k); };
     claim_increments(machine, last);
+  }
+
+  // H is quadratic, its gradient H'' z: whatever was rounded in the slopes taken at this point, the
+  // step is that of the equations solved there once more.
+  void claim_linear(SymbolicMachine& machine, const std::vector<Expression>& point) {
+    const Expression h = step_size();
+    const auto& [alpha, beta, gamma] = member_;
+    const auto times = [&](int k, const std::function<Expression(int)>& vector) {
+      std::vector<Expression> terms;
+      for (const int j : partners_of(k)) terms.push_back(derivatives_.second(k, j) * vector(j));
+      return Expression::sum(std::move(terms));
+    };
+    const auto exact = [&](int k) { return times(k, [&](int j) { return point[at(j)]; }); };
+    const auto own = [&](int i) {
+      return Expression::power(Expression(1) + h * beta * mass(i), Expression(-1));
+    };
+    // What is torn out is solved for before the rest.
+    std::vector<Expression> off(at(2 * n_), Expression(0));
+    for (int i = n_; reduced_ && i < 2 * n_; ++i)
+      off[at(i)] = (row(i, exact) - point[at(i)]) * own(i - n_);
+    const auto torn = [&](int k) { return exact(k) + times(k, [&](int j) { return off[at(j)]; }); };
+    const EliminatedSystem& system = machine.systems.back();
+    const bool same = system.matrix == machine.systems.front().matrix;
+    claim("the matrix is the same", Expression(same ? 1 : 0), Expression(1));
+    for (std::size_t i = 0; i < system.solution.size(); ++i) {
+      const int k = static_cast<int>(i);
+      claim("what the equations lack at the rounded solution for " + step_.name(k),
+            system.right_side[i], row(k, torn) - point[i]);
+    }
+    const auto moved = [&](int j) {
+      if (at(j) < system.solution.size()) return system.solution[at(j)];
+      const Expression force =
+          times(j - n_, [&](int l) { return l < n_ ? system.solution[at(l)] : Expression(0); });
+      return off[at(j)] - h * (Expression(1) - alpha) * own(j - n_) * force;
+    };
+    claim_increments(machine, [&](int k) { return exact(k) + times(k, moved); });
+  }
+  // The components that the second derivatives couple with this one.
+  const std::vector<int>& partners_of(int k) {
+    if (partners_.empty()) {
+      partners_.resize(at(2 * n_));
+      for (const auto& [place, value] : derivatives_.hessian()) {
+        partners_[at(place.first)].push_back(place.second);
+        if (place.first != place.second) partners_[at(place.second)].push_back(place.first);
+      }
+    }
+    return partners_[at(k)];
   }
 
   void claim_refined(SymbolicMachine& machine, const IterationTrace& trace,
@@ -364,6 +417,7 @@ class LoopMemberClaims {
   bool reduced_;  // the momenta are torn out
   // They depend on dT/dp, which is linear in them then, and is looked into.
   bool local_;  // is dT/dp what the routine itself makes of its momenta?
+  std::vector<std::vector<int>> partners_;
   Identities identities_;
 };
 

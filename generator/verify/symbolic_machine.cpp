@@ -105,16 +105,18 @@ Expression SymbolicMachine::without_rounding(const std::string& name, const Expr
   const Expression& x = error.operands()[0];
   const Expression& y = error.operands()[1];
   const Expression exact = error.name() == kProductError ? x * y : x - y;
+  if (is_trivial(exact)) return Expression(0);
   const auto known = lost_.find(exact);
-  if (known != lost_.end()) return known->second;
   for (std::size_t i = definitions_.size(); i-- > 0;) {
     if (definitions_[i].value != exact) continue;
-    const Expression lost = free_symbol(name);
+    // What is computed twice by different names is rounded alike.
+    const Expression lost = known == lost_.end() ? free_symbol(name) : known->second;
     definitions_[i].value = exact - lost;
     lost_.emplace(exact, lost);
     return lost;
   }
-  return free_symbol(name);  // of what nobody has computed
+  // Of what nobody has computed, or of one that has been told already.
+  return known == lost_.end() ? free_symbol(name) : known->second;
 }
 
 Expression SymbolicMachine::set_free(Frame& frame, const Expression& value, std::size_t first) {
