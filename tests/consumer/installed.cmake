@@ -1,5 +1,6 @@
-# cmake -DPREFIX=... -DLIBDIR=... -DSOURCE=... -P installed.cmake: what lies in the prefix is what is
-# listed here, a header includes none that is not installed, and a page links to none.
+# cmake -DPREFIX=... -DLIBDIR=... -DCXX=... -DSOURCE=... -P installed.cmake: what lies in the prefix is
+# what is listed here, a header includes none that is not installed and compiles without a warning,
+# and a page links to none.
 cmake_minimum_required(VERSION 3.22)
 
 file(GLOB_RECURSE found RELATIVE ${PREFIX} ${PREFIX}/*)
@@ -44,7 +45,16 @@ foreach(header IN LISTS headers)
       message(FATAL_ERROR "${header} includes ${name}, which is not installed")
     endif()
   endforeach()
+  list(APPEND included -include ${header})
 endforeach()
+execute_process(
+  COMMAND ${CXX} -std=c++20 -fsyntax-only -x c++ ${included} /dev/null -I ${PREFIX}/include
+          -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast
+          -Wdouble-promotion -Werror
+  RESULT_VARIABLE result ERROR_VARIABLE warnings)
+if(NOT result EQUAL 0)
+  message(SEND_ERROR "${warnings}")
+endif()
 
 # "](TARGET" and src="TARGET" of the pages, outside of their code.
 file(GLOB_RECURSE pages ${PREFIX}/share/doc/hamgen/*.md)
