@@ -119,7 +119,6 @@ Command add_plugin(CLI::App& app) {
   parser->add_option("-o,--output", options->output, "where plugin.cpp and facts.txt are written")
       ->type_name("DIRECTORY")
       ->required();
-  parser->group("");  // for programs: not listed in the help
   add_repeated(*parser, "--set", options->scene.set, "sizes of the model")
       ->type_name("NAME=VALUE,...");
   parser->add_flag("--quiet", options->quiet, "no names of files");

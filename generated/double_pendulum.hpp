@@ -83,6 +83,10 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows is the same in every header.
+#if defined __GNUC__ && !defined __clang__  // g++ warns of bounds that are a template's int
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
 namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
@@ -330,6 +334,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 }  // namespace hamgen_0d4ab561::float64
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC diagnostic pop
+#endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
 #define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xbc052578

@@ -92,6 +92,10 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #endif
 
 // What follows is the same in every header.
+#if defined __GNUC__ && !defined __clang__  // g++ warns of bounds that are a template's int
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
 namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
@@ -339,6 +343,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 }  // namespace hamgen_0d4ab561::float64
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC diagnostic pop
+#endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
 #define HAMGEN_METHOD_kepler_implicit_midpoint 0x58dad1b1

@@ -66,6 +66,10 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows is the same in every header.
+#if defined __GNUC__ && !defined __clang__  // g++ warns of bounds that are a template's int
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
 namespace hamgen_0d4ab561::float64 {
 using Real = double;
 
@@ -329,6 +333,9 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 #endif
 
 }  // namespace hamgen_0d4ab561::float64
+#if defined __GNUC__ && !defined __clang__
+#pragma GCC diagnostic pop
+#endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
 #define HAMGEN_METHOD_pendulum_implicit_midpoint 0x2cf32992

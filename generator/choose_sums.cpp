@@ -65,8 +65,7 @@ Mechanics derive_for(const Request& request, const Model& model, bool keep_sums,
   Mechanics mechanics = derive(model, keep_sums, most);
   const bool newton = !request.solver.empty() && request.solver->kind == SolverWish::Kind::newton;
   const bool needs_more = newton || request.order > 0 || request.tangent ||
-                          request.watch_modified > 0 ||
-                          !request.format->format->takes_loops;
+                          request.watch_modified > 0 || !request.format->format->takes_loops;
   if (mechanics.sums.empty() || !needs_more) return mechanics;
   return derive(model, false, most);
 }

@@ -57,9 +57,10 @@ void fold_parameters(Model& model, const Request& request) {
       std::vector<std::string> names;
       for (const Parameter& parameter : model.parameters) names.push_back(parameter.name);
       if (const std::size_t equals = name.find('='); equals != std::string::npos)
-        throw UsageError(fmt::format("--fold {}: a name is wanted, without a value\nhelp: --fold {} "
-                                     "burns the parameter's default in",
-                                     name, name.substr(0, equals)));
+        throw UsageError(
+            fmt::format("--fold {}: a name is wanted, without a value\nhelp: --fold {} "
+                        "burns the parameter's default in",
+                        name, name.substr(0, equals)));
       const std::string near = nearest(name, names);
       throw UsageError(fmt::format("--fold {}: the model has no such parameter{}", name,
                                    near.empty() ? "" : "; did you mean '" + near + "'?"));

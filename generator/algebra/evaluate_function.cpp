@@ -91,14 +91,23 @@ std::optional<Rational> exact_square_root(const Rational& x) {
   return Rational(sqrt(x.get_num()), sqrt(x.get_den()));
 }
 
+// A multiple of pi by name, whose sine GiNaC knows, where x is one of the number that stands for
+// pi.
+GiNaC::ex argument(const Rational& x) {
+  static const Rational pi = evaluate_function("pi", {}).value();
+  const Rational multiple = x / pi;
+  return multiple.get_den() <= 6 ? to_numeric(multiple) * GiNaC::Pi : GiNaC::ex(to_numeric(x));
+}
+
 // The table names its functions as GiNaC does, so GiNaC finds the function by its name.
 GiNaC::ex call(std::string_view name, std::span<const Rational> arguments) {
   if (name == "sqrt") return GiNaC::sqrt(to_numeric(arguments.front()));
   const auto arity = static_cast<unsigned>(arguments.size());
   const unsigned serial = GiNaC::function::find_function(std::string(name), arity);
   GiNaC::exvector values;
-  for (const Rational& argument : arguments) values.emplace_back(to_numeric(argument));
-  return GiNaC::function(serial, values).evalf();
+  for (const Rational& x : arguments) values.push_back(argument(x));
+  const GiNaC::ex exact = GiNaC::function(serial, values);
+  return exact.evalf();
 }
 
 std::optional<Rational> real_value(const GiNaC::ex& value) {

@@ -66,7 +66,8 @@ struct Function {
 [[nodiscard]] const Function* find_function(std::string_view name);
 
 // The value of a function of the table (or of "pi" without arguments) at exact arguments, to 50
-// digits; exact where the result is a rational the arguments show (sqrt(4), sin(0)).
+// digits; exact where the result is a rational the arguments show (sqrt(4), sin(0)), or
+// they are multiples of pi (cos(pi/2)).
 // Empty where the function is not defined or not real.
 [[nodiscard]] std::optional<Rational> evaluate_function(std::string_view name,
                                                         std::span<const Rational> arguments);

@@ -165,9 +165,8 @@ StepEquations discretise(const Mechanics& mechanics, const Scheme& scheme, Hessi
   StepEquations equations{.mechanics = mechanics, .scheme = scheme, .stage_matrix = {}};
   if (scheme.has_member()) equations.stage_matrix = stage_matrix(scheme.member());
   if (scheme.is_member() && scheme.member().generating_order > 0) {
-    equations.function =
-        generating_function(mechanics, gauge_of_series(mechanics, scheme.member()),
-                            scheme.member().generating_order, wish);
+    equations.function = generating_function(mechanics, gauge_of_series(mechanics, scheme.member()),
+                                             scheme.member().generating_order, wish);
     equations.energy_gradient = mechanics.gradient;
     equations.energy_kernels = mechanics.kernels;
     equations.mechanics.gradient = equations.function->gradient;

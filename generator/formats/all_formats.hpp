@@ -20,8 +20,8 @@ struct NamedFormat {
 
 // The first is the default.
 [[nodiscard]] std::span<const NamedFormat> all_formats();
-// "" is the default; "c" and "cpp" are the headers.  Throws UsageError for a name that is not in the
-// list.
+// "" is the default; "c" and "cpp" are the headers.  Throws UsageError for a name that is not in
+// the list.
 [[nodiscard]] const NamedFormat& find_format(std::string_view name);
 
 // One of the list.

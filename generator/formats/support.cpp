@@ -88,7 +88,11 @@ void Support::write(CodeWriter& out, bool shared) const {
   };
   if (std::ranges::none_of(all_blocks(), is_written)) return;
   const std::string name = name_space();
+  const bool has_bounds = std::ranges::any_of(all_blocks(), [&](const FixedBlock& block) {
+    return is_written(block) && text(block.name).find("template <int") != std::string::npos;
+  });
   out.line("// What follows is the same in every header.");
+  if (has_bounds) out.lines(cpp_numerics("shells/bounds_begin"));
   out.line(fmt::format("namespace {} {{", name));
   const bool in_registers = lanes_ > 0 || packs_;
   if (in_registers) {
@@ -110,6 +114,7 @@ void Support::write(CodeWriter& out, bool shared) const {
   }
   if (in_registers) out.line(fmt::format("}}  // namespace {}", kRegisters));
   out.line(fmt::format("}}  // namespace {}", name));
+  if (has_bounds) out.lines(cpp_numerics("shells/bounds_end"));
   out.line();
 }
 

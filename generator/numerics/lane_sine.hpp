@@ -41,25 +41,26 @@ inline Reduced<double> reduced_exactly(double x) {
                                             0x6bfb5fb11f8d5d08,
                                             0x56033046fc7b6bab,
                                             0};
+  using Word = unsigned long long;
   __extension__ typedef unsigned __int128 Wide;
-  const unsigned long long bits = bits_of(x);
+  const Word bits = bits_of(x);
   const int exponent = int(bits >> 52) - 1075;
-  const unsigned long long integer = (bits & (~0ULL >> 12)) | 1ULL << 52;
+  const Word integer = (bits & (~0ULL >> 12)) | 1ULL << 52;
   const int first = exponent + 62;  // bit of the table
-  unsigned long long window[3];
+  Word window[3];
   for (int i = 0; i < 3; ++i) {
-    const unsigned long long* word = inverse + first / 64 + i;
+    const Word* word = inverse + first / 64 + i;
     const int shift = first % 64;
     window[i] = shift == 0 ? word[0] : word[0] << shift | word[1] >> (64 - shift);
   }
   const Wide lowest = Wide(integer) * window[2];
-  const Wide middle = Wide(integer) * window[1] + (unsigned long long)(lowest >> 64);
-  const unsigned long long top = integer * window[0] + (unsigned long long)(middle >> 64);
-  unsigned long long quadrant = top >> 62;
+  const Wide middle = Wide(integer) * window[1] + Word(lowest >> 64);
+  const Word top = integer * window[0] + Word(middle >> 64);
+  Word quadrant = top >> 62;
   // The fraction: 126 bits of it, 64 below.
-  Wide fraction = Wide(top << 2 | (unsigned long long)(middle) >> 62) << 64 |
-                  ((unsigned long long)(middle) << 2 | (unsigned long long)(lowest) >> 62);
-  unsigned long long below = (unsigned long long)(lowest) << 2;
+  Wide fraction =
+      Wide(top << 2 | Word(middle) >> 62) << 64 | (Word(middle) << 2 | Word(lowest) >> 62);
+  Word below = Word(lowest) << 2;
   const bool upper = fraction >> 127 != 0;
   if (upper) {
     ++quadrant;
@@ -72,8 +73,8 @@ inline Reduced<double> reduced_exactly(double x) {
     below <<= 1;
     unit *= 0.5;
   }
-  const double high = unit * double((unsigned long long)(fraction >> 75)) * 0x1p-53;
-  const double low = unit * double((unsigned long long)(fraction >> 22) & (~0ULL >> 11)) * 0x1p-106;
+  const double high = unit * double(Word(fraction >> 75)) * 0x1p-53;
+  const double low = unit * double(Word(fraction >> 22) & (~0ULL >> 11)) * 0x1p-106;
   const Pair<double> angle = exact_product(high, 0x1.921fb54442d18p+0);
   return {quadrant, sum_with_larger(angle.high, angle.low + (high * 0x1.1a62633145c07p-54 +
                                                              low * 0x1.921fb54442d18p+0))};

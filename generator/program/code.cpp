@@ -274,7 +274,9 @@ void collect_symbols(const Body& body, std::set<std::string>& names) {
 bool uses_object(const Routine& routine, const std::string& object) {
   Mentions found;
   mention(routine.body, found);
-  if (found.objects.contains(object) || found.read.contains(object)) return true;
+  // A symbol of this name may be another place: the parameter k beside the coefficients k.
+  const bool is_symbol = !routine.places.contains(object) && found.read.contains(object);
+  if (is_symbol || found.objects.contains(object)) return true;
   return std::ranges::any_of(routine.places, [&](const auto& entry) {
     const auto& [symbol, place] = entry;
     return place.object == object &&

@@ -13,6 +13,7 @@ namespace hamgen {
 
 namespace {
 
+constexpr const char* kRegistersBegin = "inline namespace HAMGEN_REGISTERS {";
 constexpr std::string_view kIncludes[] = {"<cmath>", "<algorithm>", "<vector>", "<Eigen/SparseLU>",
                                           "<Eigen/LU>"};
 std::string upper(std::string text) {
@@ -26,6 +27,11 @@ std::string lower(std::string text) {
 
 bool is_directive(const TokenCursor& cursor, std::string_view begin) {
   return cursor.peek().kind == CppToken::Kind::directive && cursor.peek().text.starts_with(begin);
+}
+
+// Bounds of arrays that are a template's int, of which g++ warns.
+bool begins_bounds(const TokenCursor& cursor) {
+  return is_directive(cursor, "#if defined __GNUC__");
 }
 
 // __extension__ __float128 sinq(__float128) noexcept;
@@ -182,10 +188,13 @@ void expect_ieee_end(TokenCursor& cursor, const Precision& precision) {
 
 namespace {
 
-// The blocks of a namespace that begins like this, up to its last bracket.
+// The blocks of a namespace that begins like this, and, with registers, has one within.
 FixedBlocks read_space(TokenCursor& cursor, std::string_view text, const Precision& precision,
-                       const std::string& space, const std::string& begin, int lanes = 0) {
+                       const std::string& space, const std::string& begin, bool registers = false,
+                       int lanes = 0) {
   FixedBlocks blocks;
+  const bool has_bounds = begins_bounds(cursor);
+  if (has_bounds) expect_tested(cursor, "shells/bounds_begin", precision);
   cursor.expect("namespace");
   const int line = cursor.line();
   const std::string name = cursor.word();
@@ -196,14 +205,15 @@ FixedBlocks read_space(TokenCursor& cursor, std::string_view text, const Precisi
   const std::string prefix = fmt::format("HAMGEN_{}_{}_", upper(blocks.digest), upper(space));
   while (is_directive(cursor, "#ifndef "))
     blocks.names.insert(read_block(cursor, text, prefix, precision, lanes));
-  expect_pattern(cursor, {"}"}, precision, "the namespace of fixed blocks");
+  expect_pattern(cursor, {registers ? "}}" : "}"}, precision, "the namespace of fixed blocks");
+  if (has_bounds) expect_tested(cursor, "shells/bounds_end", precision);
   return blocks;
 }
 
 }  // namespace
 
 FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision) {
-  if (!cursor.peek().is("namespace")) return {};
+  if (!cursor.peek().is("namespace") && !begins_bounds(cursor)) return {};
   const std::string type = precision.is_quad() ? "__extension__ typedef __float128 Real;"
                                                : fmt::format("using Real = {};", precision.type);
   return read_space(cursor, text, precision, std::string(precision.space), type);
@@ -211,19 +221,14 @@ FixedBlocks read_blocks(TokenCursor& cursor, std::string_view text, const Precis
 
 FixedBlocks read_packs(TokenCursor& cursor, std::string_view text, const Precision& precision) {
   expect_tested(cursor, "shells/lane_registers", precision);
-  const FixedBlocks blocks =
-      read_space(cursor, text, precision, "packs", "inline namespace HAMGEN_REGISTERS {");
-  expect_pattern(cursor, {"}"}, precision, "the namespace of packs");
-  return blocks;
+  return read_space(cursor, text, precision, "packs", kRegistersBegin, true);
 }
 
 FixedBlocks read_lane_blocks(TokenCursor& cursor, std::string_view text, const Precision& precision,
                              int lanes) {
   expect_tested(cursor, "shells/lane_registers", precision);
-  const FixedBlocks blocks = read_space(cursor, text, precision, fmt::format("lanes_{}", lanes),
-                                        "inline namespace HAMGEN_REGISTERS {", lanes);
-  expect_pattern(cursor, {"}"}, precision, "the namespace of lanes");
-  return blocks;
+  return read_space(cursor, text, precision, fmt::format("lanes_{}", lanes), kRegistersBegin, true,
+                    lanes);
 }
 
 void read_block_names(TokenCursor& cursor, const std::string& space,

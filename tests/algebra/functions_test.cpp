@@ -166,6 +166,25 @@ TEST(Functions, are_exact_where_the_value_is_rational) {
   EXPECT_EQ(value("abs", Rational(-1, 3)), Rational(1, 3));
 }
 
+TEST(Functions, are_exact_at_multiples_of_pi) {
+  const Rational pi = evaluate_function("pi", {}).value();
+  const auto value = [&pi](const char* name, const Rational& multiple) {
+    const Rational x = multiple * pi;
+    return evaluate_function(name, std::span(&x, 1));
+  };
+  EXPECT_EQ(value("sin", 1), Rational(0));
+  EXPECT_EQ(value("sin", -1000001), Rational(0));
+  EXPECT_EQ(value("sin", Rational(5, 6)), Rational(1, 2));
+  EXPECT_EQ(value("cos", Rational(1, 2)), Rational(0));
+  EXPECT_EQ(value("cos", Rational(4, 3)), Rational(-1, 2));
+  EXPECT_EQ(value("tan", Rational(-3, 4)), Rational(1));
+  EXPECT_FALSE(value("tan", Rational(1, 2)));
+  // Others are what they were.
+  EXPECT_DOUBLE_EQ(to_double(value("sin", Rational(1, 7)).value()), std::sin(std::acos(-1.0) / 7));
+  EXPECT_DOUBLE_EQ(to_double(value("exp", 1).value()), std::exp(std::acos(-1.0)));
+  EXPECT_DOUBLE_EQ(to_double(value("log", Rational(1, 2)).value()), std::log(std::acos(-1.0) / 2));
+}
+
 TEST(Functions, atan2_knows_its_quadrant_and_refuses_the_origin) {
   const auto angle = [](Rational y, Rational x) {
     const std::vector<Rational> arguments = {y, x};

@@ -105,7 +105,7 @@ TEST(Completion, AndManualNameEveryCommandAndNoHiddenOne) {
   const std::string manual = hamgen({"man"}).out;
   const std::string zsh = hamgen({"completion", "zsh"}).out;
   EXPECT_FALSE(contains(help, "completion"));
-  for (const char* command : {"new", "check", "run", "section", "cache"}) {
+  for (const char* command : {"new", "check", "run", "section", "plugin", "cache"}) {
     EXPECT_TRUE(contains(manual, std::string(".SS hamgen ") + command + "\n")) << command;
     EXPECT_TRUE(contains(zsh, std::string("    '") + command + ":")) << command;
   }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
+#include <set>
 
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/page_examples.hpp"
@@ -51,6 +53,20 @@ class Edited {
  private:
   std::string text_;
 };
+
+// But for the two that its examples make.
+TEST(ExtendingPage, NamesFilesThatAreThere) {
+  const std::set<std::string> made = {"generator/formats/meson_package.cpp",
+                                      "generator/numerics/stagnation_rule.hpp"};
+  const std::string page = read(tree + "/docs/extending.md");
+  const std::regex name("`((generator|app|tests|runtime)/[^` ]*)`");
+  int names = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), name), end; it != end; ++it, ++names) {
+    const std::string file = (*it)[1];
+    EXPECT_NE(std::filesystem::exists(tree + "/" + file), made.contains(file)) << file;
+  }
+  EXPECT_GE(names, 20);
+}
 
 TEST(ExtendingPage, ASchemeIsARow) {
   Edited("generator/schemes/composition.cpp")

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 #include "tests/app/hamgen_command.hpp"
 
 namespace hamgen::app_test {
@@ -7,7 +10,7 @@ namespace {
 
 const std::vector<std::string> commands = {
     "new",    "check",   "show",    "generate", "run",  "bench",    "report", "stress", "tune",
-    "verify", "certify", "section", "chaos",    "plot", "ensemble", "list",   "cache"};
+    "verify", "certify", "section", "chaos",    "plot", "ensemble", "plugin", "list",   "cache"};
 
 // A screen is 24 lines of 100 columns.
 void expect_one_screen(const std::vector<std::string>& arguments) {
@@ -29,6 +32,23 @@ TEST(Help, NamesEveryCommand) {
   const Result result = hamgen({"--help"});
   for (const std::string& command : commands)
     EXPECT_TRUE(contains(result.out, "\n  " + command + " ")) << result.out;
+}
+
+// The tables of README and of the command's page.
+TEST(Help, HasTheCommandsOfThePages) {
+  const std::string help = hamgen({"--help"}).out;
+  const std::regex row("\n\\| `hamgen ([a-z]+)[^`]*` \\|");
+  for (const char* page : {"/README.md", "/docs/command.md"}) {
+    const std::string text = read(std::string(HAMGEN_SOURCE_DIR) + page);
+    std::set<std::string> rows;
+    for (std::sregex_iterator it(text.begin(), text.end(), row), end; it != end; ++it)
+      rows.insert((*it)[1]);
+    EXPECT_EQ(rows, std::set<std::string>(commands.begin(), commands.end())) << page;
+  }
+  std::size_t listed = 0;
+  for (const std::string& line : lines(help))
+    listed += static_cast<std::size_t>(std::regex_match(line, std::regex("  [a-z]+ +[a-zA-Z].*")));
+  EXPECT_EQ(listed, commands.size()) << help;
 }
 
 TEST(Help, TellsTheVersion) {

@@ -1,5 +1,8 @@
-# cmake -DPREFIX=... -DLIBDIR=... -DSOURCE=... -P installed.cmake: what lies in the prefix is what is
-# listed here, and a header includes none that is not installed.
+# cmake -DPREFIX=... -DLIBDIR=... -DCXX=... -DSOURCE=... -P installed.cmake: what lies in the prefix is
+# what is listed here, a header includes none that is not installed and compiles without a warning,
+# and a page links to none.
+cmake_minimum_required(VERSION 3.22)
+
 file(GLOB_RECURSE found RELATIVE ${PREFIX} ${PREFIX}/*)
 list(FILTER found EXCLUDE REGEX "^bin/hamgen-mpi$")  # where MPI is
 set(expected bin/hamgen
@@ -15,12 +18,13 @@ set(expected bin/hamgen
   ${LIBDIR}/cmake/hamgen/hamgenRuntimeTargets.cmake
   ${LIBDIR}/cmake/hamgen/hamgenTargets-release.cmake ${LIBDIR}/cmake/hamgen/hamgenTargets.cmake
   share/bash-completion/completions/hamgen share/man/man1/hamgen.1
-  share/zsh/site-functions/_hamgen share/doc/hamgen/README.md share/doc/hamgen/LICENSE)
+  share/zsh/site-functions/_hamgen share/doc/hamgen/README.md share/doc/hamgen/LICENSE
+  share/doc/hamgen/benchmarks/README.md)
 file(GLOB models RELATIVE ${SOURCE} ${SOURCE}/hamiltonians/*)
-list(TRANSFORM models PREPEND share/hamgen/)
+list(TRANSFORM models PREPEND share/doc/hamgen/)
 file(GLOB_RECURSE pages RELATIVE ${SOURCE}/docs ${SOURCE}/docs/*.md ${SOURCE}/docs/*.svg
   ${SOURCE}/docs/*.png ${SOURCE}/docs/*.cff ${SOURCE}/docs/*.c ${SOURCE}/docs/*.py
-  ${SOURCE}/docs/*.ham)
+  ${SOURCE}/docs/*.ham ${SOURCE}/docs/*.v)
 list(TRANSFORM pages PREPEND share/doc/hamgen/docs/)
 list(APPEND expected ${models} ${pages})
 
@@ -41,4 +45,43 @@ foreach(header IN LISTS headers)
       message(FATAL_ERROR "${header} includes ${name}, which is not installed")
     endif()
   endforeach()
+  list(APPEND included -include ${header})
 endforeach()
+execute_process(
+  COMMAND ${CXX} -std=c++20 -fsyntax-only -x c++ ${included} /dev/null -I ${PREFIX}/include
+          -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast
+          -Wdouble-promotion -Werror
+  RESULT_VARIABLE result ERROR_VARIABLE warnings)
+if(NOT result EQUAL 0)
+  message(SEND_ERROR "${warnings}")
+endif()
+
+# "](TARGET" and src="TARGET" of the pages, outside of their code.
+file(GLOB_RECURSE pages ${PREFIX}/share/doc/hamgen/*.md)
+string(ASCII 1 fence)
+set(count 0)
+foreach(page IN LISTS pages)
+  file(READ ${page} text)
+  string(REPLACE "```" "${fence}" text "${text}")
+  string(REGEX REPLACE "${fence}[^${fence}]*${fence}" "" text "${text}")
+  string(REGEX REPLACE "`[^`\n]*`" "" text "${text}")
+  string(REPLACE "](" "src=\"" text "${text}")
+  string(REGEX REPLACE "[];[]" "" text "${text}")  # which lists take for their own
+  string(REGEX MATCHALL "src=\"[^)\" #]+" links "${text}")
+  cmake_path(GET page PARENT_PATH folder)
+  foreach(link IN LISTS links)
+    string(REPLACE "src=\"" "" target "${link}")
+    if(target MATCHES "^https?://")
+      continue()
+    endif()
+    math(EXPR count "${count} + 1")
+    cmake_path(ABSOLUTE_PATH target BASE_DIRECTORY ${folder} NORMALIZE OUTPUT_VARIABLE file)
+    cmake_path(IS_PREFIX PREFIX ${file} inside)
+    if(NOT inside OR NOT EXISTS ${file})
+      message(SEND_ERROR "${page} links to ${target}, which is not installed")
+    endif()
+  endforeach()
+endforeach()
+if(count LESS 100)
+  message(FATAL_ERROR "the pages have ${count} links: does this test find them?")
+endif()

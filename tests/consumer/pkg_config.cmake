@@ -6,7 +6,7 @@ separate_arguments(flags UNIX_COMMAND "${flags}")
 file(MAKE_DIRECTORY ${WORK})
 execute_process(COMMAND ${CXX} -std=c++20 ${SOURCE}/orbit.cpp ${flags} -o ${WORK}/orbit
                 COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${WORK}/orbit ${SOURCE}/kepler.ham COMMAND_ERROR_IS_FATAL ANY
+execute_process(COMMAND ${WORK}/orbit ${MODEL} COMMAND_ERROR_IS_FATAL ANY
                 OUTPUT_VARIABLE printed)
 # It prints what the page shows, but for the rounding of an energy.
 file(READ ${PAGE} page)

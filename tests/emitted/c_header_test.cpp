@@ -141,8 +141,9 @@ TEST(CHeader, TakesTheStepsOfTheHeaderInCppToTheLastBit) {
   const auto path = [&](const char* name) { return (directory.path() / name).string(); };
   std::ofstream(path("c.c")) << c_program();
   std::ofstream(path("cpp.cpp")) << cpp_program();
-  ASSERT_EQ(run_c({"gcc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
-                   "-Wdouble-promotion", "-Werror", "-O1", path("c.c"), "-o", path("c"), "-lm"}),
+  ASSERT_EQ(run_c({"gcc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
+                   "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror", "-O1",
+                   path("c.c"), "-o", path("c"), "-lm"}),
             "");
   ASSERT_EQ(run_c({"g++", "-std=c++17", "-O1", path("cpp.cpp"), "-o", path("cpp")}), "");
   const std::string expected = run_c({path("cpp")});

@@ -19,8 +19,8 @@ runtime::ProcessResult run(std::vector<std::string> command) {
 }  // namespace
 
 std::vector<std::string> strict_flags() {
-  return {"-std=c++17",         "-Wall",  "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
-          "-Wdouble-promotion", "-Werror"};
+  return {"-std=c++17",        "-Wall",    "-Wextra",          "-Wpedantic",         "-Wconversion",
+          "-Wsign-conversion", "-Wshadow", "-Wold-style-cast", "-Wdouble-promotion", "-Werror"};
 }
 
 std::vector<std::string> compilers() {

@@ -123,6 +123,36 @@ TEST_P(EmittedHeader, OfALargeSystemCompilesWithoutAWarning) {
   EXPECT_EQ(messages(GetParam(), text), "");
 }
 
+// Splittings, compositions, stages, what stands beside a step, and lanes.
+TEST_P(EmittedHeader, OfOtherMethodsCompilesWithoutAWarning) {
+  const std::vector<Variant> methods = {
+      {"verlet", {.scheme = "stormer-verlet"}},
+      {"composed", {.scheme = "yoshida-4"}},
+      {"gauss", {.scheme = "gauss-8"}},
+      {"stages", {.scheme = "gauss-4", .solver = "fixed-point"}},
+      {"tangent", {.tangent = true}},
+      {"series", {.watch_modified = 2}},
+      {"lanes", {.batch = 4}},
+      {"lane_verlet", {.scheme = "stormer-verlet", .batch = 4}},
+      {"lane_gauss", {.scheme = "gauss-4", .batch = 8}},
+      {"lane_fixed_point", {.solver = "fixed-point", .batch = 8}}};
+  int headers = 0;
+  for (const Variant& method : methods) {
+    std::string text;
+    for (const char* name : {"pendulum", "spring_pendulum", "kepler", "toda", "beads"}) {
+      try {
+        text += without_pragma(header(
+            HAMGEN_SOURCE_DIR "/hamiltonians/" + std::string(name) + ".ham", method, "double"));
+        ++headers;
+      } catch (const UsageError& error) {
+        EXPECT_EQ(method.name, "series") << name << ": " << error.what();
+      }
+    }
+    EXPECT_EQ(messages(GetParam(), text), "") << method.name;
+  }
+  EXPECT_GE(headers, 47);
+}
+
 TEST_P(EmittedHeader, OfNothingToSolveCompilesWithoutAWarning) {
   std::string text;
   int number = 0;
@@ -146,6 +176,8 @@ TEST_P(EmittedHeader, OfNothingToSolveCompilesWithoutAWarning) {
 TEST_P(EmittedHeader, IsCaughtWhenItIsWrong) {
   // Negative control: a conversion that loses digits.
   EXPECT_NE(messages(GetParam(), "inline float narrow(double x) { return x; }\n"), "");
+  EXPECT_NE(messages(GetParam(), "inline int whole(double x) { return (int)x; }\n"), "");
+  EXPECT_NE(messages(GetParam(), "inline unsigned size(int n) { return n; }\n"), "");
 }
 
 // With the optimiser on, compilers look further: uninitialised values, array bounds.

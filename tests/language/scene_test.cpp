@@ -55,6 +55,22 @@ TEST(Scene, may_be_for_other_sizes_as_long_as_another_one_runs) {
             (Numbers{0, 0, 1, 0, 0, 0}));
 }
 
+// Where a wave is zero a scene says so.
+TEST(Scene, has_the_zeros_of_a_wave) {
+  const Model ring = read_model(make_source("x.ham",
+                                            "size N = 4\n"
+                                            "coordinate q[1..N]\n"
+                                            "momentum p[1..N]\n"
+                                            "H = sum(i = 1..N, p[i]^2 + q[i]^2)\n"
+                                            "scene wave {\n"
+                                            "  q[i] = sin(2*pi*i/N)\n"
+                                            "  p[i] = cos(2*pi*i/N)\n"
+                                            "  h = 1\n"
+                                            "}\n"));
+  EXPECT_EQ(scene_values(ring, {}).q, (Numbers{1, 0, -1, 0}));
+  EXPECT_EQ(scene_values(ring, {}).p, (Numbers{0, -1, 0, 1}));
+}
+
 TEST(Scene, the_first_one_is_the_default) {
   const SceneValues values = scene_values(model(), {});
   EXPECT_EQ(values.name, "first");

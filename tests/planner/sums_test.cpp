@@ -57,8 +57,7 @@ TEST(Sums, AreWrittenOutForWhatIsMadeOfExpressions) {
   for (int i = 1; i < 12; ++i) list += ",1/2";
   for (const Request& request :
        {Request{.alpha = list}, Request{.order = 4}, Request{.gauge = "locally-exact"},
-        Request{.scheme = "stormer-verlet", .format = "c-header"},
-        Request{.tangent = true},
+        Request{.scheme = "stormer-verlet", .format = "c-header"}, Request{.tangent = true},
         Request{.watch_modified = 2, .step = Rational(1, 10)}}) {
     EXPECT_FALSE(stays_loops(model(chain_of(12)), request));
   }

@@ -44,9 +44,9 @@ std::string warnings_of(const std::string& compiler, const std::string& text) {
   const runtime::TemporaryDirectory directory = runtime::private_directory();
   const std::filesystem::path source = directory.path() / "unit.cpp";
   std::ofstream(source) << text;
-  const auto result =
-      run({compiler, "-fsyntax-only", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic",
-           "-Wconversion", "-Wshadow", "-Wdouble-promotion", "-Werror", source.string()});
+  const auto result = run({compiler, "-fsyntax-only", "-std=c++17", "-Wall", "-Wextra",
+                           "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow",
+                           "-Wold-style-cast", "-Wdouble-promotion", "-Werror", source.string()});
   return result.succeeded() && result.output.empty() ? "" : "failed:\n" + result.output;
 }
 
