@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_0d4ab561::float64 {
+namespace hamgen_c7654b91::float64 {
 using Real = double;
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
-#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_C7654B91_FLOAT64_STEP_REPORT
+#define HAMGEN_C7654B91_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
-#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#ifndef HAMGEN_C7654B91_FLOAT64_VOCABULARY
+#define HAMGEN_C7654B91_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
-#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#ifndef HAMGEN_C7654B91_FLOAT64_TWO_SUM
+#define HAMGEN_C7654B91_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
-#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_C7654B91_FLOAT64_SUM_WITH_REST
+#define HAMGEN_C7654B91_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_SUMS
-#define HAMGEN_0D4AB561_FLOAT64_SUMS
+#ifndef HAMGEN_C7654B91_FLOAT64_SUMS
+#define HAMGEN_C7654B91_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -216,10 +216,15 @@ template <int Size>
 inline Real squares_of(const Real (&vector)[Size]) {
   return sum_of<Size>([&](int j) { return vector[j] * vector[j]; });
 }
+// Of their sum.
+template <int Size>
+inline Real squares_of(const Real (&vector)[Size], const Real (&rest)[Size]) {
+  return sum_of<Size>([&](int j) { return (vector[j] + rest[j]) * (vector[j] + rest[j]); });
+}
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_BAND_MATRIX
-#define HAMGEN_0D4AB561_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_C7654B91_FLOAT64_BAND_MATRIX
+#define HAMGEN_C7654B91_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -284,14 +289,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_VERDICT
-#define HAMGEN_0D4AB561_FLOAT64_VERDICT
+#ifndef HAMGEN_C7654B91_FLOAT64_VERDICT
+#define HAMGEN_C7654B91_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
-#define HAMGEN_0D4AB561_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_C7654B91_FLOAT64_NEWTON_RULE
+#define HAMGEN_C7654B91_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -381,8 +386,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_0D4AB561_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_C7654B91_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_C7654B91_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -404,21 +409,30 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_0D4AB561_FLOAT64_FIXED_POINT_RULE
-// How far an iteration has moved: sums over the unknowns of their increments and of what these are
-// rounded with, and whether each is close to its end.
+#ifndef HAMGEN_C7654B91_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_C7654B91_FLOAT64_FIXED_POINT_RULE
+// How far an iteration has moved: sums over the unknowns of their increments, of what these are
+// rounded with, and of the increments of those that are not close to their end.
 struct Distance {
   // What is left below that is solved for by Refinement.
   static constexpr Real units = 64;
+  // What is less than this of the whole, far below the last place of the carry, is not waited for:
+  // ahead of a wave every unknown is so much smaller than the one before it that an iteration
+  // brings one after the other to its end.
+  static constexpr Real lost = epsilon * epsilon * epsilon;
   Real size = 0;
   Real scale = 0;
-  bool close = true;
+  Real far = 0;
+
+  static Real far_of(Real moved, Real length) {
+    return moved <= units * epsilon * length ? Real(0) : moved;
+  }
+  bool close() const { return far <= lost * scale; }
 
   void add(Real moved, Real length) {
     size += moved;
     scale += length;
-    close = close && moved <= units * epsilon * length;
+    far += far_of(moved, length);
   }
   // Arrays of them, rounded with what stands beside.
   void add(const Real* moved, const Real* value, const Real* beside, int count) {
@@ -428,13 +442,13 @@ struct Distance {
     size += all_moved;
     scale += all_lengths;
     // Not each is close where all of them together are not.
-    close = close && all_moved <= 2 * units * epsilon * all_lengths;
-    if (!close) return;
-    const Real far = sum_of(count, [&](int j) {
-      const Real length = magnitude(value[j]) + magnitude(beside[j]);
-      return magnitude(moved[j]) <= units * epsilon * length ? Real(0) : Real(1);
-    });
-    close = far < 1;
+    Real all_far = far_of(all_moved, 2 * all_lengths);
+    if (all_far <= 0) {
+      all_far = sum_of(count, [&](int j) {
+        return far_of(magnitude(moved[j]), magnitude(value[j]) + magnitude(beside[j]));
+      });
+    }
+    far += all_far;
   }
 };
 // When to stop an iteration that has no other end than rounding: where all unknowns are close to
@@ -456,7 +470,7 @@ struct FixedPointRule {
   Verdict operator()(const Distance& moved, int iterations) {
     size = moved.size;
     if (!(size <= largest)) return Verdict::failed;
-    if (moved.close) return Verdict::done;
+    if (moved.close()) return Verdict::done;
     Real& smallest = least[iterations % Cycle];
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
@@ -471,8 +485,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_0D4AB561_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_C7654B91_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_C7654B91_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -554,8 +568,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_REFINEMENT
-#define HAMGEN_0D4AB561_FLOAT64_REFINEMENT
+#ifndef HAMGEN_C7654B91_FLOAT64_REFINEMENT
+#define HAMGEN_C7654B91_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -580,6 +594,7 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real last = 0;                 // what the last round moved all together
+  Real begun = 0;                // the first of these
   Real least = 0;                // of these
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
@@ -620,10 +635,10 @@ struct Refinement {
     // What is cut off is a bias: a 2^-13th of a unit.
     const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
-      return magnitude(error[j]) * 8192 > unit ? Real(1) : Real(0);
+      return magnitude(error[j]) * 8192 > unit ? magnitude(error[j]) : Real(0);
     });
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
-    const bool more = goes_on(open > 0);
+    const bool more = goes_on(open);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
@@ -639,19 +654,21 @@ struct Refinement {
   static Real lacking(const Real* lack) {
     return sum_of<Size>([&](int j) { return magnitude(lack[j]); });
   }
-  // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
-  bool goes_on(bool open) {
+  // A slow contraction takes its time; what the rounding of the map leaves does not decrease.  What
+  // is lost beside the first round is not waited for (Distance).
+  bool goes_on(Real open) {
+    if (rounds == 0) begun = last;
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
-    const bool more = open && stuck < 4 && rounds < 500;
+    const bool more = open > epsilon * epsilon * begun && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
     return more;
   }
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_HISTORY
-#define HAMGEN_0D4AB561_FLOAT64_HISTORY
+#ifndef HAMGEN_C7654B91_FLOAT64_HISTORY
+#define HAMGEN_C7654B91_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -743,8 +760,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_FORGET
-#define HAMGEN_0D4AB561_FLOAT64_FORGET
+#ifndef HAMGEN_C7654B91_FLOAT64_FORGET
+#define HAMGEN_C7654B91_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -754,17 +771,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_0d4ab561::float64
+}  // namespace hamgen_c7654b91::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xb2167a18
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xc175b31c
 namespace fput::implicit_midpoint {
-inline namespace emitted_b2167a18 {
+inline namespace emitted_c175b31c {
 
-namespace numerics = ::hamgen_0d4ab561::float64;
+namespace numerics = ::hamgen_c7654b91::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -869,7 +886,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     rest.p[i] = carry.p[i] - h * start.refinement.change[i];
   }
   // False for infinities and NaN alike.
-  const Real length = squares_of(dz.q) + squares_of(rest.q) + squares_of(dz.p) + squares_of(rest.p);
+  const Real length = squares_of(dz.q, rest.q) + squares_of(dz.p, rest.p);
   return length <= 1.0e308;
 }
 
@@ -915,7 +932,7 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
     rest.p[i] = carry.p[i];
   }
   // False for infinities and NaN alike.
-  const Real length = squares_of(dz.q) + squares_of(rest.q) + squares_of(dz.p) + squares_of(rest.p);
+  const Real length = squares_of(dz.q, rest.q) + squares_of(dz.p, rest.p);
   return length <= 1.0e308;
 }
 
@@ -1028,9 +1045,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_b2167a18
+}  // namespace emitted_c175b31c
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xb2167a18
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xc175b31c
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -11,7 +11,7 @@
 //   solve     linear solve of size 2 for q, p, constant matrix hoisted
 //   left out  beta terms: beta = 0
 //             gamma terms: gamma = 0
-//   cost      per step: 69 + - *
+//   cost      per step: 88 + - *
 #pragma once
 #include <cmath>
 
@@ -65,11 +65,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_0d4ab561::float64 {
+namespace hamgen_c7654b91::float64 {
 using Real = double;
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
-#define HAMGEN_0D4AB561_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_C7654B91_FLOAT64_STEP_REPORT
+#define HAMGEN_C7654B91_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -79,15 +79,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_VOCABULARY
-#define HAMGEN_0D4AB561_FLOAT64_VOCABULARY
+#ifndef HAMGEN_C7654B91_FLOAT64_VOCABULARY
+#define HAMGEN_C7654B91_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_TWO_SUM
-#define HAMGEN_0D4AB561_FLOAT64_TWO_SUM
+#ifndef HAMGEN_C7654B91_FLOAT64_TWO_SUM
+#define HAMGEN_C7654B91_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -97,8 +97,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
-#define HAMGEN_0D4AB561_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_C7654B91_FLOAT64_SUM_WITH_REST
+#define HAMGEN_C7654B91_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -110,8 +110,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_PRODUCT_ERROR
-#define HAMGEN_0D4AB561_FLOAT64_PRODUCT_ERROR
+#ifndef HAMGEN_C7654B91_FLOAT64_PRODUCT_ERROR
+#define HAMGEN_C7654B91_FLOAT64_PRODUCT_ERROR
 // x * y less its rounded value, by Dekker's product of halves: exact without a fused multiply-add,
 // unless 2^27 x overflows.
 inline Real product_error(Real x, Real y) {
@@ -131,8 +131,8 @@ inline Real product_error(Real x, Real y) {
 }
 #endif
 
-#ifndef HAMGEN_0D4AB561_FLOAT64_DIFFERENCE_ERROR
-#define HAMGEN_0D4AB561_FLOAT64_DIFFERENCE_ERROR
+#ifndef HAMGEN_C7654B91_FLOAT64_DIFFERENCE_ERROR
+#define HAMGEN_C7654B91_FLOAT64_DIFFERENCE_ERROR
 // x - y less its rounded value (Knuth): exact whatever their sizes.
 inline Real difference_error(Real x, Real y) {
   const Real difference = x - y;
@@ -141,14 +141,14 @@ inline Real difference_error(Real x, Real y) {
 }
 #endif
 
-}  // namespace hamgen_0d4ab561::float64
+}  // namespace hamgen_c7654b91::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xc357b940
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xc4041878
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_c357b940 {
+inline namespace emitted_c4041878 {
 
-namespace numerics = ::hamgen_0d4ab561::float64;
+namespace numerics = ::hamgen_c7654b91::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::product_error,
     numerics::difference_error;
 
@@ -188,6 +188,7 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   const Real q_bar = q * k.c3 + p * k.c4;
   const Real p_bar = q * k.c5 + p * k.c3;
   const Real H_q = q_bar * k.c1;
+  const Real lost_w_2_bar_q = product_error(k.c1, q_bar);
   const Real rest_lack_q = q_bar - q;
   const Real lost_lack_q = difference_error(q_bar, q);
   const Real h_H_p = h * p_bar;
@@ -199,15 +200,16 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   const Real lost_lack_p = difference_error(p_bar, p);
   const Real h_H_q = h * H_q;
   const Real lost_h_H_q = product_error(h, H_q);
+  const Real lost_h_H_q_in_all = lost_h_H_q + h * lost_w_2_bar_q;
   const Real rest_lack_p_new = 0.5 * h_H_q + rest_lack_p;
-  const Real rest_beside_p = carry.p - 0.5 * lost_h_H_q - lost_lack_p;
+  const Real rest_beside_p = carry.p - 0.5 * lost_h_H_q_in_all - lost_lack_p;
   const Real R_p = -(rest_beside_p - rest_lack_p_new);
   dz.q = h_H_p;
   rest.q = carry.q + lost_h_H_p - k.c6 * R_p - k.c7 * R_q;
   dz.p = -h_H_q;
-  rest.p = carry.p - lost_h_H_q + k.c8 * R_q + k.c9 * R_p;
+  rest.p = carry.p - lost_h_H_q_in_all + k.c8 * R_q + k.c9 * R_p;
   // False for infinities and NaN alike.
-  const Real length = dz.q * dz.q + rest.q * rest.q + dz.p * dz.p + rest.p * rest.p;
+  const Real length = (dz.q + rest.q) * (dz.q + rest.q) + (dz.p + rest.p) * (dz.p + rest.p);
   report.converged = length <= 1.0e308;
   if (!report.converged) report.increment = length;
   return report;
@@ -281,9 +283,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_c357b940
+}  // namespace emitted_c4041878
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xc357b940
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xc4041878
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

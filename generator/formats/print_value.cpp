@@ -40,7 +40,9 @@ std::string RoutinePrinter::value(const written::Value& v) {
       std::vector<std::string> list = values(v);
       for (std::size_t i = 0; i < v.changed && !dialect_.has_references(); ++i)
         list[i] = "&" + list[i];
-      return fmt::format("{}({})", dialect_.block(v.text), joined_texts(list, ", "));
+      // Without a name in parentheses alone.
+      const std::string name = v.text.empty() ? "" : dialect_.block(v.text);
+      return fmt::format("{}({})", name, joined_texts(list, ", "));
     }
     case routine:
       return fmt::format("{}({})", dialect_.routine(v.text), arguments(v));

@@ -246,8 +246,11 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
         return false;
       };
     }
-    std::vector<Address> finite;
-    for (const std::string& symbol : end.finite) finite.push_back(address(symbol));
+    std::vector<std::vector<Address>> finite;
+    for (const std::vector<std::string>& sum : finite_sums(routine_, end)) {
+      finite.emplace_back();
+      for (const std::string& symbol : sum) finite.back().push_back(address(symbol));
+    }
     std::vector<Range> ranges;
     for (const KernelRange& range : end.ranges) ranges.push_back(range_of(range));
     const int target = end.flag ? index_of(end.flag->object) : 0;
@@ -255,7 +258,11 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       Real length = 0;
       for_all(ranges, 0, [&] {
         Real sum = 0;
-        for (const Address& place : finite) sum += m_.frame.at(place) * m_.frame.at(place);
+        for (const std::vector<Address>& places : finite) {
+          Real moved = 0;
+          for (const Address& place : places) moved += m_.frame.at(place);
+          sum += moved * moved;
+        }
         length += sum;
       });
       m_.report.converged = end.success && length <= NumericsOf<Real>::most;

@@ -1,16 +1,25 @@
-// How far an iteration has moved: sums over the unknowns of their increments and of what these are
-// rounded with, and whether each is close to its end.
+// How far an iteration has moved: sums over the unknowns of their increments, of what these are
+// rounded with, and of the increments of those that are not close to their end.
 struct Distance {
   // What is left below that is solved for by Refinement.
   static constexpr Real units = 64;
+  // What is less than this of the whole, far below the last place of the carry, is not waited for:
+  // ahead of a wave every unknown is so much smaller than the one before it that an iteration
+  // brings one after the other to its end.
+  static constexpr Real lost = epsilon * epsilon * epsilon;
   Real size = 0;
   Real scale = 0;
-  bool close = true;
+  Real far = 0;
+
+  static Real far_of(Real moved, Real length) {
+    return moved <= units * epsilon * length ? Real(0) : moved;
+  }
+  bool close() const { return far <= lost * scale; }
 
   void add(Real moved, Real length) {
     size += moved;
     scale += length;
-    close = close && moved <= units * epsilon * length;
+    far += far_of(moved, length);
   }
   // Arrays of them, rounded with what stands beside.
   void add(const Real* moved, const Real* value, const Real* beside, int count) {
@@ -20,13 +29,13 @@ struct Distance {
     size += all_moved;
     scale += all_lengths;
     // Not each is close where all of them together are not.
-    close = close && all_moved <= 2 * units * epsilon * all_lengths;
-    if (!close) return;
-    const Real far = sum_of(count, [&](int j) {
-      const Real length = magnitude(value[j]) + magnitude(beside[j]);
-      return magnitude(moved[j]) <= units * epsilon * length ? Real(0) : Real(1);
-    });
-    close = far < 1;
+    Real all_far = far_of(all_moved, 2 * all_lengths);
+    if (all_far <= 0) {
+      all_far = sum_of(count, [&](int j) {
+        return far_of(magnitude(moved[j]), magnitude(value[j]) + magnitude(beside[j]));
+      });
+    }
+    far += all_far;
   }
 };
 // When to stop an iteration that has no other end than rounding: where all unknowns are close to
@@ -48,7 +57,7 @@ struct FixedPointRule {
   Verdict operator()(const Distance& moved, int iterations) {
     size = moved.size;
     if (!(size <= largest)) return Verdict::failed;
-    if (moved.close) return Verdict::done;
+    if (moved.close()) return Verdict::done;
     Real& smallest = least[iterations % Cycle];
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;

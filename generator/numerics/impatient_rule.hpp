@@ -16,7 +16,7 @@ struct ImpatientRule {
     const bool visible = rule.size > 4096 * epsilon * moved.scale;
     slow = iterations > 1 && visible && 2 * rule.size > size ? slow + 1 : 0;
     size = rule.size;
-    const bool near = moved.close || rule.size <= 64 * epsilon * moved.scale;
+    const bool near = moved.close() || rule.size <= 64 * epsilon * moved.scale;
     const bool gives_up = verdict == Verdict::done ? !near : slow >= 3;
     return gives_up ? Verdict::failed : verdict;
   }

@@ -19,10 +19,10 @@ inline void add_lanes(const Pack<W>& zero, Distance& distance, const double* mov
       const Pack<W> length = lane_abs(Pack<W>::at(value + at)) + lane_abs(Pack<W>::at(beside + at));
       size[k] += way;
       scale[k] += length;
-      far[k] += select(way <= Distance::units * 0x1p-52 * length, zero, Pack<W>(1));
+      far[k] += select(way <= Distance::units * 0x1p-52 * length, zero, way);
     }
   }
   distance.size += total_of<W>(size);
   distance.scale += total_of<W>(scale);
-  distance.close = distance.close && total_of<W>(far) < 1;
+  distance.far += total_of<W>(far);
 }

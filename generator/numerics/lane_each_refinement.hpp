@@ -16,6 +16,7 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real last = 0;                 // what the last round moved all together
+  Real begun = 0;                // the first of these
   Real least = 0;                // of these
   Real stuck = 0;                // rounds that moved no less
   Mask open = false;             // lanes that want more
@@ -65,23 +66,25 @@ struct Refinement {
   void round(const Real* lack, const Real* gradient) {
     if (!any(open)) return;
     const Mask lanes = open;
-    Mask lacking = false;
+    Real lacking = 0;
     last = sum_of(Size, [&](int j) {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;
       moved[j] = way;
       // What is cut off is a bias: a 2^-13th of a unit.
       const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
-      lacking = lacking | (magnitude(error) * 8192 > unit);
+      lacking += select(magnitude(error) * 8192 > unit, magnitude(error), Real(0));
       return magnitude(error);
     });
     for (int k = 0; k < Components; ++k)
       change[k] = select(lanes, (gradient[k] - slope[k]) / amplifier, change[k]);
     // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
+    // What is lost beside the first round is not waited for.
+    if (rounds == 0) begun = last;
     const Mask decreased = rounds == 0 ? Mask(true) : last < least;
     stuck = select(decreased, Real(0), stuck + 1);
     least = select(decreased, last, least);
-    open = open & lacking & (stuck < 4) & Mask(rounds < 500);
+    open = open & (lacking > epsilon * epsilon * begun) & (stuck < 4) & Mask(rounds < 500);
   }
   bool move(const Mask& looked, Real* point) {
     for (int j = 0; j < Size; ++j) {

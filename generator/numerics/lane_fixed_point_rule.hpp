@@ -2,21 +2,28 @@
 struct Distance {
   // What is left below that is solved for by Refinement.
   static constexpr double units = 64;
+  // What is less than this of the whole is not waited for.
+  static constexpr double lost = epsilon * epsilon * epsilon;
   Real size = 0;
   Real scale = 0;
-  Mask close = true;
+  Real far = 0;
+
+  static Real far_of(const Real& moved, const Real& length) {
+    return select(moved <= units * epsilon * length, Real(0), moved);
+  }
+  Mask close() const { return far <= lost * scale; }
 
   void add(const Real& moved, const Real& length) {
     size += moved;
     scale += length;
-    close = close & (moved <= units * epsilon * length);
+    far += far_of(moved, length);
   }
   // Arrays of them, rounded with what stands beside.
   void add(const Real* moved, const Real* value, const Real* beside, int count) {
     size += sum_of(count, [&](int j) { return magnitude(moved[j]); });
     scale += sum_of(count, [&](int j) {
       const Real length = magnitude(value[j]) + magnitude(beside[j]);
-      close = close & (magnitude(moved[j]) <= units * epsilon * length);
+      far += far_of(magnitude(moved[j]), length);
       return length;
     });
   }
@@ -51,7 +58,7 @@ struct FixedPointRule : Iteration {
     const Mask rests = ((stuck >= 2) & (size <= 64 * round_off)) |
                        ((stuck >= 3) & (size <= 512 * round_off)) |
                        ((stuck >= 4) & (size <= 4096 * round_off));
-    const Mask done = finite & (moved.close | rests);
+    const Mask done = finite & (moved.close() | rests);
     // What still decreases then does so by a few hundredths at a time: much more is missing.
     return {done, !finite | (Mask(iterations >= 500) & !done)};
   }

@@ -13,7 +13,7 @@ struct ImpatientRule : FixedPointRule<2> {
     const Real round_off = epsilon * moved.scale;
     const Mask drags = Mask(iterations > 1) & (size > 4096 * round_off) & (2 * size > before);
     slow = select(drags, slow + 1, Real(0));
-    const Mask near = moved.close | (size <= 64 * round_off);
+    const Mask near = moved.close() | (size <= 64 * round_off);
     judgement.failed =
         judgement.failed | (judgement.done & !near) | ((slow >= 3) & !judgement.done);
     return end(judgement);

@@ -19,11 +19,11 @@ struct RefinementInLanes : Refinement {
         Lanes::put(this->moved + first, way);
         moves[k] += lane_abs(error);
         const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + first)) + lane_abs(way) * 0x1p-7;
-        open[k] += select(lane_abs(error) * 8192 > unit, Lanes(1), zero);
+        open[k] += select(lane_abs(error) * 8192 > unit, lane_abs(error), zero);
       }
     }
     this->last = total_of<width>(moves);
-    const bool more = this->goes_on(total_of<width>(open) > 0);
+    const bool more = this->goes_on(total_of<width>(open));
     if (more) {
       for (int first = 0; first < size; first += width) {
         const Lanes ahead = Refinement::amplifier * Lanes::at(this->moved + first);

@@ -22,6 +22,7 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real last = 0;                 // what the last round moved all together
+  Real begun = 0;                // the first of these
   Real least = 0;                // of these
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
@@ -62,10 +63,10 @@ struct Refinement {
     // What is cut off is a bias: a 2^-13th of a unit.
     const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
-      return magnitude(error[j]) * 8192 > unit ? Real(1) : Real(0);
+      return magnitude(error[j]) * 8192 > unit ? magnitude(error[j]) : Real(0);
     });
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
-    const bool more = goes_on(open > 0);
+    const bool more = goes_on(open);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
@@ -81,11 +82,13 @@ struct Refinement {
   static Real lacking(const Real* lack) {
     return sum_of<Size>([&](int j) { return magnitude(lack[j]); });
   }
-  // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
-  bool goes_on(bool open) {
+  // A slow contraction takes its time; what the rounding of the map leaves does not decrease.  What
+  // is lost beside the first round is not waited for (Distance).
+  bool goes_on(Real open) {
+    if (rounds == 0) begun = last;
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
-    const bool more = open && stuck < 4 && rounds < 500;
+    const bool more = open > epsilon * epsilon * begun && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
     return more;
   }

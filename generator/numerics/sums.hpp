@@ -31,3 +31,8 @@ template <int Size>
 inline Real squares_of(const Real (&vector)[Size]) {
   return sum_of<Size>([&](int j) { return vector[j] * vector[j]; });
 }
+// Of their sum.
+template <int Size>
+inline Real squares_of(const Real (&vector)[Size], const Real (&rest)[Size]) {
+  return sum_of<Size>([&](int j) { return (vector[j] + rest[j]) * (vector[j] + rest[j]); });
+}

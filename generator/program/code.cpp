@@ -205,12 +205,26 @@ For moved_in_lanes(const IterateArray& iterate) {
   return {iterate.ranges.front(), {{Assign{u.value, moved}}}, iterate.lanes};
 }
 
-std::vector<Place> finite_arrays(const Routine& routine, const Return& end) {
-  std::vector<Place> list;
+std::vector<std::vector<std::string>> finite_sums(const Routine& routine, const Return& end) {
+  std::vector<std::vector<std::string>> sums;
   for (const std::string& symbol : end.finite) {
-    const std::optional<Place> array = whole_array(routine, symbol, end.ranges);
-    if (!array || !array->indices.empty()) return {};
-    list.push_back(*array);
+    const auto found = routine.places.find(symbol);
+    const bool is_rest = found != routine.places.end() && found->second.object == "rest";
+    if (!is_rest) sums.emplace_back();
+    sums.back().push_back(symbol);
+  }
+  return sums;
+}
+
+std::vector<std::vector<Place>> finite_arrays(const Routine& routine, const Return& end) {
+  std::vector<std::vector<Place>> list;
+  for (const std::vector<std::string>& sum : finite_sums(routine, end)) {
+    list.emplace_back();
+    for (const std::string& symbol : sum) {
+      const std::optional<Place> array = whole_array(routine, symbol, end.ranges);
+      if (!array || !array->indices.empty()) return {};
+      list.back().push_back(*array);
+    }
   }
   return list;
 }

@@ -354,8 +354,12 @@ struct WholeUnknowns {
                                                         const IterateArray& iterate);
 // How such an iteration moves its array of unknowns, in lanes.
 [[nodiscard]] For moved_in_lanes(const IterateArray& iterate);
-// The whole arrays that should be finite: none if one of them is not.
-[[nodiscard]] std::vector<Place> finite_arrays(const Routine& routine, const Return& end);
+// The sums that should be finite: of an increment and the rest behind it, or of a symbol alone.
+[[nodiscard]] std::vector<std::vector<std::string>> finite_sums(const Routine& routine,
+                                                                const Return& end);
+// The whole arrays of them: none if one is not whole.
+[[nodiscard]] std::vector<std::vector<Place>> finite_arrays(const Routine& routine,
+                                                            const Return& end);
 // The bodies inside an instruction.
 [[nodiscard]] std::vector<const Body*> inner_bodies(const Instruction& instruction);
 [[nodiscard]] std::vector<Body*> inner_bodies(Instruction& instruction);

@@ -205,11 +205,20 @@ class RoutineWriter : public RunWriter {
 
   void length_of(const hamgen::Return& end) {
     std::vector<Value> squares;
-    for (const Place& array : finite_arrays(routine_, end))
-      squares.push_back(call("squares_of", {object(array)}));
+    for (const std::vector<Place>& arrays : finite_arrays(routine_, end)) {
+      std::vector<Value> sum;
+      for (const Place& array : arrays) sum.push_back(object(array));
+      squares.push_back(call("squares_of", std::move(sum)));
+    }
     const bool whole = !squares.empty();
-    for (std::size_t i = 0; i < end.finite.size() && !whole; ++i)
-      squares.push_back(joined("*", {symbol(end.finite[i]), symbol(end.finite[i])}));
+    for (const std::vector<std::string>& symbols : finite_sums(routine_, end)) {
+      if (whole) break;
+      std::vector<Value> parts;
+      for (const std::string& each : symbols) parts.push_back(symbol(each));
+      Value sum = joined("+", std::move(parts));
+      if (symbols.size() > 1) sum = in_parentheses(std::move(sum));
+      squares.push_back(joined("*", {sum, sum}));
+    }
     Value sum = joined("+", std::move(squares));
     if (end.ranges.empty() || whole) {
       Statement& defined = add(Define{"Real", "length ", std::move(sum)});

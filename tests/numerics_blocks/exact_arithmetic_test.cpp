@@ -137,6 +137,29 @@ TYPED_TEST(ExactArithmetic, ASlowContractionIsFollowedToItsEnd) {
   EXPECT_TRUE(TypeParam::absolute(reached - 1) <= Real(1) / 300) << double(reached);
 }
 
+// An unknown that is 0 at the point and this size in the solution, and contracts by 31/32 a time,
+// beside the one above.
+template <class Blocks>
+int rounds_beside_one_of(typename Blocks::Scalar size) {
+  using Real = typename Blocks::Scalar;
+  const Real d = 3 * Blocks::unit / 8;
+  typename Blocks::template Refined<2, 2> refinement;
+  Real point[2] = {1, 0};
+  int rounds = 0;
+  for (bool more = true; more; ++rounds) {
+    const Real lack[2] = {-(((point[0] - 1) - d) * 3 / 4), (size - point[1]) / 32};
+    more = refinement(point, lack, point);
+  }
+  return rounds;
+}
+
+TYPED_TEST(ExactArithmetic, WhatIsLostBesideTheFirstRoundIsNotFollowed) {
+  using Real = typename TypeParam::Scalar;
+  const Real lost = TypeParam::unit * TypeParam::unit * TypeParam::unit;
+  EXPECT_EQ(rounds_beside_one_of<TypeParam>(lost), rounds_beside_one_of<TypeParam>(0));
+  EXPECT_GT(rounds_beside_one_of<TypeParam>(1024 * lost), 100);
+}
+
 TYPED_TEST(ExactArithmetic, WhatDoesNotContractIsNotFollowed) {
   int rounds = 0;
   (void)refined_over_300_units<TypeParam>(2, rounds);

@@ -87,6 +87,14 @@ TYPED_TEST(FixedPointRule, WhatIsCloseToItsEndIsThere) {
   EXPECT_EQ(this->template stop<2>(constant(200), Verdict::done, 1), 5);
 }
 
+// Ahead of a wave an unknown moves by more than all it was, and by nothing beside the others.
+TYPED_TEST(FixedPointRule, WhatIsLostInTheWholeIsNotWaitedFor) {
+  const auto unit = static_cast<double>(TypeParam::unit);
+  const auto constant = [](double units) { return [units](int) { return units; }; };
+  EXPECT_EQ(this->template stop<2>(constant(0.5 * unit * unit)), 1);
+  EXPECT_GT(this->template stop<2>(constant(2.0 * unit * unit)), 1);
+}
+
 // 0.99 a time, and 500 times are not enough: what has become small is not what is missing.
 TYPED_TEST(FixedPointRule, ASlowContractionIsNotTakenForItsLimit) {
   using Verdict = typename TypeParam::Answer;

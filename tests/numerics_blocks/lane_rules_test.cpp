@@ -383,5 +383,44 @@ TEST(LaneRules, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
   }
 }
 
+TEST(LaneRules, WhatIsLostIsNotWaitedForInEachLaneAsAlone) {
+  const double sizes[kCount] = {0, 0x1p-170, 0x1p-156, 0x1p-140, 0x1p-100, 0x1p-60, 1, 0x1p-157};
+  lanes::Real size = 0;
+  for (int lane = 0; lane < kCount; ++lane) size.set(lane, sizes[lane]);
+  const lanes::Real zero = 0;
+  const lanes::Real one = 1;
+  lanes::Distance together;
+  lanes::Distance of_array;
+  together.add(size, zero);
+  together.add(zero, one);
+  of_array.add(&size, &zero, &zero, 1);
+  of_array.add(&zero, &one, &zero, 1);
+  lanes::Refinement<2, 2> refinement;
+  const auto refine = [](auto& x, const auto& last, const auto& look) {
+    for (bool more = true; more;) {
+      const std::remove_cvref_t<decltype(last)> lack[2] = {0x1p-53 - (x[0] - 1) * 0.75,
+                                                           (last - x[1]) * 0x1p-5};
+      more = look(x, lack);
+    }
+  };
+  lanes::Real x[2] = {1, 0};
+  refine(x, size, [&](auto& point, const auto& lack) {
+    return refinement(turn_of_all(), point, lack, point);
+  });
+  for (int lane = 0; lane < kCount; ++lane) {
+    of_double::Distance alone;
+    alone.add(sizes[lane], 0);
+    alone.add(0, 1);
+    EXPECT_EQ(together.close()[lane], alone.close()) << lane;
+    EXPECT_EQ(of_array.close()[lane], alone.close()) << lane;
+    EXPECT_EQ(alone.close(), sizes[lane] <= 0x1p-156) << lane;
+    of_double::Refinement<2, 2> other;
+    double y[2] = {1, 0};
+    refine(y, sizes[lane],
+           [&](auto& point, const auto& lack) { return other(point, lack, point); });
+    EXPECT_EQ(refinement.change[1][lane], other.change[1]) << lane;
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::numerics_blocks_test

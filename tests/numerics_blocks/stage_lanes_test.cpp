@@ -20,6 +20,7 @@ using Lanes = stage_packs::Pack<W>;
 template <int W, int Count>
 void expect_the_distance() {
   Numbers numbers;
+  int ends = 0;
   for (int k = 0; k < 20; ++k) {
     double moved[Count];
     double value[Count];
@@ -29,14 +30,21 @@ void expect_the_distance() {
       beside[j] = numbers.next();
       moved[j] = numbers.next() * (k % 2 == 0 ? 0x1p-50 : 1);
     }
+    // One that is nothing beside the others.
+    if (k % 4 == 0) {
+      value[Count - 1] = beside[Count - 1] = 0;
+      moved[Count - 1] = k % 8 == 0 ? 0x1p-160 : 0x1p-100;
+    }
     of_double::Distance one;
     of_double::Distance all;
     one.add(moved, value, beside, Count);
     stage_packs::add_lanes(Lanes<W>(0), all, moved, value, beside, Count);
     EXPECT_EQ(one.size, all.size) << W << " of " << Count;
     EXPECT_EQ(one.scale, all.scale);
-    EXPECT_EQ(one.close, all.close);
+    EXPECT_EQ(one.close(), all.close());
+    if (all.close()) ends += k % 8 == 0 ? 1 : 2;
   }
+  EXPECT_EQ(ends % 2, 1);
 }
 
 TEST(StageLanes, HaveTheDistanceOfArrays) {
@@ -48,9 +56,10 @@ TEST(StageLanes, HaveTheDistanceOfArrays) {
   expect_the_distance<8, 40>();
 }
 
-// Rounds of a refinement whose map contracts by a fifth.
+// Rounds of a refinement whose map contracts by a fifth, but slowly the last unknown, of this size
+// in the solution.
 template <int W, int Size>
-void expect_the_refinement() {
+void expect_the_refinement(double last = 1) {
   Numbers numbers;
   of_double::Refinement<Size, Size> one;
   stage_packs::RefinementInLanes<Lanes<W>, of_double::Refinement<Size, Size>> all;
@@ -61,6 +70,8 @@ void expect_the_refinement() {
     for (int j = 0; j < Size; ++j) point[j] = same[j] = numbers.next();
     double end[Size];
     for (int j = 0; j < Size; ++j) end[j] = point[j] * (1 + numbers.next() * 0x1p-51);
+    if (last < 1) point[Size - 1] = same[Size - 1] = 0;
+    if (last < 1) end[Size - 1] = last;
     for (bool more = true; more; ++rounds) {
       double lack[Size];
       double gradient[Size];
@@ -69,6 +80,7 @@ void expect_the_refinement() {
         lack[j] = end[j] - point[j] + (point[(j + 1) % Size] - end[(j + 1) % Size]) / 5;
         gradient[j] = 3 * point[j];
       }
+      if (last < 1) lack[Size - 1] = (last - point[Size - 1]) / 32;
       more = one(point, lack, gradient);
       ASSERT_EQ(all(same, lack, gradient), more);
       EXPECT_EQ(one.last, all.last);
@@ -86,6 +98,8 @@ TEST(StageLanes, AreRefinedAsOneNumberAfterTheOther) {
   expect_the_refinement<4, 8>();
   expect_the_refinement<4, 12>();
   expect_the_refinement<8, 16>();
+  expect_the_refinement<4, 8>(0x1p-156);
+  expect_the_refinement<4, 8>(0x1p-140);
 }
 
 TEST(StageLanes, GoInAndOutOfArraysInTheirOrder) {
