@@ -268,20 +268,17 @@ Routine LoopStage::gradient_error() const {
       return Expression::symbol(name + of, kRankOfTemporary);
     };
     const Expression part = let("part", entry.value * z);
-    const Expression less = let("left", left - part);
-    Expression small = -let("error", Expression::apply(kDifferenceError, {left, part}));
-    if (!is_exact_factor(entry.value)) {
-      small += let("lost", Expression::apply(kProductError, {entry.value, z}));
-    }
-    body.push_back({Assign{left.name(), less}});
-    body.push_back({Accumulate{lost.name(), small}});
+    body.push_back({Collect{left.name(), lost.name(), -part}});
+    if (is_exact_factor(entry.value)) return;
+    body.push_back({Accumulate{lost.name(),
+                               -let("lost", Expression::apply(kProductError, {entry.value, z}))}});
   };
   Routine routine =
       kernel_entries(environment_, mechanics_, Part::all, b.take(), {"q"}, {"p"}, use);
   RoutineBuilder end(std::move(routine));
   const Expression left = end.at("left", "", {affine("i")});
-  Body rest{
-      {Assign{end.at("lost", "", {affine("i")}).name(), end.at("lost", "", {affine("i")}) - left}}};
+  Body rest{{Assign{end.at("lost", "", {affine("i")}).name(),
+                    -(left + end.at("lost", "", {affine("i")}))}}};
   end.body().push_back(for_each(counting("i", 2 * n_), std::move(rest)));
   return end.take();
 }

@@ -35,7 +35,8 @@ class LoopStage {
         n_(environment.degrees_of_freedom),
         tangent_(lowered.tangent),
         weights_(*uniform_parameters(plan_.equations.scheme.member())),
-        is_quadratic_(arrays_.constant_matrix && has_no_linear_terms(mechanics_)) {
+        is_quadratic_(arrays_.constant_matrix && has_no_linear_terms(mechanics_) &&
+                      plan_.equations.has_exact_hessian()) {
     if (arrays_.reduced && !needs_drift() && !is_linear())
       velocity_ = local_velocity(mechanics_, "i");
   }

@@ -106,6 +106,7 @@ std::pair<Expression, Expression> StepBuilder::flow_of(int k, const Expression& 
 // Where its factors are constant it is the sum of their products with the stage: what is left of it
 // when they are subtracted, and what products and differences lose.
 void StepBuilder::find_lost_of_gradient(int k, int section) {
+  if (!equations_.has_exact_hessian()) return;
   const Expression gradient = gradient_[index(k)];
   Substitution zero;
   for (int v = 0; v < 2 * n_; ++v) zero.emplace(equations_.stage(v).name(), Expression(0));
@@ -116,6 +117,7 @@ void StepBuilder::find_lost_of_gradient(int k, int section) {
     parts.push_back(name_once("(" + to_text(at_zero) + ")", at_zero, kCoefficients));
   }
   for (int v = 0; v < 2 * n_; ++v) {
+    if (!equations_.is_polynomial(k, v)) return;
     const Expression factor = equations_.stage_hessian(k, v);
     if (factor.is_zero()) continue;
     if (depends_on_state(factor)) return;

@@ -86,6 +86,24 @@ TEST(Run, CompilesForThisProcessorUnlessItIsPortable) {
 #endif
 }
 
+// Where g++ 12 sums two products side by side it leaves one of them unrounded, if the processor
+// can.
+TEST(Run, RoundsEveryProductWhateverTheProcessor) {
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "chain.ham",
+      "system chain\nsize N = 6\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
+      "momentum p[1..N]\nH = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, 1.3*(q[i+1] - q[i])^2/2)\n"
+      "scene wave {\n  q[i] = sin(i)\n  p[i] = cos(i)\n  h = 1\n  steps = 1000\n}\n");
+  const auto states = [&](const std::string& option) {
+    const Result result =
+        hamgen({"run", model, "--quiet", "-o", "-", "--every", "100", "--flags=-O3", option});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out.substr(result.out.find("\nstep,"));
+  };
+  EXPECT_EQ(states("--portable"), states("--compiler=g++"));
+}
+
 TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);

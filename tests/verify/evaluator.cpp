@@ -107,11 +107,13 @@ class Evaluator {
     for (std::size_t i = 0; i < body.size(); ++i) {
       const auto* let = std::get_if<Let>(&body[i].value);
       if (let == nullptr || let->value.kind() != Kind::function) continue;
-      if (let->value.name() != kProductError) continue;
-      const Expression product = let->value.operands()[0] * let->value.operands()[1];
+      if (!is_rounding_error(let->value.name())) continue;
+      const Expression& x = let->value.operands()[0];
+      const Expression& y = let->value.operands()[1];
+      const Expression exact = let->value.name() == kProductError ? x * y : x - y;
       for (std::size_t j = i; j-- > 0;) {
         const auto* before = std::get_if<Let>(&body[j].value);
-        if (before == nullptr || before->value != product) continue;
+        if (before == nullptr || before->value != exact) continue;
         frame.rounded.insert(before->symbol);
         break;
       }
@@ -349,12 +351,13 @@ class Evaluator {
         return std::pow(x[0], x[1]);
       case Kind::function:
         if (e.name() == kProductError) return kLost * x[0] * x[1];
+        if (e.name() == kDifferenceError) return kLost * (x[0] - x[1]);
         return e.name() == "sin" ? std::sin(x[0]) : std::cos(x[0]);
     }
     return 0;
   }
 
-  // Of a product that comes with its error, a part: the two of them are the product.
+  // Of a product or a difference that comes with its error, a part: the two of them are exact.
   static constexpr double kLost = 0.1;
   const Program& code_;
   std::map<std::string, double> cells_;
