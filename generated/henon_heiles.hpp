@@ -74,11 +74,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows is the same in every header.
-namespace hamgen_c7654b91::float64 {
+namespace hamgen_6e14fa35::float64 {
 using Real = double;
 
-#ifndef HAMGEN_C7654B91_FLOAT64_STEP_REPORT
-#define HAMGEN_C7654B91_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_6E14FA35_FLOAT64_STEP_REPORT
+#define HAMGEN_6E14FA35_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -88,8 +88,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_C7654B91_FLOAT64_TWO_SUM
-#define HAMGEN_C7654B91_FLOAT64_TWO_SUM
+#ifndef HAMGEN_6E14FA35_FLOAT64_TWO_SUM
+#define HAMGEN_6E14FA35_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -99,14 +99,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_c7654b91::float64
+}  // namespace hamgen_6e14fa35::float64
 
 #ifndef HAMGEN_METHOD_henon_heiles_symplectic_euler_a
-#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x9ad4b40c
+#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x6e979223
 namespace henon_heiles::symplectic_euler_a {
-inline namespace emitted_9ad4b40c {
+inline namespace emitted_6e979223 {
 
-namespace numerics = ::hamgen_c7654b91::float64;
+namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // dz = Z - z for one step from z + carry.
@@ -205,9 +205,9 @@ class Propagator {
   long long steps_ = 0;
 };
 
-}  // namespace emitted_9ad4b40c
+}  // namespace emitted_6e979223
 }  // namespace henon_heiles::symplectic_euler_a
-#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x9ad4b40c
+#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x6e979223
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

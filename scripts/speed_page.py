@@ -119,7 +119,7 @@ def by_targets():
     cases = []
     error = None
     for line in kept("peers").splitlines():
-        head = re.match(r"\S*?(\w+)\.ham, scene (\S+), T = (\S+);", line)
+        head = re.match(r"\S*?(\w+)\.ham, scene (.+), T = (\S+);", line)
         title = re.match(r"  us/unit, (\w+) error +(.*)", line)
         row = re.match(r"  (\S.*?) {2,}((?:(?:[\d.e+-]+|-|no peer|no hamgen) *)+)$", line)
         if head:

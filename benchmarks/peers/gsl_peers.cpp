@@ -82,7 +82,10 @@ bool rk2imp(const Flow& flow, std::vector<double>& z, double time, double h,
 std::vector<Peer> gsl_peers() {
   gsl_set_error_handler_off();
   return {{.name = "GSL rk8pd", .integrate = rk8pd},
-          {.name = "GSL rk2imp", .adaptive = false, .integrate = rk2imp}};
+          {.name = "GSL rk2imp",
+           .adaptive = false,
+           .most_degrees_of_freedom = 100,  // a dense matrix
+           .integrate = rk2imp}};
 }
 
 }  // namespace hamgen::peers

@@ -48,6 +48,7 @@ struct Peer {
   std::string name;
   bool adaptive = true;          // the setting is a tolerance, else a step size
   bool needs_unit_mass = false;  // H = |p|^2/2 + V(q)
+  std::size_t most_degrees_of_freedom = 1'000'000;
   // Moves z over `time`.  False if the library gave up.  The observer may be empty.
   std::function<bool(const Flow&, std::vector<double>& z, double time, double setting,
                      const Observer&)>

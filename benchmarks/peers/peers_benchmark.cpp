@@ -25,6 +25,7 @@ struct Case {
   std::string path;
   std::string scene;
   std::string time;
+  std::map<std::string, long> sizes = {};
 };
 
 constexpr int kRounds = 5;
@@ -83,6 +84,7 @@ struct Problem {
   SourceText source;
   SceneValues scene;
   Rational time;
+  std::map<std::string, long> sizes;
   Mechanics mechanics;
   app::ReferenceSolution reference;
 };
@@ -90,13 +92,15 @@ struct Problem {
 Problem read_problem(const Case& chosen) {
   Problem problem;
   problem.source = read_source(chosen.path);
-  const Model model = read_model(problem.source);
+  problem.sizes = chosen.sizes;
+  const Model model = read_model(problem.source, problem.sizes);
   problem.scene = app::complete_scene(model, {.scene = chosen.scene});
   problem.time = evaluate_constant(read_expression("time", chosen.time, {}),
                                    make_source("time", chosen.time), {});
   if (problem.time <= 0) throw UsageError("the time is not positive: " + chosen.time);
   problem.mechanics = derive(model);
-  problem.reference = app::reference_solution(problem.source, problem.scene, problem.time, {});
+  problem.reference = app::reference_solution(problem.source, problem.scene, problem.time,
+                                              {.sizes = problem.sizes});
   if (problem.reference.state.empty())
     throw UsageError("no reference to measure errors against: " + problem.reference.failure);
   return problem;
@@ -107,8 +111,9 @@ double add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::Bench
                   std::vector<Result>& results) {
   double scale = 0.0;
   for (const std::string& spec : app::default_specs(problem.mechanics)) {
-    methods.push_back(std::make_unique<app::BenchMethod>(
-        app::bench_method(spec, problem.source, app::request_of_spec(spec, {}), {})));
+    const Request request = app::request_of_spec(spec, {.sizes = problem.sizes});
+    methods.push_back(
+        std::make_unique<app::BenchMethod>(app::bench_method(spec, problem.source, request, {})));
     const app::BenchMethod& method = *methods.back();
     for (int power = kLargestPower; power >= kSmallestPower; --power) {
       app::BenchRow row;
@@ -136,6 +141,7 @@ double add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::Bench
 void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& start,
               const Problem& problem, std::vector<Result>& results) {
   if (peer.needs_unit_mass && !has_unit_mass(flow, start)) return;
+  if (flow.n() > peer.most_degrees_of_freedom) return;
   const double time = problem.time.get_d();
   std::vector<double> settings;
   if (peer.adaptive) {
@@ -244,9 +250,12 @@ void compare(const Case& chosen, bool all_rows) {
     for (Result& result : results) result.seconds.push_back(result.sample());
   }
   const double time = problem.time.get_d();
+  std::string sizes;
+  for (const auto& [name, size] : problem.sizes) sizes += fmt::format(", {} = {}", name, size);
   fmt::print(
-      "\n{}, scene {}, T = {:g}; the reference's own error is {:.1e}, the energy's scale {:.3g}\n",
-      chosen.path, problem.scene.name, time, problem.reference.error, scale);
+      "\n{}, scene {}{}, T = {:g}; the reference's own error is {:.1e}, the energy's scale "
+      "{:.3g}\n",
+      chosen.path, problem.scene.name, sizes, time, problem.reference.error, scale);
   std::vector<double> spreads;
   for (const Result& result : results) spreads.push_back(result.spread());
   std::ranges::sort(spreads);
@@ -273,10 +282,15 @@ int run(const std::vector<std::string>& words) {
                              {models + "double_pendulum.ham", "horizontal", "10"}};
   std::vector<std::string> rest = words;
   const bool all_rows = std::erase(rest, "--rows") > 0;
+  std::map<std::string, long> sizes;
+  for (; rest.size() > 3 && rest.back().find('=') != std::string::npos; rest.pop_back()) {
+    const std::size_t sign = rest.back().find('=');
+    sizes[rest.back().substr(0, sign)] = std::stol(rest.back().substr(sign + 1));
+  }
   if (rest.size() == 3) {
-    cases = {{rest[0], rest[1], rest[2]}};
+    cases = {{rest[0], rest[1], rest[2], sizes}};
   } else if (!rest.empty()) {
-    fmt::print(stderr, "usage: peers_benchmark [--rows] [MODEL.ham SCENE TIME]\n");
+    fmt::print(stderr, "usage: peers_benchmark [--rows] [MODEL.ham SCENE TIME [SIZE=NUMBER...]]\n");
     return 2;
   }
   for (const Case& chosen : cases) compare(chosen, all_rows);

@@ -3,7 +3,7 @@
 struct Distance {
   // What is left below that is solved for by Refinement.
   static constexpr Real units = 64;
-  // What is less than this of the whole, far below what sums lose, is not waited for:
+  // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
   static constexpr Real lost = epsilon * epsilon * epsilon;

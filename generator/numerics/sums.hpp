@@ -33,6 +33,6 @@ inline Real squares_of(const Real (&vector)[Size]) {
 }
 // Of their sum.
 template <int Size>
-inline Real squares_of(const Real (&vector)[Size], const Real (&rest)[Size]) {
-  return sum_of<Size>([&](int j) { return (vector[j] + rest[j]) * (vector[j] + rest[j]); });
+inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
+  return sum_of<Size>([&](int j) { return (vector[j] + other[j]) * (vector[j] + other[j]); });
 }

@@ -21,12 +21,14 @@ const Block* only_newton(const SolvePlan& plan) {
   return only;
 }
 
-// Does it take as long as some ten products, one after the other: a function or a root?
+// Does it take as long as some ten products, one after the other: a function, a root, or a power
+// that is as many?
 bool is_slow(const Expression& e) {
   if (e.kind() == Kind::function) return e.name() != "abs";
   if (e.kind() != Kind::power) return false;
   const Expression& exponent = e.operands()[1];
-  return !exponent.is_number() || exponent.number().get_den() != 1;
+  if (!exponent.is_number() || exponent.number().get_den() != 1) return true;
+  return abs(exponent.number()) >= 32;
 }
 
 // The symbols of all of these in an expression; each node is looked at once.
