@@ -187,10 +187,22 @@ std::vector<Row> all_rows() {
   const Problem six_at_one{.name = "chain of 6, h = 1", .model = chain(6), .h = 1};
   add(rows, six_at_one, "midpoint", {});
   add(rows, six_at_one, "gauss-4", {.scheme = "gauss-4"});
-  const Problem soft_at_one{.name = "soft chain of 6, h = 1", .model = soft_chain(6), .h = 1};
-  add(rows, soft_at_one, "midpoint", {});
+  add(rows, six_at_one, "gauss-8", {.scheme = "gauss-8"});
+  const Problem six_at_half{.name = "chain of 6, h = 0.7", .model = chain(6), .h = 0.7};
+  add(rows, six_at_half, "symplectic-euler-a", {.scheme = "symplectic-euler-a"});
+  add(rows, six_at_half, "stormer-verlet", {.scheme = "stormer-verlet"});
+  const Problem six_at_five{.name = "chain of 6, h = 5", .model = chain(6), .h = 5};
+  add(rows, six_at_five, "midpoint", {});
+  for (const int n : {1, 3, 6, 25}) {
+    const Problem soft_at_one{
+        .name = fmt::format("soft chain of {}, h = 1", n), .model = soft_chain(n), .h = 1};
+    add(rows, soft_at_one, "midpoint", {});
+  }
   const Problem band_at_one{.name = "chain of 25, loops, h = 1", .model = chain(25), .h = 1};
   add(rows, band_at_one, "midpoint", {});
+  const Problem pairs_at_one{
+      .name = "all pairs of 30, loops, h = 1", .model = all_pairs(30), .h = 1};
+  add(rows, pairs_at_one, "midpoint", {});
   const Problem thirty{.name = "chain of 30, Eigen", .model = chain(30)};
   add(rows, thirty, "midpoint", {.alpha = list_of(30, "1/2")});
 

@@ -114,6 +114,11 @@ Arithmetic sum(std::span<const Expression> operands) {
 
 }  // namespace
 
+bool multiplies_exactly(const Expression& factor) {
+  return factor.is_number() && abs(factor.number().get_num()) == 1 &&
+         factor.number().get_den() <= 2;
+}
+
 Arithmetic arrange(const Expression& e) {
   switch (e.kind()) {
     case Kind::number:

@@ -17,6 +17,9 @@ inline constexpr const char* kDifferenceError = "difference_error";
   return function == kProductError || function == kDifferenceError;
 }
 
+// 1 or 1/2, with either sign: a product with it has no error.
+[[nodiscard]] bool multiplies_exactly(const Expression& factor);
+
 enum class Operation { number, symbol, negate, add, subtract, multiply, divide, call };
 
 struct Arithmetic {

@@ -1,10 +1,5 @@
 #include "generator/program/loop_stage.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "generator/program/arithmetic.hpp"
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_coefficients.hpp"
 
@@ -20,11 +15,6 @@ Expression lacking(RoutineBuilder& b, Body& body, const Expression& z, const Exp
   for (const Expression& term : row.large) sum += term;
   if (row.large.empty()) return sum;
   return sum + (row.small.is_zero() ? carry : b.let(body, small, carry + row.small));
-}
-
-// Has no product with it an error?
-bool is_exact_factor(const Expression& e) {
-  return e.is_number() && abs(e.number().get_num()) == 1 && abs(e.number().get_den()) <= 2;
 }
 
 // z + (carry + row), what is small first; z alone where nothing moves it.
@@ -48,16 +38,6 @@ Expression sum_of_row(RoutineBuilder& b, Body& body, const Expression& carry, co
 void set_stage(RoutineBuilder& b, Body& body, const Expression& bar, const Expression& z,
                const Expression& carry, const StageRow& row, const std::string& change) {
   body.push_back({Assign{bar.name(), moved(b, body, z, carry, row, change)}});
-}
-
-bool has_no_linear_terms(const Mechanics& mechanics) {
-  return std::ranges::all_of(mechanics.kernels, [](const Kernel& kernel) {
-    Substitution zero;
-    for (const Slot& slot : kernel.slots) zero.emplace(slot.symbol, Expression(0));
-    return std::ranges::all_of(kernel.gradient, [&](const Expression& slope) {
-      return substitute(slope, zero).is_zero();
-    });
-  });
 }
 
 std::vector<Argument> LoopStage::arguments(bool with_states) const {
@@ -228,84 +208,6 @@ Routine LoopStage::differentiate() const {
   };
   return kernel_entries(environment_, mechanics_, part, b.take(), {"at"}, {"at", {}, {affine(n_)}},
                         use);
-}
-
-Routine LoopStage::gradient_error() const {
-  const auto array = [&](const char* name, int size, bool changes) {
-    return Argument{.name = name, .sizes = {size}, .changes = changes, .decays = true};
-  };
-  RoutineBuilder b(
-      {.name = "gradient_error",
-       .remark = {"lost = H'' z - slope, far below rounding: what is left of the slope "
-                  "without the products",
-                  "it is the sum of, and what these and their differences lose."},
-       .arguments = {parameters_argument()}});
-  std::vector<Argument>& list = b.routine().arguments;
-  if (raised()) list.push_back({.name = "h"});
-  list.insert(list.end(),
-              {array("q", n_, false), array("p", n_, false), array("slope", 2 * n_, false),
-               array("left", 2 * n_, true), array("lost", 2 * n_, true)});
-  Body begin;
-  begin.push_back(
-      {Assign{b.at("left", "", {affine("i")}).name(), b.at("slope", "", {affine("i")})}});
-  begin.push_back({Assign{b.at("lost", "", {affine("i")}).name(), Expression(0)}});
-  b.body().push_back(for_each(counting("i", 2 * n_), std::move(begin)));
-  const int n = n_;
-  const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
-    const auto element = [&](const char* array, const StateElement& of, bool is_whole) {
-      AffineIndex index = of.index;
-      if (of.is_momentum && is_whole) index.constant += n;
-      const Place place{array, "", {index}};
-      routine.places.insert_or_assign(to_text(place), place);
-      return Expression::symbol(to_text(place), kRankOfTemporary);
-    };
-    const Expression z = element(entry.column.is_momentum ? "p" : "q", entry.column, false);
-    const Expression left = element("left", entry.row, true);
-    const Expression lost = element("lost", entry.row, true);
-    const std::string of = fmt::format("({} {})", left.name(), z.name());
-    const auto let = [&](const std::string& name, const Expression& value) {
-      body.push_back({Let{name + of, value}});
-      return Expression::symbol(name + of, kRankOfTemporary);
-    };
-    const Expression part = let("part", entry.value * z);
-    body.push_back({Collect{left.name(), lost.name(), -part}});
-    if (is_exact_factor(entry.value)) return;
-    body.push_back({Accumulate{lost.name(),
-                               -let("lost", Expression::apply(kProductError, {entry.value, z}))}});
-  };
-  Routine routine =
-      kernel_entries(environment_, mechanics_, Part::all, b.take(), {"q"}, {"p"}, use);
-  RoutineBuilder end(std::move(routine));
-  const Expression left = end.at("left", "", {affine("i")});
-  Body rest{{Assign{end.at("lost", "", {affine("i")}).name(),
-                    -(left + end.at("lost", "", {affine("i")}))}}};
-  end.body().push_back(for_each(counting("i", 2 * n_), std::move(rest)));
-  return end.take();
-}
-
-Expression LoopStage::exact_lack(RoutineBuilder& b, Body& body, bool is_p,
-                                 const Expression& extra) const {
-  const char* field = is_p ? "p" : "q";
-  const std::string stem = is_p ? "p_" : "q_";
-  const Expression z = state(b, "z", field);
-  const Expression bar = is_p ? momentum(b) : coordinate(b);
-  const Gradient at = slope(b);
-  const StageRow row =
-      is_p ? weights_.row_of_p(b, body, at, true) : weights_.row_of_q(b, body, at, true);
-  Expression small = state(b, "carry", field) + row.small + extra;
-  // The last of the differences cancels.
-  Expression left = b.let(body, stem + "gap", z - bar);
-  small += b.let(body, stem + "gap_error", Expression::apply(kDifferenceError, {z, bar}));
-  for (std::size_t j = 0; j < row.large.size(); ++j) {
-    const std::string name = fmt::format("{}gap_{}", stem, j + 1);
-    const Expression next = b.let(body, name, left + row.large[j]);
-    if (j + 1 < row.large.size()) {
-      small +=
-          b.let(body, name + "_error", Expression::apply(kDifferenceError, {left, -row.large[j]}));
-    }
-    left = next;
-  }
-  return left + b.let(body, stem + "small", small);
 }
 
 void LoopStage::add_stage(RoutineBuilder& b, Body& each) const {

@@ -78,6 +78,8 @@ class LoopStage {
   [[nodiscard]] Routine gradient_error() const;
   // z + carry + row - bar with all that it loses, for an element of q or p.
   Expression exact_lack(RoutineBuilder& b, Body& body, bool is_p, const Expression& extra) const;
+  // dz + rest = Z - z after the iteration, by start.slope and the way to the solution.
+  void add_exact_result(RoutineBuilder& b) const;
   // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).  With
   // them start.slope = grad H at the stage, and start.lack.
   [[nodiscard]] Routine evaluate() const;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "generator/program/arithmetic.hpp"
+
 namespace hamgen {
 
 namespace {
@@ -46,7 +48,7 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   });
   keeps_gradients_ =
       solves_constants_ || std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
-        return !is_exact_weight(entry.second);
+        return !multiplies_exactly(entry.second);
       });
   const auto is_solved = [](const Block& block) {
     return block.kind == BlockKind::linear || block.kind == BlockKind::newton;

@@ -95,7 +95,6 @@ class StepBuilder {
   // the smaller it is what is left, a difference without an error for weights from -1 to 2.
   // Weights that are exact, 1/2 and 1, need none of this.
   //
-  static bool is_exact_weight(const Expression& e);
   // The term of row i with dH/dz_k, and what rounding took from it.
   [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k,
                                                             const Expression& gradient,

@@ -7,11 +7,6 @@
 
 namespace hamgen {
 
-bool StepBuilder::is_exact_weight(const Expression& e) {
-  return e.is_one() || e == Expression(Rational(1, 2)) || e == Expression(-1) ||
-         e == Expression(Rational(-1, 2));
-}
-
 Expression StepBuilder::row(int i, int section) {
   std::vector<Expression> terms{carry_symbol(i)};
   std::vector<Expression> small = terms;
@@ -66,7 +61,7 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
   if (!keeps_gradients_) return {weight(i, k) * gradient, Expression(0)};
   const std::string& of = gradient.name();
   const auto [flow, flow_lost] = flow_of(k, gradient, section);
-  if (is_exact_weight(entry)) return {entry * flow, entry * flow_lost};
+  if (multiplies_exactly(entry)) return {entry * flow, entry * flow_lost};
   // The larger of two weights that sum to one is multiplied, the smaller is what is left.
   const Expression sign(i < n_ ? 1 : -1);
   const bool diagonal = k == (i < n_ ? i + n_ : i - n_);
@@ -127,7 +122,7 @@ void StepBuilder::find_lost_of_gradient(int k, int section) {
         factor.is_number() ? factor : name_once("(" + to_text(factor) + ")", factor, kCoefficients);
     parts.push_back(
         name_once("part(" + text + ")", number * value, section, Lowering::Keep::apart));
-    if (!is_exact_weight(factor)) {
+    if (!multiplies_exactly(factor)) {
       small.push_back(name_once("lost(" + text + ")",
                                 Expression::apply(kProductError, {number, value}), section));
     }

@@ -55,11 +55,10 @@ TEST(StiffAndLong, NewtonConvergesForAStiffFpuChainAtThirtyRadiansAStep) {
   EXPECT_LE(iterations.median, 6) << "most: " << iterations.most;
 }
 
-// Ahead of a wave each particle has moved by a millionth of what the one behind it has: an iteration
-// that waited for each of them would take one for each, down to the smallest number.
+// Ahead of a wave each particle has moved by a millionth of what the one behind it has: an
+// iteration that waited for each of them would take one for each, down to the smallest number.
 TEST(StiffAndLong, AWaveIntoAChainAtRestIsNotFollowedToTheSmallestNumber) {
-  const Request request = {
-      .scheme = "gauss-4", .solver = "fixed-point", .sizes = {{"N", 200}}};
+  const Request request = {.scheme = "gauss-4", .solver = "fixed-point", .sizes = {{"N", 200}}};
   const Emitted chain = Emitted::shipped("fput", request);
   Vector start(400);
   start[100] = 1;

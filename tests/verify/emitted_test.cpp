@@ -232,6 +232,15 @@ const std::string kCoupledRing =
     "size N = 25\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + p[i]*q[i]*q[i+1] + (q[i+1] - q[i])^4/4)\n";
 
+// Linear equations, with the momenta torn out and without.
+const std::string kSprings =
+    "size N = 25\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+    "parameter k = 1\nparameter m[1..N] = 2\n"
+    "H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, k*(q[i+1] - q[i])^2/2)\n";
+const std::string kTurningSprings =
+    "size N = 25\ncoordinate q[1..N] periodic\nmomentum p[1..N]\nparameter b = 1\n"
+    "H = sum(i = 1..N, p[i]^2/2 + b*p[i]*q[i+1] + q[i]^2/3)\n";
+
 const std::string kRotators =
     "size N = 25\ncoordinate q[1..N]\nmomentum p[1..N]\nparameter K = 1\n"
     "let C = sum(i = 1..N, cos(q[i]))\nlet S = sum(i = 1..N, sin(q[i]))\n"
@@ -315,6 +324,34 @@ int refuted_mutants(const std::vector<std::string>& texts) {
 
 TEST(EmittedLoops, EveryMutationIsRefuted) {
   EXPECT_GE(refuted_mutants({kChain, kCoupledRing}), 20);
+}
+
+TEST(EmittedLoops, LinearEquationsAreTheMathematicsAndNoMutantIs) {
+  int mutants = 0;
+  for (const std::string& text : {kSprings, kTurningSprings}) {
+    const auto [mechanics, hamiltonian] = loops_of(text);
+    for (const Loops& c : loops(mechanics)) {
+      if (!c.name.starts_with("Newton")) continue;
+      const LoweredStep lowered = lowered_of(mechanics, *c.scheme, c.solver);
+      const Program code = build_program(lowered);
+      ASSERT_NE(code.routine("gradient_error"), nullptr) << c.name;
+      const Finding right = prove_emitted(mechanics, *c.scheme, lowered.plan, code, hamiltonian);
+      EXPECT_EQ(right.verdict, Verdict::proved) << c.name << ": " << right.detail;
+      std::vector<verify_test::Mutant> list =
+          mutants_of(code, {5, 0}, {"gradient_error", "curvature"});
+      std::ranges::move(mutants_of(code, {11, 1}, {"solve"}), std::back_inserter(list));
+      for (const verify_test::Mutant& mutant : list) {
+        if (computes_the_same(code, mutant.code)) continue;
+        const Finding finding =
+            prove_emitted(mechanics, *c.scheme, lowered.plan, mutant.code, hamiltonian);
+        EXPECT_EQ(finding.verdict, Verdict::refuted)
+            << c.name << ", " << mutant.kind << ": " << mutant.description << "\n"
+            << finding.detail;
+        ++mutants;
+      }
+    }
+  }
+  EXPECT_GE(mutants, 20);
 }
 
 // Of the K that stands in for H, too.
