@@ -40,7 +40,7 @@ Routine LoopStage::gradient_error() const {
   begin.push_back({Assign{b.at("lost", "", {affine("i")}).name(), Expression(0)}});
   b.body().push_back(for_each(counting("i", 2 * n_), std::move(begin)));
   const int n = n_;
-  const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
+  const auto use = [n, count = 0](Routine& routine, Body& body, const HessianEntry& entry) mutable {
     const auto element = [&](const char* array, const StateElement& of, bool is_whole) {
       AffineIndex index = of.index;
       if (of.is_momentum && is_whole) index.constant += n;
@@ -51,10 +51,11 @@ Routine LoopStage::gradient_error() const {
     const Expression z = element(entry.column.is_momentum ? "p" : "q", entry.column, false);
     const Expression left = element("left", entry.row, true);
     const Expression lost = element("lost", entry.row, true);
-    const std::string of = fmt::format("({} {})", left.name(), z.name());
-    const auto let = [&](const std::string& name, const Expression& value) {
-      body.push_back({Let{name + of, value}});
-      return Expression::symbol(name + of, kRankOfTemporary);
+    ++count;
+    const auto let = [&](const char* name, const Expression& value) {
+      const std::string symbol = fmt::format("{}({})", name, count);
+      body.push_back({Let{symbol, value}});
+      return Expression::symbol(symbol, kRankOfTemporary);
     };
     const Expression part = let("part", entry.value * z);
     body.push_back({Collect{left.name(), lost.name(), -part}});
