@@ -157,6 +157,13 @@ std::vector<Row> all_rows() {
   add_schemes(rows, orbit);
   add_members(rows, orbit, 2);
 
+  const Problem orbit_at_large{.name = "Kepler, L, h = 0.1",
+                               .model = kepler(),
+                               .conserved = Conserved::invariant,
+                               .h = 0.1,
+                               .start = kEllipse};
+  add_members(rows, orbit_at_large, 2);
+
   const Problem two{.name = "chain of 2, closed form", .model = chain(2)};
   add_members(rows, two, 2);
   add(rows, two, "locally exact", {.gauge = "locally-exact"});
@@ -241,6 +248,14 @@ std::vector<Row> all_rows() {
   for (const char* scheme : {"symplectic-euler-a", "stormer-verlet", "yoshida-4", "gauss-4"}) {
     add(rows, bodies, scheme, {.scheme = scheme});
   }
+  const Problem bodies_at_large{.name = "13 bodies, loops, L, h = 0.2",
+                                .model = planar_bodies(13),
+                                .conserved = Conserved::invariant,
+                                .h = 0.2,
+                                .start = kDisk};
+  add(rows, bodies_at_large, "midpoint", {});
+  add(rows, bodies_at_large, "midpoint, Newton", {.solver = "newton"});
+  add(rows, bodies_at_large, "stormer-verlet", {.scheme = "stormer-verlet"});
   return rows;
 }
 

@@ -73,7 +73,7 @@ void StepBuilder::add_newton(const Block& block) {
   for (const int x : block.unknowns) {
     for (const int k : equations_.row_gradients(x)) evaluate_gradient(newton, k);
   }
-  if (pending.solve.constant_matrix) find_off(newton);
+  find_off(newton);
   for (const int x : block.unknowns) {
     newton.residual.push_back(lack_of(newton, x));
     add_matrix_row(newton, x);
@@ -100,6 +100,18 @@ void StepBuilder::add_matrix_row(NewtonBlock& newton, int x) {
   }
 }
 
+// Is dH/dz_t a constant times zbar_t, and no other component a function of that?
+bool StepBuilder::is_alone_in_gradient(int t) const {
+  const Expression factor = equations_.stage_hessian(t, t);
+  if (factor.is_zero() || depends_on_state(factor)) return false;
+  if (equations_.stage_gradient(t) != factor * equations_.stage(t)) return false;
+  for (int k = 0; k < 2 * n_; ++k) {
+    if (k != t && symbols(equations_.stage_gradient(k)).contains(equations_.stage(t).name()))
+      return false;
+  }
+  return true;
+}
+
 // Row t gives its variable, and the chain rule what it depends on.
 void StepBuilder::tear_out(NewtonBlock& newton, int t) {
   tear_value(newton, t);
@@ -119,7 +131,9 @@ Expression StepBuilder::own_slope(int t) const {
 void StepBuilder::tear_value(NewtonBlock& newton, int t) {
   if (!equations_.depends(t, t)) {
     for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
-    define(stage_value_[index(t)], row(t, newton.where), newton.where);
+    const Expression change = change_of_row(t, newton.where);
+    if (!keeps_gradients_ && is_alone_in_gradient(t)) torn_change_.emplace(t, change);
+    define(stage_value_[index(t)], equations_.mechanics.variable(t) + change, newton.where);
     return;
   }
   // Affine in itself: solved for, and then for what its row lacks there, as in Note [affine
@@ -197,9 +211,10 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
   }
   for (const int t : block.torn) {
     const std::vector<int> gradients = equations_.row_gradients(t);
-    if (newton.off.contains(t) || !std::ranges::all_of(gradients, is_force)) continue;
+    if (solves_constants_ || !std::ranges::all_of(gradients, is_force)) continue;
     std::vector<Expression> terms;
     for (const int k : gradients) terms.push_back(weight(t, k) * correction_[index(k)].second);
+    if (const auto off = newton.off.find(t); off != newton.off.end()) terms.push_back(off->second);
     moved[t] = Expression::sum(std::move(terms));
   }
   for (const int k : newton.evaluated) {

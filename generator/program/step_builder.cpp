@@ -46,19 +46,20 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   solves_constants_ = std::ranges::any_of(plan_.blocks, [](const Block& block) {
     return block.kind == BlockKind::linear && block.constant_matrix;
   });
-  keeps_gradients_ =
-      solves_constants_ || std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
-        return !multiplies_exactly(entry.second);
-      });
-  const auto is_solved = [](const Block& block) {
-    return block.kind == BlockKind::linear || block.kind == BlockKind::newton;
+  const auto has_block = [&](auto... kinds) {
+    return std::ranges::any_of(plan_.blocks, [&](const Block& block) {
+      return ((block.kind == kinds) || ...);
+    });
   };
-  const auto is_contracted = [](const Block& block) {
-    return block.kind == BlockKind::fixed_point;
-  };
-  keeps_losses_ = keeps_gradients_ && std::ranges::any_of(plan_.blocks, is_solved) &&
-                  std::ranges::none_of(plan_.blocks, is_contracted) && !plan_.sweeps;
-  sums_exactly_ = keeps_losses_;
+  const bool is_solved = has_block(BlockKind::linear, BlockKind::newton);
+  const bool is_contracted = has_block(BlockKind::fixed_point);
+  const bool is_explicit = !is_solved && !is_contracted && !plan_.sweeps;
+  keeps_gradients_ = solves_constants_ || is_explicit ||
+                     std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
+                       return !multiplies_exactly(entry.second);
+                     });
+  keeps_losses_ = keeps_gradients_ && !is_contracted && !plan_.sweeps;
+  sums_exactly_ = !plan_.sweeps;
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }

@@ -117,6 +117,8 @@ class StepBuilder {
   [[nodiscard]] Expression at_stage(const Expression& e) const;
   // zbar_i = z_i + h sum_k B_ik dH/dz_k with the gradient's present symbols.
   [[nodiscard]] Expression row(int i, int section);
+  // zbar_i - z_i of that.
+  [[nodiscard]] Expression change_of_row(int i, int section);
   // A stage value less its row.
   [[nodiscard]] Expression lacking(int i, const Expression& value, int section);
   // h B_ik
@@ -141,6 +143,7 @@ class StepBuilder {
   // 1 - d(row t)/d(zbar_t)
   [[nodiscard]] Expression own_slope(int t) const;
   void tear_value(NewtonBlock& newton, int t);
+  [[nodiscard]] bool is_alone_in_gradient(int t) const;
   void tear_slopes(NewtonBlock& newton, int t);
   Expression name_slope(int t, int x, const Expression& value, int section);
   [[nodiscard]] Expression increment_symbol(int x) const;
@@ -172,6 +175,8 @@ class StepBuilder {
   // A gradient component as the last iteration evaluated it, and what its increment adds.
   std::vector<std::pair<Expression, Expression>> correction_;
   std::map<std::string, Expression> lost_of_gradient_;  // by its name
+  // zbar_t - z_t of what is torn out, where a gradient is a multiple of zbar_t and nothing else.
+  std::map<int, Expression> torn_change_;
   std::map<std::string, int> rests_;  // how many have been named, by what they belong to
   std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;
