@@ -74,6 +74,12 @@ class LoopStage {
   // start.slope = grad H at a stage.
   void add_gradient(Body& body, const Place& q, const Place& p) const;
   void add_gradient_at_stage(Body& body) const;
+  // Does the last increment correct the forces alone, and the velocities follow from that?
+  [[nodiscard]] bool corrects_forces() const { return arrays_.reduced && !is_linear(); }
+  // start.change = H'' u at the stage.
+  void add_curvature(Body& body, const Place& u) const;
+  // What dH/dp_i changes by if dH/dq_i does by this.
+  Expression velocity_change(RoutineBuilder& b, const Expression& force_change) const;
   // start.lost = H'' zbar - start.slope, what rounding took from a linear gradient.
   [[nodiscard]] Routine gradient_error() const;
   // z + carry + row - bar with all that it loses, for an element of q or p.

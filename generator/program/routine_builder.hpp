@@ -30,6 +30,13 @@ namespace hamgen {
   return {For{std::move(range), std::move(body), lanes}};
 }
 
+// An element by a symbol that is no name of the model, in a routine that has locals of such names.
+inline Expression at_apart(Routine& routine, const Place& place, int rank = kRankOfTemporary) {
+  const std::string symbol = "at " + to_text(place);
+  routine.places.insert_or_assign(symbol, place);
+  return Expression::symbol(symbol, rank);
+}
+
 // Binds elements to symbols.  Sums and products are written in the order in which their symbols
 // came: two that are new are bound in two statements, or by `product`, for C++ leaves the order of
 // operands open.
