@@ -207,6 +207,9 @@ std::vector<Row> all_rows() {
   }
   const Problem band_at_one{.name = "chain of 25, loops, h = 1", .model = chain(25), .h = 1};
   add(rows, band_at_one, "midpoint", {});
+  const Problem band_at_half{.name = "chain of 25, loops, h = 0.7", .model = chain(25), .h = 0.7};
+  add(rows, band_at_half, "symplectic-euler-a", {.scheme = "symplectic-euler-a"});
+  add(rows, band_at_half, "stormer-verlet", {.scheme = "stormer-verlet"});
   const Problem pairs_at_one{
       .name = "all pairs of 30, loops, h = 1", .model = all_pairs(30), .h = 1};
   add(rows, pairs_at_one, "midpoint", {});

@@ -263,7 +263,8 @@ void require_distinct_symbols(const Routine& routine) {
     const auto* let = std::get_if<Let>(&instruction.value);
     return let != nullptr && routine.places.contains(let->symbol) ? let->symbol : std::string();
   });
-  if (!both.empty()) internal_error(fmt::format("{} of {} is a local and a place", both, routine.name));
+  if (!both.empty())
+    internal_error(fmt::format("{} of {} is a local and a place", both, routine.name));
 }
 
 // The fields of State that the places in `dz` of a routine are.

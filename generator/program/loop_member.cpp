@@ -111,15 +111,14 @@ class LoopMember : LoopStage {
   Routine solve() {
     RoutineBuilder b(
         {.name = "solve",
-         .remark = {iterates(arrays_)
-                        ? "dz + rest = Z - z for one step from z + carry; rest is small."
-                        : "dz = Z - z for one step from z + carry."},
+         .remark = {has_rest() ? "dz + rest = Z - z for one step from z + carry; rest is small."
+                               : "dz = Z - z for one step from z + carry."},
          .result = {.type = "StepReport", .object = "report"}});
     std::vector<Argument>& list = b.routine().arguments;
     list = arguments(true);
     if (!uses_h()) list.insert(list.end() - 3, {.name = "h"});
     list.push_back(state_argument("dz", true));
-    if (iterates(arrays_)) list.push_back(state_argument("rest", true));
+    if (has_rest()) list.push_back(state_argument("rest", true));
     switch (arrays_.method) {
       case ArrayMethod::explicit_a:
       case ArrayMethod::explicit_b:
@@ -151,6 +150,11 @@ class LoopMember : LoopStage {
     return b.take();
   }
 
+  [[nodiscard]] bool is_explicit() const {
+    return arrays_.method == ArrayMethod::explicit_a || arrays_.method == ArrayMethod::explicit_b;
+  }
+  [[nodiscard]] bool has_rest() const { return iterates(arrays_) || is_explicit(); }
+
   // alpha = 0 has zbar = (q, P), alpha = 1 has zbar = (Q, p).
   void add_explicit(RoutineBuilder& b, bool kick_first) const {
     const char* from = kick_first ? "q" : "p";
@@ -165,7 +169,10 @@ class LoopMember : LoopStage {
     const Expression carry = state(b, "carry", to);
     const Gradient at = slope(b);
     Body each;
-    const StageRow row{.large = {step_size() * (kick_first ? -at.by_q : at.by_p)}};
+    const auto [flow, lost] =
+        StepWeights::flow_of(b, each, !kick_first, kick_first ? at.by_q : at.by_p);
+    const Expression sign(kick_first ? -1 : 1);
+    const StageRow row{.large = {sign * flow}, .small = sign * lost};
     set_stage(b, each, coordinate(b), z, carry, row, "change");
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(
@@ -320,24 +327,6 @@ class LoopMember : LoopStage {
     return list;
   }
 
-  // Note [what the torn momenta lose]
-  // They are rounded, at every step alike where the products that they are made of have a pattern,
-  // and h m times that is missing in dq: two thirds of a bias of 1e-4 units of rounding a step.
-  [[nodiscard]] bool knows_momentum_error() const {
-    return settles() && !needs_drift() && arrays_.mass && arrays_.mass->is_number();
-  }
-  Expression lost_of_momentum(RoutineBuilder& b, Body& each) const {
-    // In this order: z and bar cancel without an error.
-    const Expression z = state(b, "z", "p");
-    const Expression bar = b.local("bar");
-    const Expression carry = state(b, "carry", "p");
-    const Gradient at = {b.at("start", "refinement.slope", {affine("i")}), Expression(0)};
-    const StageRow row = weights_.row_of_p(b, each, at);
-    const Expression moved = b.let(each, "moved", sum_of_row(b, each, carry, row, "small"));
-    each.push_back({Let{bar.name(), z + moved}});
-    return z - bar + moved;
-  }
-
   // What a step moves by: the gradient at the stage, and what it changes by from there to the
   // solution, each an array of Start.
   struct Moves {
@@ -364,7 +353,7 @@ class LoopMember : LoopStage {
       Expression large = sign * step_size() * slope;
       Expression small = state(b, "carry", field);
       end.finite.push_back(dz.name());
-      if (!iterates(arrays_)) {
+      if (!has_rest()) {
         each.push_back({Assign{dz.name(), small + large}});
         continue;
       }
@@ -376,7 +365,7 @@ class LoopMember : LoopStage {
       if (tells_momenta && !is_p) {
         small += step_size() * *arrays_.mass * lost_of_momentum(b, each);
       }
-      if (weights_.shares) {
+      if (weights_.shares || is_explicit()) {
         const auto [product, lost] = tells_momenta && is_p
                                          ? std::pair(b.local("p_flow"), b.local("p_flow_lost"))
                                          : StepWeights::flow_of(b, each, !is_p, slope);

@@ -128,6 +128,18 @@ Expression LoopStage::velocity_change(RoutineBuilder& b, const Expression& force
   return change;
 }
 
+Expression LoopStage::lost_of_momentum(RoutineBuilder& b, Body& each) const {
+  // In this order: z and bar cancel without an error.
+  const Expression z = state(b, "z", "p");
+  const Expression bar = b.local("bar");
+  const Expression carry = state(b, "carry", "p");
+  const Gradient at = {b.at("start", "refinement.slope", {affine("i")}), Expression(0)};
+  const StageRow row = weights_.row_of_p(b, each, at);
+  const Expression moved = b.let(each, "moved", sum_of_row(b, each, carry, row, "small"));
+  each.push_back({Let{bar.name(), z + moved}});
+  return z - bar + moved;
+}
+
 Routine LoopStage::evaluate() const {
   RoutineBuilder b(
       {.name = "evaluate",

@@ -47,9 +47,8 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
     return block.kind == BlockKind::linear && block.constant_matrix;
   });
   const auto has_block = [&](auto... kinds) {
-    return std::ranges::any_of(plan_.blocks, [&](const Block& block) {
-      return ((block.kind == kinds) || ...);
-    });
+    return std::ranges::any_of(plan_.blocks,
+                               [&](const Block& block) { return ((block.kind == kinds) || ...); });
   };
   const bool is_solved = has_block(BlockKind::linear, BlockKind::newton);
   const bool is_contracted = has_block(BlockKind::fixed_point);
