@@ -1,5 +1,3 @@
-#include <cln/integer.h>
-#include <cln/rational.h>
 #include <ginac/ginac.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "generator/algebra/from_ginac.hpp"
 #include "generator/algebra/functions.hpp"
 
 namespace hamgen {
@@ -38,19 +37,6 @@ class Precision {
   }
   long before_;
 };
-
-// By its binary digits: a scene has a constant for each of its elements.
-cln::cl_I to_cln(const Integer& value) {
-  if (value.fits_slong_p()) return value.get_si();
-  cln::cl_I result = 0;
-  for (std::size_t i = mpz_size(value.get_mpz_t()); i-- > 0;)
-    result = cln::ash(result, GMP_NUMB_BITS) + cln::cl_I(mpz_getlimbn(value.get_mpz_t(), i));
-  return sgn(value) < 0 ? -result : result;
-}
-
-GiNaC::numeric to_numeric(const Rational& value) {
-  return GiNaC::numeric(cln::cl_N(to_cln(value.get_num()) / to_cln(value.get_den())));
-}
 
 // CLN prints a float as 1.25E-3 (or 1.25L-3), whatever the locale.
 std::optional<Rational> from_numeric(const GiNaC::numeric& value) {
@@ -96,12 +82,12 @@ std::optional<Rational> exact_square_root(const Rational& x) {
 GiNaC::ex argument(const Rational& x) {
   static const Rational pi = evaluate_function("pi", {}).value();
   const Rational multiple = x / pi;
-  return multiple.get_den() <= 6 ? to_numeric(multiple) * GiNaC::Pi : GiNaC::ex(to_numeric(x));
+  return multiple.get_den() <= 6 ? to_ginac(multiple) * GiNaC::Pi : GiNaC::ex(to_ginac(x));
 }
 
 // The table names its functions as GiNaC does, so GiNaC finds the function by its name.
 GiNaC::ex call(std::string_view name, std::span<const Rational> arguments) {
-  if (name == "sqrt") return GiNaC::sqrt(to_numeric(arguments.front()));
+  if (name == "sqrt") return GiNaC::sqrt(to_ginac(arguments.front()));
   const auto arity = static_cast<unsigned>(arguments.size());
   const unsigned serial = GiNaC::function::find_function(std::string(name), arity);
   GiNaC::exvector values;

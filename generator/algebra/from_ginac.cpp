@@ -74,27 +74,39 @@ const GiNaC::symbol& SymbolTable::find(const std::string& name) const {
   return it->second.first;
 }
 
-// Integers that are long cross as text in base 10: neither side depends on the other's
-// representation.
+// Of the integers, those that are long cross as text in base 10.
 Rational to_rational(const GiNaC::numeric& value) {
-  constexpr int short_length = 60;  // bits
-  if (value.is_integer() && value.int_length() < short_length) return Rational(value.to_long());
   if (!value.is_rational()) throw std::domain_error("a number that is not rational");
   auto integer = [](const GiNaC::numeric& n) {
+    constexpr int short_length = 60;  // bits
+    if (n.int_length() < short_length) return Integer(n.to_long());
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out << n;
     return Integer(out.str());
   };
+  if (value.is_integer()) return Rational(integer(value));
   Rational result(integer(value.numer()), integer(value.denom()));
   result.canonicalize();
   return result;
 }
 
+cln::cl_I to_cln(const Integer& value) {
+  if (value.fits_slong_p()) return value.get_si();
+  cln::cl_I result = 0;
+  for (std::size_t i = mpz_size(value.get_mpz_t()); i-- > 0;)
+    result = cln::ash(result, GMP_NUMB_BITS) + cln::cl_I(mpz_getlimbn(value.get_mpz_t(), i));
+  return sgn(value) < 0 ? -result : result;
+}
+
+cln::cl_RA to_cln(const Rational& value) {
+  const cln::cl_I over = to_cln(value.get_num());
+  if (value.get_den() == 1) return over;
+  return over / to_cln(value.get_den());
+}
+
 GiNaC::numeric to_ginac(const Rational& value) {
-  const GiNaC::numeric over(value.get_num().get_str().c_str());
-  const GiNaC::numeric under(value.get_den().get_str().c_str());
-  return over / under;
+  return GiNaC::numeric(cln::cl_N(to_cln(value)));
 }
 
 // Note [real values]

@@ -2,6 +2,8 @@
 // here; everything behind holds Expression.
 #pragma once
 
+#include <cln/integer.h>
+#include <cln/rational.h>
 #include <ginac/ginac.h>
 
 #include <map>
@@ -46,6 +48,9 @@ class FromGinac {
 // The same, of an expression that expands to a moderate number of terms; false for all others that
 // are not written as 0.
 [[nodiscard]] bool vanishes_when_expanded(const GiNaC::ex& e);
+// By its binary digits: a proof at points converts as many numbers as it meets.
+[[nodiscard]] cln::cl_I to_cln(const Integer& value);
+[[nodiscard]] cln::cl_RA to_cln(const Rational& value);
 [[nodiscard]] GiNaC::numeric to_ginac(const Rational& value);
 [[nodiscard]] Rational to_rational(const GiNaC::numeric& value);
 

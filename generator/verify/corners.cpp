@@ -25,6 +25,25 @@ bool is_even(const Rational& exponent) {
   return exponent.get_den() == 1 && mpz_even_p(exponent.get_num_mpz_t()) != 0;
 }
 
+// Is it seen at once that no factor divides a polynomial twice?  One that does, and depends on x,
+// still does where all other symbols are numbers, as long as these leave the degree in x.
+bool is_plainly_square_free(const GiNaC::ex& polynomial) {
+  GiNaC::exmap numbers;
+  for (auto node = polynomial.preorder_begin(); node != polynomial.preorder_end(); ++node)
+    if (GiNaC::is_a<GiNaC::symbol>(*node)) numbers.try_emplace(*node);
+  int number = 10;
+  for (auto& [symbol, value] : numbers) value = number += 7;
+  for (const auto& [x, value] : numbers) {
+    GiNaC::exmap others = numbers;
+    others.erase(x);
+    const GiNaC::ex along = polynomial.subs(others, GiNaC::subs_options::no_pattern).expand();
+    if (along.degree(x) != polynomial.degree(x)) return false;
+    const auto& symbol = GiNaC::ex_to<GiNaC::symbol>(x);
+    if (GiNaC::gcd(along, along.diff(symbol)).degree(x) > 0) return false;
+  }
+  return true;
+}
+
 // Factors of a sum that divide it an even number of times, functions in it taken as symbols.
 std::vector<std::pair<Expression, int>> even_factors(const Expression& sum) {
   std::vector<std::pair<Expression, int>> result;
@@ -32,6 +51,7 @@ std::vector<std::pair<Expression, int>> even_factors(const Expression& sum) {
   SymbolTable table;
   GiNaC::exmap functions;
   const GiNaC::ex numerator = to_ginac(sum, table).to_polynomial(functions).numer().expand();
+  if (is_plainly_square_free(numerator)) return result;
   const GiNaC::ex factored = GiNaC::sqrfree(numerator);
   const auto look = [&](const GiNaC::ex& factor) {
     if (!GiNaC::is_a<GiNaC::power>(factor)) return;

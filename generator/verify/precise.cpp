@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "generator/algebra/from_ginac.hpp"
 #include "generator/algebra/functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
@@ -71,9 +72,7 @@ Precise precise_function(const std::string& name, const std::vector<Precise>& x)
 }
 
 Precise precise(const Rational& value) {
-  const cln::cl_I over(value.get_num().get_str().c_str());
-  const cln::cl_I under(value.get_den().get_str().c_str());
-  return cln::cl_float(over / under, kFormat);
+  return cln::cl_float(to_cln(value), kFormat);
 }
 
 double to_double(const Precise& value) { return cln::double_approx(value); }

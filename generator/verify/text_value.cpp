@@ -17,15 +17,16 @@ bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-Precise power_of_ten(long exponent) {
+Rational power_of_ten(long exponent) {
   Rational value(1);
   for (long i = 0; i < std::abs(exponent); ++i) value *= 10;
-  return precise(exponent < 0 ? Rational(1 / value) : value);
+  return exponent < 0 ? Rational(1 / value) : value;
 }
 
 // Is it an integer that may be an exponent by repeated multiplication?
 bool is_small_integer(const Precise& x) {
-  return cln::zerop(x - cln::ffloor(x)) && cln::abs(x) <= precise(1000);
+  static const Precise largest = precise(1000);
+  return cln::abs(x) <= largest && cln::zerop(x - cln::ffloor(x));
 }
 
 long to_long(const Precise& x) { return cln::cl_I_to_long(cln::round1(x)); }
@@ -124,7 +125,7 @@ class TextValue {
   }
 
   Precise number() {
-    Precise value = precise(0);
+    Integer digits = 0;
     long behind_point = 0;
     bool point = false;
     for (; at_ < text_.size(); ++at_) {
@@ -133,7 +134,7 @@ class TextValue {
       if (c == '.' && !point && !range) {
         point = true;
       } else if (c >= '0' && c <= '9') {
-        value = value * precise(10) + precise(c - '0');
+        digits = digits * 10 + (c - '0');
         if (point) ++behind_point;
       } else {
         break;
@@ -148,7 +149,7 @@ class TextValue {
         exponent = 10 * exponent + (text_[at_] - '0');
       if (negative) exponent = -exponent;
     }
-    return value * power_of_ten(exponent - behind_point);
+    return precise(digits * power_of_ten(exponent - behind_point));
   }
 
   std::string word() {
