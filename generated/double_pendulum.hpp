@@ -339,9 +339,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x97439854
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x52c241bc
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_97439854 {
+inline namespace emitted_52c241bc {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -376,10 +376,10 @@ struct Start {
   const Real t10 = -2.0 * t8;
   const Real t11 = std::sin(q2_bar);
   const Real t12 = -2.0 * t3 * t7 * t8;
-  Real t13 = 0.0;
+  Real H_q1 = 0.0;
+  Real H_q2 = 0.0;
   Real H_q1_p1 = 0.0;
   Real H_q1_p2 = 0.0;
-  Real t14 = 0.0;
   Real delta_p1 = 0.0;
   Real delta_p2 = 0.0;
   Real p1_bar = start.known ? start.value[0] : p1;
@@ -387,19 +387,19 @@ struct Start {
   // Newton's iteration for the stage values: residual R, its derivatives, increments delta.
   start.rule_0.begin(start.known);
   for (int iteration = 1;; ++iteration) {
-    const Real t15 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
-    const Real H_q1 = t1 - t15 * t9 + p1_bar * p2_bar * t6;
-    const Real H_q2 = t11 + t15 * t9 - p1_bar * p2_bar * t6;
-    t13 = -h * H_q1;
-    const Real rest_p1 = t13 + carry.p1;
+    const Real t13 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
+    H_q1 = t1 - t13 * t9 + p1_bar * p2_bar * t6;
+    H_q2 = t11 + t13 * t9 - p1_bar * p2_bar * t6;
+    const Real rest_lack_p1 = p1_bar - p1;
+    const Real rest_lack_p1_new = rest_lack_p1 + h * H_q1;
     H_q1_p1 = p2_bar * t6 + t12 * (p1_bar - p2_bar * t8);
     H_q1_p2 = p1_bar * t6 + t12 * (2.0 * p2_bar - p1_bar * t8);
-    t14 = -h * H_q2;
-    const Real rest_p2 = t14 + carry.p2;
-    const Real R_p1 = p1_bar - p1 - rest_p1;
+    const Real rest_lack_p2 = p2_bar - p2;
+    const Real rest_lack_p2_new = rest_lack_p2 + h * H_q2;
+    const Real R_p1 = -(carry.p1 - rest_lack_p1_new);
     const Real R_p1_p1 = 1.0 + h * H_q1_p1;
     const Real R_p1_p2 = h * H_q1_p2;
-    const Real R_p2 = p2_bar - p2 - rest_p2;
+    const Real R_p2 = -(carry.p2 - rest_lack_p2_new);
     const Real R_p2_p1 = -h * H_q1_p1;
     const Real R_p2_p2 = 1.0 - h * H_q1_p2;
     const Real inverse_det_p1 = 1.0 / (R_p1_p1 * R_p2_p2 - R_p1_p2 * R_p2_p1);
@@ -433,9 +433,9 @@ struct Start {
   rest.q1 = carry.q1;
   dz.q2 = h * H_p2;
   rest.q2 = carry.q2;
-  dz.p1 = t13;
+  dz.p1 = -h * H_q1;
   rest.p1 = carry.p1 - h * change_H_q1;
-  dz.p2 = t14;
+  dz.p2 = -h * H_q2;
   rest.p2 = carry.p2 - h * change_H_q2;
   // False for infinities and NaN alike.
   const Real length = (dz.q1 + rest.q1) * (dz.q1 + rest.q1) +
@@ -531,9 +531,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_97439854
+}  // namespace emitted_52c241bc
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x97439854
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x52c241bc
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

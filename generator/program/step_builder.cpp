@@ -52,13 +52,14 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   };
   const bool is_solved = has_block(BlockKind::linear, BlockKind::newton);
   const bool is_contracted = has_block(BlockKind::fixed_point);
-  const bool is_explicit = !is_solved && !is_contracted && !plan_.sweeps;
+  const bool is_explicit =
+      !is_solved && !is_contracted && !has_block(BlockKind::quadratic) && !plan_.sweeps;
   keeps_gradients_ = solves_constants_ || is_explicit ||
                      std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
                        return !multiplies_exactly(entry.second);
                      });
-  keeps_losses_ = keeps_gradients_ && !is_contracted && !plan_.sweeps;
-  sums_exactly_ = !plan_.sweeps;
+  keeps_losses_ = keeps_gradients_ && (is_solved || is_explicit) && !is_contracted && !plan_.sweeps;
+  sums_exactly_ = keeps_losses_;
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
