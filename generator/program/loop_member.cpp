@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/arithmetic.hpp"
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_coefficients.hpp"
 #include "generator/program/loop_stage.hpp"
@@ -169,11 +170,15 @@ class LoopMember : LoopStage {
     const Expression carry = state(b, "carry", to);
     const Gradient at = slope(b);
     Body each;
-    const auto [flow, lost] =
-        StepWeights::flow_of(b, each, !kick_first, kick_first ? at.by_q : at.by_p);
-    const Expression sign(kick_first ? -1 : 1);
-    const StageRow row{.large = {sign * flow}, .small = sign * lost};
-    set_stage(b, each, coordinate(b), z, carry, row, "change");
+    // See Note [rounded once].
+    const std::string stem = kick_first ? "p_" : "q_";
+    const Expression gradient = kick_first ? at.by_q : -at.by_p;
+    const Expression flow = b.let(each, stem + "flow", step_size() * gradient);
+    const Expression sum = b.let(each, stem + "sum", z - flow);
+    const Expression lost =
+        b.let(each, stem + "lost", Expression::apply(kDifferenceError, {z, flow}));
+    const Expression small = b.let(each, stem + "small", lost + carry);
+    each.push_back({Assign{coordinate(b).name(), sum + small}});
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(
         {Call{.routine = second,
@@ -365,7 +370,7 @@ class LoopMember : LoopStage {
       if (tells_momenta && !is_p) {
         small += step_size() * *arrays_.mass * lost_of_momentum(b, each);
       }
-      if (weights_.shares || is_explicit()) {
+      if (weights_.shares) {
         const auto [product, lost] = tells_momenta && is_p
                                          ? std::pair(b.local("p_flow"), b.local("p_flow_lost"))
                                          : StepWeights::flow_of(b, each, !is_p, slope);

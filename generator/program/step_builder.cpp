@@ -52,14 +52,13 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   };
   const bool is_solved = has_block(BlockKind::linear, BlockKind::newton);
   const bool is_contracted = has_block(BlockKind::fixed_point);
-  const bool is_explicit =
-      !is_solved && !is_contracted && !has_block(BlockKind::quadratic) && !plan_.sweeps;
-  keeps_gradients_ = solves_constants_ || is_explicit ||
-                     std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
-                       return !multiplies_exactly(entry.second);
-                     });
-  keeps_losses_ = keeps_gradients_ && (is_solved || is_explicit) && !is_contracted && !plan_.sweeps;
-  sums_exactly_ = keeps_losses_;
+  is_explicit_ = !is_solved && !is_contracted && !has_block(BlockKind::quadratic) && !plan_.sweeps;
+  keeps_gradients_ =
+      solves_constants_ || std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
+        return !multiplies_exactly(entry.second);
+      });
+  keeps_losses_ = keeps_gradients_ && is_solved && !is_contracted && !plan_.sweeps;
+  sums_exactly_ = keeps_losses_ || is_explicit_;
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -208,8 +207,22 @@ void StepBuilder::add_block(const Block& block) {
 }
 
 void StepBuilder::add_assignment(int i) {
-  for (const int k : equations_.row_gradients(i)) need_gradient(k);
-  define(stage_value_[index(i)], row(i, straight()), straight());
+  const std::vector<int> gradients = equations_.row_gradients(i);
+  for (const int k : gradients) need_gradient(k);
+  if (!is_explicit_ || gradients.size() != 1) {
+    define(stage_value_[index(i)], row(i, straight()), straight());
+    return;
+  }
+  // See Note [rounded once].
+  const Expression& z = equations_.mechanics.variable(i);
+  const Expression flow =
+      name_value("minus flow(" + name_of(i) + ")",
+                 -(weight(i, gradients[0]) * gradient_[index(gradients[0])]), straight());
+  const Expression first = name_value("first(" + name_of(i) + ")", z - flow, straight());
+  const Expression lost = name_value("lost(" + name_of(i) + ")",
+                                     Expression::apply(kDifferenceError, {z, flow}), straight());
+  define(stage_value_[index(i)], first + named_rest(name_of(i), lost + carry_symbol(i), straight()),
+         straight());
 }
 
 // c0 + c1 d + c2 d^2 = 0 for d = zbar_i - z_i: the root that tends to 0 with h, in the form
