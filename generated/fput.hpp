@@ -777,9 +777,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x2152a632
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x9fdabc05
 namespace fput::implicit_midpoint {
-inline namespace emitted_2152a632 {
+inline namespace emitted_9fdabc05 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -944,11 +944,17 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
   if (!start.known) {
     for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
   }
-  // Newton where the fixed point contracts slowly, and then for 32 steps.
-  if (start.patience == 0 && !contract(par, k, h, z, carry, start, dz, rest, report)) {
-    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
-    start.known = false;
+  // Newton where the fixed point contracts slowly, from the state too, and then for 32 steps.
+  if (start.patience == 0) {
     start.patience = 32;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (contract(par, k, h, z, carry, start, dz, rest, report)) {
+        start.patience = 0;
+        break;
+      }
+      for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+      start.known = false;
+    }
   }
   if (start.patience > 0) {
     --start.patience;
@@ -1045,9 +1051,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_2152a632
+}  // namespace emitted_9fdabc05
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x2152a632
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x9fdabc05
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 
