@@ -24,7 +24,7 @@ struct CompilerChoice {
 // arithmetic means, ToolError if it is not there.
 [[nodiscard]] runtime::Compiler chosen_compiler(const CompilerChoice& choice);
 
-// What the compiler is asked for if so many steps are all that is taken: "-O1", "-O2" or "-O3".
+// What the compiler is asked for if so many steps are all that is taken: "-O0" to "-O3".
 [[nodiscard]] std::string optimisation_for(const PluginSource& plugin, double steps);
 
 // Compiles the plugin, or takes it from the cache, and loads it; `stop` gives up the compilation.

@@ -177,11 +177,11 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     const int target = index_of(alternate.patience.object);
     return [this, first, second, target, alternate, between = steps(alternate.between)] {
       int& patience = object(target).flags.at(alternate.patience.field);
-      if (patience == 0 && !first().converged) {
+      for (int attempt = 0; attempt < 2 && patience == 0; ++attempt) {
+        if (first().converged) return true;
         if (!run_all(between)) return false;
-        patience = alternate.steps;
       }
-      if (patience == 0) return true;
+      if (patience == 0) patience = alternate.steps;
       --patience;
       return second().converged;
     };

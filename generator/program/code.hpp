@@ -135,14 +135,15 @@ struct Call {
   bool again = false;         // the local is there, and becomes what is returned
   bool of_run = false;        // is the routine given what a run keeps?
 };
-// Calls one of two routines that may fail: the first, and where that fails the second, which then
+// Calls one of two routines that may fail: the first, where that fails once more from where
+// `between` leads, for a prediction may lie further off than the state; and then the second, which
 // serves `steps` times before the first is tried again.  Where the second fails the routine ends
 // without success.
 struct Alternate {
   Call first, second;
   Place patience;  // times that are left to the second
   int steps = 0;
-  Body between;  // before the second takes over
+  Body between;  // after each failure of the first
 };
 // Factorises a matrix.  Where it is singular the routine ends without success.
 struct Factorise {

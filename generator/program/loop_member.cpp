@@ -294,8 +294,8 @@ class LoopMember : LoopStage {
                                   .patience = {"start", "patience"},
                                   .steps = kStepsOfNewton,
                                   .between = std::move(between)},
-                        {fmt::format("Newton where the fixed point contracts slowly, and then for "
-                                     "{} steps.",
+                        {fmt::format("Newton where the fixed point contracts slowly, from the "
+                                     "state too, and then for {} steps.",
                                      kStepsOfNewton)}});
     b.body().push_back({Return{}});
   }

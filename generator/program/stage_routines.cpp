@@ -282,7 +282,8 @@ class StageRoutines : StageParts {
                        .patience = {"start", "patience"},
                        .steps = 32,
                        .between = at_state(b)},
-             {"Newton where the fixed point contracts slowly, and then for 32 steps."}});
+             {"Newton where the fixed point contracts slowly, from the state too, and then for 32 "
+              "steps."}});
         break;
     }
     add_refinement(b);

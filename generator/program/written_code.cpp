@@ -118,11 +118,16 @@ class RoutineWriter : public RunWriter {
   void operator()(const Alternate& node) {
     const Value patience = at(node.patience);
     if (form_.lanes) return alternate_in_lanes(node);
-    branch(joined("&&", {joined("==", {patience, integer(0)}), prefix("!", called(node.first))}),
-           Shape::braces, [&] {
-             write(node.between);
-             set(patience, integer(node.steps));
-           });
+    branch(joined("==", {patience, integer(0)}), Shape::braces, [&] {
+      set(patience, integer(node.steps));
+      attempt([&] {
+        branch(called(node.first), Shape::braces, [&] {
+          set(patience, integer(0));
+          add(Break{});
+        });
+        write(node.between);
+      });
+    });
     branch(joined(">", {patience, integer(0)}), Shape::braces, [&] {
       add(Do{prefix("--", patience)});
       branch(prefix("!", called(node.second)), Shape::line, [this] { fail(); });
@@ -263,6 +268,11 @@ class RoutineWriter : public RunWriter {
     add(Return{routine_.result.type == "StepReport" ? object({"report"}) : converged});
   }
 
+  // The first of two routines, and once more.
+  void attempt(const Lines& lines) {
+    add(Loop{"int", "attempt", 0, "2", inside(lines), Shape::braces});
+  }
+
   // Lanes that the first routine fails in go on to the second.
   void alternate_in_lanes(const Alternate& node) {
     const Value patience = at(node.patience);
@@ -271,12 +281,16 @@ class RoutineWriter : public RunWriter {
       return in_parentheses(joined(sign, {patience, integer(0)}));
     };
     narrow(is_zero("<="), Shape::braces, [&] {
-      add(Define{"Mask", "tried ", lanes_in_turn()});
-      add(Define{"Mask", "found ", called(node.first)});
-      set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
-      write(node.between);
+      attempt([&] {
+        add(Define{"Mask", "tried ", lanes_in_turn()});
+        add(Define{"Mask", "found ", called(node.first)});
+        set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
+        branch(prefix("!", call("any", {lanes_in_turn()})), Shape::line,
+               [&] { add(Break{}); });
+        write(node.between);
+        set(converged, joined("|", {converged, lanes_in_turn()}));
+      });
       set_number(patience, integer(node.steps), true);
-      set(converged, joined("|", {converged, lanes_in_turn()}));
     });
     narrow(is_zero(">"), Shape::braces, [&] {
       set_number(patience, joined("-", {patience, integer(1)}), true);

@@ -52,11 +52,12 @@ TEST(Run, AsksTheCompilerForWhatTheNumberOfStepsRepays) {
     EXPECT_EQ(found["time"]["optimisation"], optimisation) << result.out;
     return found["state"];
   };
-  const auto few = state_with("-O1", "one", {"--steps", "1000"});
+  const auto few = state_with("-O0", "one", {"--steps", "1000"});
   EXPECT_EQ(state_with("-O2", "one", {"--steps", "1000", "--flags=-O2"}), few);
+  static_cast<void>(state_with("-O1", "one", {"--steps", "100000"}));
   static_cast<void>(state_with("-O3", "one", {"--steps", "4000000"}));
   EXPECT_EQ(state_with("-O3", "one", {"--steps", "1000"}), few);
-  static_cast<void>(state_with("-O1", "two", {"--steps", "100", "--scheme", "gauss-4"}));
+  static_cast<void>(state_with("-O1", "two", {"--steps", "4000", "--scheme", "gauss-4"}));
   static_cast<void>(state_with("-O2", "two", {"--steps", "400000", "--scheme", "gauss-4"}));
 }
 

@@ -111,7 +111,7 @@ TEST(Signals, WhatAKilledRunLeavesIsCollectedByTheNext) {
 TEST(Signals, AFileThatReachesItsLimitIsAnErrorOfWriting) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
-  ASSERT_EQ(hamgen({"run", model, "--quiet", "--steps", "1"}).status, 0);  // it is compiled
+  ASSERT_EQ(hamgen({"run", model, "--quiet", "--steps", "100000"}).status, 0);  // it is compiled
   rlimit old{};
   ::getrlimit(RLIMIT_FSIZE, &old);
   const rlimit small{.rlim_cur = 20480, .rlim_max = old.rlim_max};

@@ -140,7 +140,7 @@ TEST_F(CompilerTest, LeavesTheEndOfItsOutputInTheError) {
   EXPECT_TRUE(failure.output_tail.ends_with("line 100\n"));
   EXPECT_TRUE(failure.command.ends_with(
       "/compiler -o plugin.so plugin.cpp -Wl,--version-script=exports.map " +
-      command_text(compile_flags({}, {}, {}))))
+      command_text(compile_flags({}, {}, {})) + " -nodefaultlibs -lm -lgcc"))
       << failure.command;
 }
 
