@@ -777,9 +777,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x10e7460a
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xd4beba25
 namespace fput::implicit_midpoint {
-inline namespace emitted_10e7460a {
+inline namespace emitted_d4beba25 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -965,11 +965,17 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
   if (!start.known) {
     for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
   }
-  // Newton where the fixed point contracts slowly, and then for 32 steps.
-  if (start.patience == 0 && !contract(par, k, h, z, carry, start, dz, rest, report)) {
-    for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
-    start.known = false;
+  // Newton where the fixed point contracts slowly, from the state too, and then for 32 steps.
+  if (start.patience == 0) {
     start.patience = 32;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (contract(par, k, h, z, carry, start, dz, rest, report)) {
+        start.patience = 0;
+        break;
+      }
+      for (int i = 0; i < n; ++i) start.value[i] = z.q[i];
+      start.known = false;
+    }
   }
   if (start.patience > 0) {
     --start.patience;
@@ -1066,9 +1072,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_10e7460a
+}  // namespace emitted_d4beba25
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x10e7460a
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xd4beba25
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 
