@@ -46,16 +46,19 @@ void StepBuilder::add_affine(const Block& block) {
   if (block.constant_matrix) multiply_out(newton, lack);
 }
 
-// How far what is torn out is from its rows, for its sum was rounded.  Where the equations use the
-// sum before that, only their solution has to know.
+// How far what is torn out is from its rows, for its sum was rounded: where the equations use the
+// sum before that, for the step alone, and with a constant matrix.
 void StepBuilder::find_off(NewtonBlock& newton) {
   for (const int t : newton.block.torn) {
     const std::string name = "off(" + name_of(t) + ")";
     if (const auto torn = torn_change_.find(t); torn != torn_change_.end()) {
-      const Expression& z = equations_.mechanics.variable(t);
-      newton.off[t] = name_value(name, z - stage_value_[index(t)] + torn->second, newton.outside);
+      const Expression taken =
+          name_value("taken(" + name_of(t) + ")",
+                     stage_value_[index(t)] - equations_.mechanics.variable(t), newton.outside);
+      newton.off[t] = name_value(name, torn->second - taken, newton.outside);
       continue;
     }
+    if (!solves_constants_) continue;
     const Expression lack = name_value("R(" + name_of(t) + ")", lack_of(newton, t), newton.where);
     newton.off[t] = name_value(name, -(lack / own_slope(t)), newton.where);
   }

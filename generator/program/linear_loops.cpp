@@ -139,7 +139,7 @@ void LoopStage::add_exact_result(RoutineBuilder& b) const {
   body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
   Body moved{{Assign{at("moved", false).name(), at("lack", false)}}};
   body.push_back(for_each(counting("i", unknowns()), std::move(moved)));
-  add_curvature(body, {"start", "moved"});
+  call("curvature", {{"start", "moved"}, {"start", "change"}});
 
   Return end{.ranges = {elements()}};
   Body each;

@@ -104,42 +104,6 @@ void LoopStage::add_gradient_at_stage(Body& body) const {
   }
 }
 
-void LoopStage::add_curvature(Body& body, const Place& u) const {
-  std::vector<Place> list = {{"par"}};
-  if (raised()) list.push_back({"h"});
-  list.push_back({"start", "value"});
-  if (!corrects_forces()) {
-    list.push_back(arrays_.reduced ? Place{"start", "momentum"}
-                                   : Place{"start", "value", {affine(n_)}});
-  }
-  list.push_back(u);
-  list.push_back({"start", "change"});
-  const char* routine = corrects_forces() ? "potential_curvature" : "curvature";
-  body.push_back({Call{.routine = routine, .arguments = std::move(list)}});
-}
-
-Expression LoopStage::velocity_change(RoutineBuilder& b, const Expression& force_change) const {
-  weights_.bind(b.routine());
-  if (!weights_.p_by_q) return Expression(0);
-  const bool is_number = arrays_.mass && arrays_.mass->is_number();
-  const Expression own = is_number ? *arrays_.mass : mass(b);
-  Expression change = -own * *weights_.p_by_q * force_change;
-  if (needs_drift()) change = change / (Expression(1) + *weights_.p_by_p * own);
-  return change;
-}
-
-Expression LoopStage::lost_of_momentum(RoutineBuilder& b, Body& each) const {
-  // In this order: z and bar cancel without an error.
-  const Expression z = state(b, "z", "p");
-  const Expression bar = b.local("bar");
-  const Expression carry = state(b, "carry", "p");
-  const Gradient at = {b.at("start", "refinement.slope", {affine("i")}), Expression(0)};
-  const StageRow row = weights_.row_of_p(b, each, at);
-  const Expression moved = b.let(each, "moved", sum_of_row(b, each, carry, row, "small"));
-  each.push_back({Let{bar.name(), z + moved}});
-  return z - bar + moved;
-}
-
 Routine LoopStage::evaluate() const {
   RoutineBuilder b(
       {.name = "evaluate",

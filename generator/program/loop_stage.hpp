@@ -74,25 +74,12 @@ class LoopStage {
   // start.slope = grad H at a stage.
   void add_gradient(Body& body, const Place& q, const Place& p) const;
   void add_gradient_at_stage(Body& body) const;
-  // Does the last increment correct the forces alone, and the velocities follow from that?
-  [[nodiscard]] bool corrects_forces() const { return arrays_.reduced && !is_linear(); }
-  // start.change = H'' u at the stage.
-  void add_curvature(Body& body, const Place& u) const;
-  // What dH/dp_i changes by if dH/dq_i does by this.
-  Expression velocity_change(RoutineBuilder& b, const Expression& force_change) const;
   // start.lost = H'' zbar - start.slope, what rounding took from a linear gradient.
   [[nodiscard]] Routine gradient_error() const;
   // z + carry + row - bar with all that it loses, for an element of q or p.
   Expression exact_lack(RoutineBuilder& b, Body& body, bool is_p, const Expression& extra) const;
   // dz + rest = Z - z after the iteration, by start.slope and the way to the solution.
   void add_exact_result(RoutineBuilder& b) const;
-  // Note [what the torn momenta lose]
-  // They are rounded, at every step alike where the products that they are made of have a pattern,
-  // and h m times that is missing in dq: two thirds of a bias of 1e-4 units of rounding a step.
-  [[nodiscard]] bool knows_momentum_error() const {
-    return settles() && !needs_drift() && arrays_.mass && arrays_.mass->is_number();
-  }
-  Expression lost_of_momentum(RoutineBuilder& b, Body& each) const;
   // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).  With
   // them start.slope = grad H at the stage, and start.lack.
   [[nodiscard]] Routine evaluate() const;

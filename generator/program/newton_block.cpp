@@ -257,11 +257,11 @@ void StepBuilder::add_simplified_newton(const Block& block) {
   for (const int v : all) {
     for (const int k : equations_.row_gradients(v)) evaluate_gradient(newton, k);
   }
-  // delta_v = lacking.at(v) + sum_j slopes.at(v)[j] delta_j of the members known so far.
-  std::map<int, Expression> lacking;
+  // delta_v = missing.at(v) + sum_j slopes.at(v)[j] delta_j of the members known so far.
+  std::map<int, Expression> missing;
   const auto residual = [&](int i) {
-    return stage_value_[index(i)] - row(i, newton.where) -
-           chain(newton, i, [&](int v) { return lacking[v]; });
+    return lacking(i, stage_value_[index(i)], newton.where) -
+           chain(newton, i, [&](int v) { return missing[v]; });
   };
   for (const int t : block.torn) {
     const Expression symbol = Expression::symbol("R(" + name_of(t) + ")", kRankOfTemporary + t);
@@ -272,7 +272,7 @@ void StepBuilder::add_simplified_newton(const Block& block) {
                                   chain(newton, t, [&](int v) { return newton.slopes.at(v)[j]; }),
                                   newton.where));
     }
-    lacking[t] = -symbol;
+    missing[t] = -symbol;
     newton.slopes[t] = std::move(slopes);
     newton.members.push_back(t);
   }
@@ -290,7 +290,7 @@ void StepBuilder::add_simplified_newton(const Block& block) {
   std::map<int, Expression> increments;
   for (std::size_t j = 0; j < m; ++j) increments[block.unknowns[j]] = newton.increments[j];
   for (const int t : block.torn) {
-    std::vector<Expression> terms{lacking[t]};
+    std::vector<Expression> terms{missing[t]};
     for (std::size_t j = 0; j < m; ++j) {
       terms.push_back(newton.slopes.at(t)[j] * newton.increments[j]);
     }

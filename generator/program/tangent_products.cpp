@@ -158,29 +158,24 @@ void add_step(Body& body, const Program& code, const std::string& h, const std::
   body.push_back({std::move(step)});
 }
 
-Routine curvature_routine(const Environment& environment, const StepEquations& equations,
-                          Part part) {
+Routine curvature_routine(const Environment& environment, const StepEquations& equations) {
   const int n = environment.degrees_of_freedom;
-  const bool all = part == Part::all;
-  const int size = all ? 2 * n : n;
-  const auto array = [](const char* name, int length, bool changes = false) {
-    return Argument{.name = name, .sizes = {length}, .changes = changes, .decays = true};
-  };
-  RoutineBuilder b({.name = all ? "curvature" : "potential_curvature",
-                    .remark = {all ? "y = H'' u at a state, q first." : "y = V'' u at q."},
-                    .arguments = {parameters_argument()}});
-  std::vector<Argument>& list = b.routine().arguments;
+  RoutineBuilder b(
+      {.name = "curvature",
+       .remark = {"y = H'' u at a state, q first."},
+       .arguments = {parameters_argument(),
+                     {.name = "q", .sizes = {n}, .decays = true},
+                     {.name = "p", .sizes = {n}, .decays = true},
+                     {.name = "u", .sizes = {2 * n}, .decays = true},
+                     {.name = "y", .sizes = {2 * n}, .changes = true, .decays = true}}});
   if (equations.function) {
     b.routine().remark = {"y = K'' u at a state, q first."};
-    list.push_back({.name = "h"});
+    std::vector<Argument>& list = b.routine().arguments;
+    list.insert(list.begin() + 1, {.name = "h"});
   }
-  list.push_back(array("q", n));
-  if (all) list.push_back(array("p", n));
-  list.push_back(array("u", size));
-  list.push_back(array("y", size, true));
   // A coordinate may be called y.
   Body zero{{Assign{at_apart(b.routine(), {"y", "", {affine("i")}}).name(), Expression(0)}}};
-  b.body().push_back(for_each(counting("i", size), std::move(zero)));
+  b.body().push_back(for_each(counting("i", 2 * n), std::move(zero)));
   const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
     const auto element = [&](const char* array, const StateElement& of) {
       AffineIndex index = of.index;
@@ -190,7 +185,7 @@ Routine curvature_routine(const Environment& environment, const StepEquations& e
     body.push_back(
         {Accumulate{element("y", entry.row).name(), entry.value * element("u", entry.column)}});
   };
-  return kernel_entries(environment, equations.mechanics, part, b.take(), {"q"}, {"p"}, use);
+  return kernel_entries(environment, equations.mechanics, Part::all, b.take(), {"q"}, {"p"}, use);
 }
 
 }  // namespace hamgen

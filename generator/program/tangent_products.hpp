@@ -70,10 +70,9 @@ class TangentBuilder : public RoutineBuilder {
 // start are locals of it.
 void add_step(Body& body, const Program& code, const std::string& h, const std::string& state);
 
-// Of a system in loops: curvature(par, q, p, u, y), y = H'' u, or of the potential alone
-// potential_curvature(par, q, u, y), y = V'' u; where K stands in for H, of that, with h behind
-// par.
+// Of a system in loops: curvature(par, q, p, u, y), y = H'' u; where K stands in for H, of that,
+// with h behind par.
 [[nodiscard]] Routine curvature_routine(const Environment& environment,
-                                        const StepEquations& equations, Part part = Part::all);
+                                        const StepEquations& equations);
 
 }  // namespace hamgen

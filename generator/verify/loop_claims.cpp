@@ -310,14 +310,14 @@ class LoopMemberClaims {
       claim_refined(machine, trace, g);
       return;
     }
-    claim_newton(machine, unknowns, point, increments);
+    claim_newton(machine, unknowns, increments, g);
   }
 
-  // The matrix is what `differentiate` makes of the unknowns, and the last increment is made.
+  // The matrix is what `differentiate` makes of the unknowns; the last increment is made, and
+  // everything evaluated there.
   void claim_newton(SymbolicMachine& machine, const std::vector<Expression>& unknowns,
-                    const std::vector<Expression>& point,
-                    const std::vector<Expression>& increments) {
-    const auto g = [&](int k) { return slope(machine, point, k); };
+                    const std::vector<Expression>& increments,
+                    const std::function<Expression(int)>& g) {
     const auto m = static_cast<int>(unknowns.size());
     const std::size_t systems = has("gradient_error") ? 2 : 1;
     const bool solved = machine.systems.size() == systems;
@@ -340,33 +340,13 @@ class LoopMemberClaims {
       claim("the last stage value of " + step_.name(i), moved.back(),
             unknowns[at(i)] + increments[at(i)]);
     }
+    const std::vector<Expression> point = stage_of(machine, moved, "at the end");
     if (systems == 2) {
-      claim_linear(machine, stage_of(machine, moved, "at the end"));
+      claim_linear(machine, point);
       return;
     }
-    claim_corrected(machine, point, increments);
-  }
-
-  // The step moves by the gradient of the last iteration, to first order at its solution.
-  void claim_corrected(SymbolicMachine& machine, const std::vector<Expression>& point,
-                       const std::vector<Expression>& increments) {
-    Substitution there;
-    for (int i = 0; i < 2 * n_; ++i) there.emplace(step_.name(i), point[at(i)]);
-    const auto times = [&](int k, const std::function<Expression(int)>& vector) {
-      std::vector<Expression> terms;
-      for (const int j : partners_of(k))
-        terms.push_back(substitute(derivatives_.second(k, j), there) * vector(j));
-      return Expression::sum(std::move(terms));
-    };
-    const auto moved = [&](int j) -> Expression {
-      if (at(j) < increments.size()) return increments[at(j)];
-      const Expression force =
-          times(j - n_, [&](int l) { return l < n_ ? increments[at(l)] : Expression(0); });
-      const auto& [alpha, beta, gamma] = member_;
-      const Expression h = step_size();
-      return -(h * (Expression(1) - alpha)) / (Expression(1) + h * beta * mass(j - n_)) * force;
-    };
-    claim_increments(machine, [&](int k) { return slope(machine, point, k) + times(k, moved); });
+    const auto last = [&](int k) { return slope(machine, point, k); };
+    claim_increments(machine, last);
   }
 
   // H is quadratic, its gradient H'' z: whatever was rounded in the slopes taken at this point, the

@@ -8,6 +8,7 @@
 // here: a row passes always or never.  A bias of 1e-4 units of rounding a step is allowed besides,
 // so that a row whose walk is short by accident does not fail.  What the mutants show is ten times
 // that and more.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -104,6 +105,17 @@ TEST(Drift, ALargeStepOfNewtonMovesByWhatItsEquationsWereSolvedWith) {
   expect_drift_only_with({{"= carry.q[0] + h * change_H_p_1", "= carry.q[0]"},
                           {"= carry.q[1] + h * change_H_p_2", "= carry.q[1]"}},
                          {.model = soft_chain(6), .request = {}, .h = 1});
+}
+
+TEST(Drift, AnExplicitStageIsRoundedOnce) {
+  std::vector<Replacement> edits;
+  for (int i = 1; i <= 6; ++i) {
+    edits.push_back({fmt::format("first_p_{0} + rest_p_{0}", i),
+                     fmt::format("p_{} + (carry.p[{}] - minus_flow_p_{})", i, i - 1, i)});
+  }
+  expect_drift_only_with(edits,
+                         {.model = chain(6), .request = {.scheme = "symplectic-euler-a"}, .h = 0.7},
+                         {.starts = 32});
 }
 
 // What rounding takes from a product with a simple fraction is a pattern.

@@ -294,6 +294,26 @@ TEST(Emitted, LoopsTakeTheStepsThatWrittenOutCodeTakes) {
   EXPECT_EQ(output_of(text + "int main() {\n" + calls + "}\n"), "");
 }
 
+// What the routines of loops call their own arrays, too.
+TEST(Emitted, TheHessianOfLoopsIsTheSameWhateverACoordinateIsCalled) {
+  std::string text = "#include <cstdio>\n";
+  std::string calls =
+      "  double q[30], p[30] = {}, u[60], first[60], y[60];\n"
+      "  for (int i = 0; i < 30; ++i) q[i] = 0.1 * (i % 7);\n"
+      "  for (int i = 0; i < 60; ++i) u[i] = i % 5;\n";
+  for (const std::string x : {"q", "y", "u"}) {
+    text += header("system many\nsize n = 30\ncoordinate " + x + "[1..n] with " + x + "[0] = 0, " +
+                       x + "[n+1] = 0\nmomentum p[1..n]\nH = sum(i = 1..n, p[i]^2/2)" +
+                       " + sum(i = 0..n, cosh(" + x + "[i+1] - " + x + "[i]))\n",
+                   {.tangent = true}, "of_" + x);
+    calls += "  of_" + x + "::curvature({}, q, p, u, " + (x == "q" ? "first" : "y") + ");\n";
+    if (x == "q") continue;
+    calls +=
+        "  for (int i = 0; i < 60; ++i)\n    if (y[i] != first[i]) std::puts(\"" + x + "\");\n";
+  }
+  EXPECT_EQ(output_of(text + "int main() {\n" + calls + "}\n"), "");
+}
+
 class Strictly : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scalars, Strictly,
                          ::testing::Values("float", "double", "long-double", "quad"),
