@@ -777,9 +777,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xd4beba25
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x9fdabc05
 namespace fput::implicit_midpoint {
-inline namespace emitted_d4beba25 {
+inline namespace emitted_9fdabc05 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -803,14 +803,13 @@ inline Coefficients prepare(const Parameters&, Real h) {
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
-  Real value[32] = {};   // the coordinates of zbar
-  bool known = false;    // else the state itself is the start
-  Real slope[64] = {};   // grad H(zbar), dH/dq first
-  Real lack[32] = {};    // of the equations at zbar, then the increment
-  Real change[32] = {};  // of the slope by the last increment
+  Real value[32] = {};  // the coordinates of zbar
+  bool known = false;   // else the state itself is the start
+  Real slope[64] = {};  // grad H(zbar), dH/dq first
+  Real lack[32] = {};   // of the equations at zbar, then the increment
   Matrix matrix;
   WaitingNewtonRule<2> newton_rule;
-  int patience = 0;      // steps left to Newton
+  int patience = 0;     // steps left to Newton
   ContractionRule rule;
   Refinement<32, 64> refinement;
 };
@@ -850,26 +849,6 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
   matrix.put(0, 0, k.scale * entry_1);
   const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
   matrix.put(31, 31, k.scale * entry_2);
-}
-
-// y = V'' u at q.
-inline void potential_curvature(const Parameters& par, const Real* q, const Real* u, Real* y) {
-  for (int i = 0; i < n; ++i) y[i] = 0.0;
-  for (int i = 1; i <= 31; ++i) {
-    const Real q_i_plus_1 = q[i];
-    const Real q_i = q[i - 1];
-    const Real t1 = 1.0 + 2.0 * par.alpha * (q_i_plus_1 - q_i);
-    y[i] += t1 * u[i];
-    y[i] += -t1 * u[i - 1];
-    y[i - 1] -= t1 * u[i];
-    y[i - 1] += t1 * u[i - 1];
-  }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
-  y[0] += u[0] * entry_1;
-  const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
-  y[31] += u[31] * entry_2;
 }
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
@@ -944,13 +923,13 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
       start.value[i] += start.lack[i];
     }
   }
-  potential_curvature(par, start.value, start.lack, start.change);
   for (int i = 0; i < n; ++i) start.value[i] += start.lack[i];
+  evaluate(par, k, z, carry, start);
   for (int i = 0; i < n; ++i) {
     dz.q[i] = h * start.slope[n + i];
-    rest.q[i] = carry.q[i] - h * k.half_h * start.change[i];
+    rest.q[i] = carry.q[i];
     dz.p[i] = -h * start.slope[i];
-    rest.p[i] = carry.p[i] - h * start.change[i];
+    rest.p[i] = carry.p[i];
   }
   // False for infinities and NaN alike.
   const Real length = squares_of(dz.q, rest.q) + squares_of(dz.p, rest.p);
@@ -1072,9 +1051,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_d4beba25
+}  // namespace emitted_9fdabc05
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xd4beba25
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x9fdabc05
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

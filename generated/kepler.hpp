@@ -348,9 +348,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x9c22566a
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x9d1dbc8d
 namespace kepler::implicit_midpoint {
-inline namespace emitted_9c22566a {
+inline namespace emitted_9d1dbc8d {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -455,8 +455,10 @@ struct Start {
   start.value[0] = q1_bar + delta_q1;
   start.value[1] = q2_bar + delta_q2;
   // The last increments correct the gradient to first order: no evaluation at the solution.
-  const Real off_p1 = -(p1_bar - p1 - rest_p1);
-  const Real off_p2 = -(p2_bar - p2 - rest_p2);
+  const Real taken_p1 = p1_bar - p1;
+  const Real off_p1 = rest_p1 - taken_p1;
+  const Real taken_p2 = p2_bar - p2;
+  const Real off_p2 = rest_p2 - taken_p2;
   const Real change_H_q1 = delta_q1 * H_q1_q1 + delta_q2 * H_q1_q2;
   const Real change_H_q2 = delta_q1 * H_q1_q2 + delta_q2 * H_q2_q2;
   const Real change_H_p1 = off_p1 + k.c1 * change_H_q1;
@@ -566,9 +568,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_9c22566a
+}  // namespace emitted_9d1dbc8d
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x9c22566a
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x9d1dbc8d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -338,9 +338,9 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xb9874259
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x1672bbe6
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_b9874259 {
+inline namespace emitted_1672bbe6 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -427,7 +427,8 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
   }
   start.value[0] = q_bar + delta_q;
   // The last increments correct the gradient to first order: no evaluation at the solution.
-  const Real off_p = -(p_bar - p - rest_p);
+  const Real taken_p = p_bar - p;
+  const Real off_p = rest_p - taken_p;
   const Real change_H_q = delta_q * at.H_q_q;
   const Real change_H_p = off_p + k.c1 * change_H_q;
   dz.q = h * p_bar;
@@ -535,9 +536,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_b9874259
+}  // namespace emitted_1672bbe6
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xb9874259
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x1672bbe6
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 
