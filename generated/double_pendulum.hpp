@@ -339,9 +339,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x52c241bc
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x4b7917f8
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_52c241bc {
+inline namespace emitted_4b7917f8 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -390,16 +390,16 @@ struct Start {
     const Real t13 = p1_bar * p1_bar + 2.0 * (p2_bar * p2_bar) + p1_bar * p2_bar * t10;
     H_q1 = t1 - t13 * t9 + p1_bar * p2_bar * t6;
     H_q2 = t11 + t13 * t9 - p1_bar * p2_bar * t6;
-    const Real rest_lack_p1 = p1_bar - p1;
-    const Real rest_lack_p1_new = rest_lack_p1 + h * H_q1;
+    const Real p1_gap = p1_bar - p1;
+    const Real p1_gap_1 = p1_gap + h * H_q1;
     H_q1_p1 = p2_bar * t6 + t12 * (p1_bar - p2_bar * t8);
     H_q1_p2 = p1_bar * t6 + t12 * (2.0 * p2_bar - p1_bar * t8);
-    const Real rest_lack_p2 = p2_bar - p2;
-    const Real rest_lack_p2_new = rest_lack_p2 + h * H_q2;
-    const Real R_p1 = -(carry.p1 - rest_lack_p1_new);
+    const Real p2_gap = p2_bar - p2;
+    const Real p2_gap_1 = p2_gap + h * H_q2;
+    const Real R_p1 = -(carry.p1 - p1_gap_1);
     const Real R_p1_p1 = 1.0 + h * H_q1_p1;
     const Real R_p1_p2 = h * H_q1_p2;
-    const Real R_p2 = -(carry.p2 - rest_lack_p2_new);
+    const Real R_p2 = -(carry.p2 - p2_gap_1);
     const Real R_p2_p1 = -h * H_q1_p1;
     const Real R_p2_p2 = 1.0 - h * H_q1_p2;
     const Real inverse_det_p1 = 1.0 / (R_p1_p1 * R_p2_p2 - R_p1_p2 * R_p2_p1);
@@ -531,9 +531,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_52c241bc
+}  // namespace emitted_4b7917f8
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x52c241bc
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x4b7917f8
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -116,9 +116,9 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }  // namespace hamgen_6e14fa35::float64
 
 #ifndef HAMGEN_METHOD_driven_oscillator_implicit_midpoint
-#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0xc0b7ef8a
+#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0x26738f77
 namespace driven_oscillator::implicit_midpoint {
-inline namespace emitted_c0b7ef8a {
+inline namespace emitted_26738f77 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::two_sum_with_rest;
@@ -156,12 +156,12 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   const Real q_bar = q * inverse_det_q + p * inverse_q_p;
   const Real p_bar = q * inverse_p_q + p * inverse_det_q;
   const Real H_q = q_bar * H_q_q;
-  const Real rest_lack_q = q_bar - q;
-  const Real rest_lack_q_new = rest_lack_q + p_bar * k.c2;
-  const Real R_q = -(carry.q - rest_lack_q_new);
-  const Real rest_lack_p = p_bar - p;
-  const Real rest_lack_p_new = rest_lack_p + k.c1 * H_q;
-  const Real R_p = -(carry.p - rest_lack_p_new);
+  const Real q_gap = q_bar - q;
+  const Real q_gap_1 = q_gap + p_bar * k.c2;
+  const Real R_q = -(carry.q - q_gap_1);
+  const Real p_gap = p_bar - p;
+  const Real p_gap_1 = p_gap + k.c1 * H_q;
+  const Real R_p = -(carry.p - p_gap_1);
   const Real delta_q = -(inverse_det_q * R_q + R_p * inverse_q_p);
   const Real delta_p = -(inverse_det_q * R_p + R_q * inverse_p_q);
   const Real change_H_q = delta_q * H_q_q;
@@ -251,9 +251,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_c0b7ef8a
+}  // namespace emitted_26738f77
 }  // namespace driven_oscillator::implicit_midpoint
-#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0xc0b7ef8a
+#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0x26738f77
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -144,9 +144,9 @@ inline Real difference_error(Real x, Real y) {
 }  // namespace hamgen_6e14fa35::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x70206086
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x453a4733
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_70206086 {
+inline namespace emitted_453a4733 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::product_error,
@@ -189,21 +189,21 @@ inline Coefficients prepare(const Parameters& par, Real h) {
   const Real p_bar = q * k.c5 + p * k.c3;
   const Real H_q = q_bar * k.c1;
   const Real lost_w_2_bar_q = product_error(k.c1, q_bar);
-  const Real rest_lack_q = q_bar - q;
-  const Real lost_lack_q = difference_error(q_bar, q);
+  const Real q_gap = q_bar - q;
+  const Real q_gap_error = difference_error(q_bar, q);
   const Real h_H_p = h * p_bar;
   const Real lost_h_H_p = product_error(h, p_bar);
-  const Real rest_lack_q_new = -(0.5 * h_H_p - rest_lack_q);
-  const Real rest_beside_q = carry.q + 0.5 * lost_h_H_p - lost_lack_q;
-  const Real R_q = -(rest_beside_q - rest_lack_q_new);
-  const Real rest_lack_p = p_bar - p;
-  const Real lost_lack_p = difference_error(p_bar, p);
+  const Real q_gap_1 = -(0.5 * h_H_p - q_gap);
+  const Real rest_beside_q = carry.q + 0.5 * lost_h_H_p - q_gap_error;
+  const Real R_q = q_gap_1 - rest_beside_q;
+  const Real p_gap = p_bar - p;
+  const Real p_gap_error = difference_error(p_bar, p);
   const Real h_H_q = h * H_q;
   const Real lost_h_H_q = product_error(h, H_q);
   const Real lost_h_H_q_in_all = lost_h_H_q + h * lost_w_2_bar_q;
-  const Real rest_lack_p_new = 0.5 * h_H_q + rest_lack_p;
-  const Real rest_beside_p = carry.p - 0.5 * lost_h_H_q_in_all - lost_lack_p;
-  const Real R_p = -(rest_beside_p - rest_lack_p_new);
+  const Real p_gap_1 = 0.5 * h_H_q + p_gap;
+  const Real rest_beside_p = carry.p - 0.5 * lost_h_H_q_in_all - p_gap_error;
+  const Real R_p = p_gap_1 - rest_beside_p;
   dz.q = h_H_p;
   rest.q = carry.q + lost_h_H_p - k.c6 * R_p - k.c7 * R_q;
   dz.p = -h_H_q;
@@ -283,9 +283,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_70206086
+}  // namespace emitted_453a4733
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x70206086
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x453a4733
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -348,9 +348,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x9d1dbc8d
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x00fb958d
 namespace kepler::implicit_midpoint {
-inline namespace emitted_9d1dbc8d {
+inline namespace emitted_00fb958d {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -422,16 +422,16 @@ struct Start {
     p2_bar = p2 + rest_p2;
     H_q2_q2 = t9 - 3.0 * t4 * t11;
     const Real d_p2_d_q2 = k.c1 * H_q2_q2;
-    const Real rest_lack_q1 = q1_bar - q1;
-    const Real rest_lack_q1_new = t1 + rest_lack_q1;
-    const Real rest_lack_q1_new_2 = rest_lack_q1_new + k.c1 * rest_p1;
-    const Real rest_lack_q2 = q2_bar - q2;
-    const Real rest_lack_q2_new = t2 + rest_lack_q2;
-    const Real rest_lack_q2_new_2 = rest_lack_q2_new + k.c1 * rest_p2;
-    const Real R_q1 = -(carry.q1 - rest_lack_q1_new_2);
+    const Real q1_gap = q1_bar - q1;
+    const Real q1_gap_1 = t1 + q1_gap;
+    const Real q1_gap_2 = q1_gap_1 + k.c1 * rest_p1;
+    const Real q2_gap = q2_bar - q2;
+    const Real q2_gap_1 = t2 + q2_gap;
+    const Real q2_gap_2 = q2_gap_1 + k.c1 * rest_p2;
+    const Real R_q1 = -(carry.q1 - q1_gap_2);
     const Real R_q1_q1 = 1.0 + k.c1 * d_p1_d_q1;
     const Real R_q1_q2 = k.c1 * d_p1_d_q2;
-    const Real R_q2 = -(carry.q2 - rest_lack_q2_new_2);
+    const Real R_q2 = -(carry.q2 - q2_gap_2);
     const Real R_q2_q1 = k.c1 * d_p1_d_q2;
     const Real R_q2_q2 = 1.0 + k.c1 * d_p2_d_q2;
     const Real inverse_det_q1 = 1.0 / (R_q1_q1 * R_q2_q2 - R_q1_q2 * R_q2_q1);
@@ -568,9 +568,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_9d1dbc8d
+}  // namespace emitted_00fb958d
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x9d1dbc8d
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x00fb958d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -338,9 +338,9 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x1672bbe6
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xa0abf1ba
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_1672bbe6 {
+inline namespace emitted_a0abf1ba {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -405,10 +405,10 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
     rest_p = carry.p + k.c1 * at.H_q;
     p_bar = p + rest_p;
     const Real d_p_d_q = k.c1 * at.H_q_q;
-    const Real rest_lack_q = q_bar - q;
-    const Real rest_lack_q_new = t1 + rest_lack_q;
-    const Real rest_lack_q_new_2 = rest_lack_q_new + k.c1 * rest_p;
-    const Real R_q = -(carry.q - rest_lack_q_new_2);
+    const Real q_gap = q_bar - q;
+    const Real q_gap_1 = t1 + q_gap;
+    const Real q_gap_2 = q_gap_1 + k.c1 * rest_p;
+    const Real R_q = -(carry.q - q_gap_2);
     const Real R_q_q = 1.0 + k.c1 * d_p_d_q;
     delta_q = -R_q / R_q_q;
     const Real size = magnitude(delta_q);
@@ -536,9 +536,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_1672bbe6
+}  // namespace emitted_a0abf1ba
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x1672bbe6
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xa0abf1ba
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -260,7 +260,7 @@ void StepBuilder::add_simplified_newton(const Block& block) {
   // delta_v = missing.at(v) + sum_j slopes.at(v)[j] delta_j of the members known so far.
   std::map<int, Expression> missing;
   const auto residual = [&](int i) {
-    return lacking(i, stage_value_[index(i)], newton.where) -
+    return stage_value_[index(i)] - row(i, newton.where) -
            chain(newton, i, [&](int v) { return missing[v]; });
   };
   for (const int t : block.torn) {

@@ -52,7 +52,12 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   };
   const bool is_solved = has_block(BlockKind::linear, BlockKind::newton);
   const bool is_contracted = has_block(BlockKind::fixed_point);
-  is_explicit_ = !is_solved && !is_contracted && !has_block(BlockKind::quadratic) && !plan_.sweeps;
+  // Where the stage is the state itself, nothing is added to it on the way.
+  const bool has_stage = std::ranges::any_of(plan_.blocks, [&](const Block& block) {
+    return !equations_.row_gradients(block.unknowns[0]).empty();
+  });
+  is_explicit_ = has_stage && !is_solved && !is_contracted && !has_block(BlockKind::quadratic) &&
+                 !plan_.sweeps;
   keeps_gradients_ =
       solves_constants_ || std::ranges::any_of(equations_.stage_matrix, [](const auto& entry) {
         return !multiplies_exactly(entry.second);

@@ -1,4 +1,6 @@
 // The rows of a step's equations: what a stage is, and what it lacks of that.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -40,10 +42,13 @@ Expression StepBuilder::lacking(int i, const Expression& value, int section) {
   std::vector<Expression> small{carry_symbol(i)};
   Expression difference = value;
   const auto subtract = [&](const Expression& part, bool cancels) {
-    const Expression left = named_rest("lack " + name_of(i), difference - part, section);
+    const int before = rests_["gap " + name_of(i)]++;
+    const std::string name =
+        name_of(i) + " gap" + (before > 0 ? fmt::format(" {}", before) : std::string());
+    const Expression left = name_value(name, difference - part, section);
     if (solves_constants_ && !cancels) {
       const Expression lost = Expression::apply(kDifferenceError, {difference, part});
-      small.push_back(-name_value("lost" + left.name().substr(4), lost, section));
+      small.push_back(-name_value(name + " error", lost, section));
     }
     difference = left;
   };

@@ -42,6 +42,7 @@ TEST(Origins, OfDerivativesAreTheTermsWithTheirVariables) {
             R"(solve(par, k, h, z, carry, &start, &at, &dz, &rest):
 step                  |  q = z.q
 step                  |  p = z.p
+step                  |  #2 = p*#1
 step                  |  iterate with Newton's rule:
 iteration             |    if at.ready:
 iteration             |      bar(q) <- at.point[0]
@@ -52,13 +53,17 @@ iteration             |    at.ready <- false
 iteration H 2 3       |    rest(p) = carry(p) + #1*H(q)
 iteration H 2 3       |    bar(p) = p + rest(p)
 iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
-iteration             |    rest(q) = carry(q) + bar(p)*#2
-iteration             |    R(q) = bar(q) - q - rest(q)
+iteration             |    q gap = bar(q) - q
+iteration             |    q gap 1 = #2 + q gap
+iteration H 2 3       |    q gap 2 = q gap 1 + #1*rest(p)
+iteration H 2 3       |    R(q) = -(carry(q) - q gap 2)
 iteration H 2 3       |    R(q,q) = 1 + #1*d(p)/d(q)
 iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
+step                  |  taken(p) = bar(p) - p
+step      H 2 3       |  off(p) = rest(p) - taken(p)
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
-step      H 2 3       |  change(H(p)) = #1*change(H(q))
+step      H 2 3       |  change(H(p)) = off(p) + #1*change(H(q))
 step      H 1         |  dz.q <- h*bar(p)
 step      H 1         |  rest.q <- carry(q) + h*change(H(p))
 step      H 2 3       |  dz.p <- -h*H(q)
@@ -72,7 +77,6 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
             R"(prepare(par, h):
 run                   |  #0 <- w^2
 step size             |  #1 <- -h/2
-step size             |  #2 <- h/2
 derivatives(par, k, &at):
 iteration             |  bar(q) = at.point[0]
 iteration H 2 3       |  H(q) = c*sin(bar(q)) + bar(q)*#0

@@ -14,7 +14,7 @@ TEST(PlantedFaultInABatch, OfTheTextIsFoundAtItsLine) {
   const Request composed{.scheme = "yoshida-4", .batch = 8};
   const Request fixed_point{.solver = "fixed-point", .batch = 8};
   const std::vector<Fault> faults = {
-      {"half as a quarter", "kepler", eight, "k.c2 = 0.5 * h", "k.c2 = 0.25 * h"},
+      {"half as a quarter", "kepler", eight, "k.c1 = -0.5 * h", "k.c1 = -0.25 * h"},
       {"another function", "pendulum", eight, "lane_sin(", "lane_cos("},
       {"the library's function", "pendulum", eight, "lane_sin(", "library<std::sin>("},
       {"what is selected exchanged", "kepler", eight, "select(moving, q1_bar + delta_q1, q1_bar)",

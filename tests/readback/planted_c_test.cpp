@@ -20,7 +20,7 @@ TEST(PlantedFaultInC, OfTheTextIsFoundAtItsLine) {
   const std::vector<Fault> faults = {
       {"a - b as a + b", "pendulum", in_c(), "(p * p) - par->eps", "(p * p) + par->eps"},
       {"parentheses dropped", kRational, in_c(), "((1.0 + t2) * (par->a", "(1.0 + t2 * (par->a"},
-      {"0.5 as 0.25", "kepler", in_c(), "k.c2 = 0.5 * h", "k.c2 = 0.25 * h"},
+      {"0.5 as 0.25", "kepler", in_c(), "k.c1 = -0.5 * h", "k.c1 = -0.25 * h"},
       {"sign of the residual", "pendulum", in_c(), "delta_q = -R_q", "delta_q = R_q"},
       {"matrix transposed", "henon_heiles", in_c(), "const double R_q1_q2 = k->c1 * d_p1_d_q2",
        "const double R_q1_q2 = k->c1 * d_p2_d_q2"},
@@ -58,7 +58,7 @@ TEST(PlantedFaultInC, OfAddressesAndNamesIsFound) {
        "hamgen_two_sum_with_rest(&self->z.q"},
       {"in C++", "pendulum", in_c(), "par->eps * sin(q)", "par->eps * std::sin(q)"},
       {"another literal", "pendulum", single, "0.5f * (p * p)", "0.5 * (p * p)"},
-      {"another type", "pendulum", in_c(), "const double rest_p =", "const float rest_p ="},
+      {"another type", "pendulum", in_c(), "const double R_q =", "const float R_q ="},
       {"integers' magnitude", "pendulum", in_c(), "{ return fabs(x); }", "{ return abs(x); }"},
       {"values in another order", "harmonic", in_c(), "  double q;\n  double p;\n",
        "  double p;\n  double q;\n"},
