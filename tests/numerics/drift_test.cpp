@@ -166,7 +166,7 @@ TEST(Drift, GaussStagesAreRefinedBelowTheLastPlace) {
 // step.
 TEST(Drift, ATornMomentumIsSolvedForWhatItsRowLacks) {
   expect_drift_only_with(
-      {{" + k.c2 * (rest_beside", " + 0 * k.c2 * (rest_beside"}},
+      {{" - k.c2 * (p_", " - 0 * k.c2 * (p_"}},
       {.model = soft_chain(6), .request = {.alpha = "3/10", .beta = "1/7", .gamma = "-1/9"}});
 }
 
