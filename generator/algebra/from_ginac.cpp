@@ -105,9 +105,7 @@ cln::cl_RA to_cln(const Rational& value) {
   return over / to_cln(value.get_den());
 }
 
-GiNaC::numeric to_ginac(const Rational& value) {
-  return GiNaC::numeric(cln::cl_N(to_cln(value)));
-}
+GiNaC::numeric to_ginac(const Rational& value) { return GiNaC::numeric(cln::cl_N(to_cln(value))); }
 
 // Note [real values]
 // GiNaC cannot know that log(q) is real where H has a value.  So it takes abs(u) for the absolute

@@ -257,16 +257,6 @@ void add_splitting(Program& code, const Environment& environment, const LoweredS
   }
 }
 
-// A symbol is a local or a place: printed, one of both would be taken for the other.
-void require_distinct_symbols(const Routine& routine) {
-  const std::string both = find_in(routine.body, [&](const Instruction& instruction) {
-    const auto* let = std::get_if<Let>(&instruction.value);
-    return let != nullptr && routine.places.contains(let->symbol) ? let->symbol : std::string();
-  });
-  if (!both.empty())
-    internal_error(fmt::format("{} of {} is a local and a place", both, routine.name));
-}
-
 // The fields of State that the places in `dz` of a routine are.
 void find_changed(Program& code, const Environment& environment) {
   const Routine* solve = code.routine("solve");

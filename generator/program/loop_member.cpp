@@ -152,7 +152,6 @@ class LoopMember : LoopStage {
     return arrays_.method == ArrayMethod::explicit_a || arrays_.method == ArrayMethod::explicit_b;
   }
   [[nodiscard]] bool has_rest() const { return iterates(arrays_) || is_explicit(); }
-
   // alpha = 0 has zbar = (q, P), alpha = 1 has zbar = (Q, p).
   void add_explicit(RoutineBuilder& b, bool kick_first) const {
     const char* from = kick_first ? "q" : "p";
@@ -167,14 +166,12 @@ class LoopMember : LoopStage {
     const Expression carry = state(b, "carry", to);
     const Gradient at = slope(b);
     Body each;
-    // See Note [rounded once].
-    const std::string stem = kick_first ? "p_" : "q_";
+    const std::string stem = kick_first ? "p_" : "q_";  // see Note [rounded once]
     const Expression gradient = kick_first ? at.by_q : -at.by_p;
     const Expression flow = b.let(each, stem + "flow", step_size() * gradient);
     const Expression sum = b.let(each, stem + "sum", z - flow);
-    const Expression lost =
-        b.let(each, stem + "lost", Expression::apply(kDifferenceError, {z, flow}));
-    const Expression small = b.let(each, stem + "small", lost + carry);
+    const Expression error = Expression::apply(kDifferenceError, {z, flow});
+    const Expression small = b.let(each, stem + "small", b.let(each, stem + "lost", error) + carry);
     each.push_back({Assign{coordinate(b).name(), sum + small}});
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(

@@ -218,4 +218,13 @@ const std::string& Names::local(const std::string& symbol) {
   return names_.emplace(symbol, unique(text + suffix)).first->second;
 }
 
+void require_distinct_symbols(const Routine& routine) {
+  const std::string both = find_in(routine.body, [&](const Instruction& instruction) {
+    const auto* let = std::get_if<Let>(&instruction.value);
+    return let != nullptr && routine.places.contains(let->symbol) ? let->symbol : std::string();
+  });
+  if (!both.empty())
+    internal_error(fmt::format("{} of {} is a local and a place", both, routine.name));
+}
+
 }  // namespace hamgen

@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "generator/program/code.hpp"
+
 namespace hamgen {
 
 // The user's name, with a trailing underscore if C++ or the emitted code has other plans for it.
@@ -48,5 +50,8 @@ class Names {
   std::set<std::string> taken_;
   int temporaries_ = 0;
 };
+
+// A symbol of a routine is a local or a place: printed, one of both would be taken for the other.
+void require_distinct_symbols(const Routine& routine);
 
 }  // namespace hamgen

@@ -285,8 +285,7 @@ class RoutineWriter : public RunWriter {
         add(Define{"Mask", "tried ", lanes_in_turn()});
         add(Define{"Mask", "found ", called(node.first)});
         set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
-        branch(prefix("!", call("any", {lanes_in_turn()})), Shape::line,
-               [&] { add(Break{}); });
+        branch(prefix("!", call("any", {lanes_in_turn()})), Shape::line, [&] { add(Break{}); });
         write(node.between);
         set(converged, joined("|", {converged, lanes_in_turn()}));
       });

@@ -71,9 +71,7 @@ Precise precise_function(const std::string& name, const std::vector<Precise>& x)
   return to_float(cln::realpart(number.to_cl_N()));
 }
 
-Precise precise(const Rational& value) {
-  return cln::cl_float(to_cln(value), kFormat);
-}
+Precise precise(const Rational& value) { return cln::cl_float(to_cln(value), kFormat); }
 
 double to_double(const Precise& value) { return cln::double_approx(value); }
 
