@@ -125,9 +125,9 @@ inline Real difference_error(Real x, Real y) {
 }  // namespace hamgen_6e14fa35::float64
 
 #ifndef HAMGEN_METHOD_henon_heiles_symplectic_euler_a
-#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x50d55d88
+#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0xf2fd5f31
 namespace henon_heiles::symplectic_euler_a {
-inline namespace emitted_50d55d88 {
+inline namespace emitted_f2fd5f31 {
 
 namespace numerics = ::hamgen_6e14fa35::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::difference_error;
@@ -143,15 +143,15 @@ using numerics::StepReport, numerics::two_sum_with_rest, numerics::difference_er
   const Real q1_bar = q1 + carry.q1;
   const Real q2_bar = q2 + carry.q2;
   const Real H_q1 = q1_bar + 2.0 * q1_bar * q2_bar;
-  const Real minus_flow_p1 = h * H_q1;
-  const Real first_p1 = p1 - minus_flow_p1;
-  const Real lost_p1 = difference_error(p1, minus_flow_p1);
+  const Real flow_p1 = h * H_q1;
+  const Real first_p1 = p1 - flow_p1;
+  const Real lost_p1 = difference_error(p1, flow_p1);
   const Real rest_p1 = carry.p1 + lost_p1;
   const Real p1_bar = first_p1 + rest_p1;
   const Real H_q2 = q2_bar + q1_bar * q1_bar - q2_bar * q2_bar;
-  const Real minus_flow_p2 = h * H_q2;
-  const Real first_p2 = p2 - minus_flow_p2;
-  const Real lost_p2 = difference_error(p2, minus_flow_p2);
+  const Real flow_p2 = h * H_q2;
+  const Real first_p2 = p2 - flow_p2;
+  const Real lost_p2 = difference_error(p2, flow_p2);
   const Real rest_p2 = carry.p2 + lost_p2;
   const Real p2_bar = first_p2 + rest_p2;
   dz.q1 = h * p1_bar;
@@ -240,9 +240,9 @@ class Propagator {
   long long steps_ = 0;
 };
 
-}  // namespace emitted_50d55d88
+}  // namespace emitted_f2fd5f31
 }  // namespace henon_heiles::symplectic_euler_a
-#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x50d55d88
+#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0xf2fd5f31
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

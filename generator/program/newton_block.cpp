@@ -131,6 +131,7 @@ Expression StepBuilder::own_slope(int t) const {
 void StepBuilder::tear_value(NewtonBlock& newton, int t) {
   if (!equations_.depends(t, t)) {
     for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
+    // See Note [momenta before they are rounded].
     const Expression change = change_of_row(t, newton.where);
     if (!keeps_gradients_ && is_alone_in_gradient(t)) torn_change_.emplace(t, change);
     define(stage_value_[index(t)], equations_.mechanics.variable(t) + change, newton.where);

@@ -221,7 +221,7 @@ void StepBuilder::add_assignment(int i) {
   // See Note [rounded once].
   const Expression& z = equations_.mechanics.variable(i);
   const Expression flow =
-      name_value("minus flow(" + name_of(i) + ")",
+      name_value("flow(" + name_of(i) + ")",
                  -(weight(i, gradients[0]) * gradient_[index(gradients[0])]), straight());
   const Expression first = name_value("first(" + name_of(i) + ")", z - flow, straight());
   const Expression lost = name_value("lost(" + name_of(i) + ")",

@@ -111,7 +111,7 @@ TEST(Drift, AnExplicitStageIsRoundedOnce) {
   std::vector<Replacement> edits;
   for (int i = 1; i <= 6; ++i) {
     edits.push_back({fmt::format("first_p_{0} + rest_p_{0}", i),
-                     fmt::format("p_{} + (carry.p[{}] - minus_flow_p_{})", i, i - 1, i)});
+                     fmt::format("p_{} + (carry.p[{}] - flow_p_{})", i, i - 1, i)});
   }
   expect_drift_only_with(edits,
                          {.model = chain(6), .request = {.scheme = "symplectic-euler-a"}, .h = 0.7},

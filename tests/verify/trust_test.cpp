@@ -234,6 +234,7 @@ TEST(Corners, AreFoundInRootsOfSquaresAndNotInOtherRoots) {
   };
   EXPECT_EQ(count("sqrt(q^2) + p^2"), 1U);
   EXPECT_EQ(count("sqrt(q^2 - 2*q + 1) + p^2"), 1U);
+  EXPECT_EQ(count("sqrt(q^2*p^2 + 2*q*p + 1)"), 1U);
   EXPECT_EQ(count("(q^2)^(3/2) + p^2"), 1U);
   EXPECT_EQ(count("sqrt(sin(q)^2) + p^2"), 1U);
   EXPECT_EQ(count("atan2(q, p)"), 1U);
