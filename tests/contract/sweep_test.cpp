@@ -1,9 +1,8 @@
-// Every method on every model: interpreted steps keep Note [contract of a solve] in watch.hpp.  The
-// other scenes of a model than one, and the whole lengths of scenes, are left to `ctest -C full`.
+// Every method on every scene: interpreted steps keep Note [contract of a solve] in watch.hpp.  The
+// whole lengths of the scenes are left to `ctest -C full`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/schemes/all_schemes.hpp"
@@ -53,21 +52,16 @@ bool is_worth_it(const Method& method) {
   return false;
 }
 
-// HAMGEN_EVERY_SCENE asks for every scene by every method; without it the scenes of a model take
-// turns, and each of them meets many methods.
 TEST(EveryMethod, KeepsItOnEveryScene) {
-  const bool every_scene = std::getenv("HAMGEN_EVERY_SCENE") != nullptr;
   long long solves = 0;
   int runs = 0;
-  std::size_t turn = 0;
   for (const std::string& name : uniquely_solved_models()) {
     const SourceText source = model(name);
     const Interpretable interpretable(source);
     const bool large = degrees_of_freedom(interpretable.model()) > 5;
     for (const Method& method : all_methods()) {
       if (large && !is_worth_it(method)) continue;
-      std::vector<Case> cases = scenes_of(interpretable.model(), source, method, 3);
-      if (!every_scene && !cases.empty()) cases = {cases[turn++ % cases.size()]};
+      const std::vector<Case> cases = scenes_of(interpretable.model(), source, method, 3);
       std::vector<Defects> found;
       try {
         found = interpretable.measure(method.request, cases);
@@ -82,8 +76,8 @@ TEST(EveryMethod, KeepsItOnEveryScene) {
       }
     }
   }
-  EXPECT_GT(runs, every_scene ? 1500 : 500);
-  EXPECT_GT(solves, every_scene ? 15'000 : 5'000);
+  EXPECT_GT(runs, 1500);
+  EXPECT_GT(solves, 15'000);
 }
 
 struct Row {
