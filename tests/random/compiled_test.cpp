@@ -130,7 +130,7 @@ void expect_same_bits(int first, int count, const std::optional<Request>& reques
 
 class RandomUnits : public testing::TestWithParam<int> {};
 
-// A hundred models, 25 a unit.
+// A hundred models, 25 a unit; those from the second on by `ctest -C full`.
 TEST_P(RandomUnits, AreCompiledToWhatIsInterpreted) { expect_same_bits(25 * GetParam(), 25); }
 
 INSTANTIATE_TEST_SUITE_P(Of, RandomUnits, testing::Range(0, 4));
