@@ -164,10 +164,13 @@ enum class Known { named_command, all_commands };
 int run_command(const std::vector<std::string>& words, Crew& crew, Known known) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
-  const bool only_named = known == Known::named_command && !words.empty() &&
-                          std::ranges::find(kWriteAboutAll, words[0]) == kWriteAboutAll.end();
+  const std::vector<NamedCommand> all = all_commands(crew);
+  const bool names_one = !words.empty() &&
+                         std::ranges::find(all, words[0], &NamedCommand::name) != all.end() &&
+                         std::ranges::find(kWriteAboutAll, words[0]) == kWriteAboutAll.end();
+  const bool only_named = known == Known::named_command && names_one;
   std::vector<Command> commands;
-  for (const NamedCommand& command : all_commands(crew)) {
+  for (const NamedCommand& command : all) {
     if (!only_named || command.name == words[0]) commands.push_back(command.add(app));
   }
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
