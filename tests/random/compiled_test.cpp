@@ -75,7 +75,8 @@ void add(Unit& unit, int seed, const std::optional<Request>& request) {
     interpreted.reset(run.state, std::vector<double>(run.state.size()));
   }
   unit.expected.push_back(expected);
-  unit.headers += emitted_test::without_pragma(generate_plugin(source, c.request).header.text);
+  unit.headers += emitted_test::without_pragma(
+      generate_plugin(source, c.request, HeaderText::without_proof).header.text);
   unit.calls += fmt::format(
       "  run<{0}::Propagator, {0}::Parameters, {0}::State>({1}, {2:a}, {{{3}}}, {{{4}}});\n",
       c.request.name_space, seed, run.h, list(run.parameters), list(run.state));
