@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <functional>
 #include <new>
+#include <string_view>
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
@@ -119,15 +122,57 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app,
   return text + fmt::format("help: see hamgen {}--help\n", name);
 }
 
-int run_command(const std::vector<std::string>& words, Crew& crew) {
+struct NamedCommand {
+  std::string_view name;
+  std::function<Command(CLI::App&)> add;
+};
+
+// In the order of the help.
+std::vector<NamedCommand> all_commands(Crew& crew) {
+  const auto ensemble = [&crew](CLI::App& app) { return add_ensemble(app, crew); };
+  return {{"new", add_new},
+          {"check", add_check},
+          {"show", add_show},
+          {"generate", add_generate},
+          {"run", add_run},
+          {"bench", add_bench},
+          {"report", add_report},
+          {"stress", add_stress},
+          {"tune", add_tune},
+          {"verify", add_verify},
+          {"certify", add_certify},
+          {"section", add_section},
+          {"chaos", add_chaos},
+          {"plot", add_plot},
+          {"ensemble", ensemble},
+          {"list", add_list},
+          {"cache", add_cache},
+          {"plugin", add_plugin},
+          {"completion", add_completion},
+          {"man", add_man}};
+}
+
+// Those that write about all commands.
+constexpr std::array<std::string_view, 2> kWriteAboutAll = {"completion", "man"};
+
+enum class Known { named_command, all_commands };
+
+// Note [the command that is named]
+// To know the options of all commands takes a fifth of a short run, and where the command line is
+// right none but those of the command that it names are looked at.  What is said of a wrong one,
+// and help, need all.
+int run_command(const std::vector<std::string>& words, Crew& crew, Known known) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
-  const std::vector<Command> commands = {
-      add_new(app),   add_check(app),  add_show(app),           add_generate(app),
-      add_run(app),   add_bench(app),  add_report(app),         add_stress(app),
-      add_tune(app),  add_verify(app), add_certify(app),        add_section(app),
-      add_chaos(app), add_plot(app),   add_ensemble(app, crew), add_list(app),
-      add_cache(app), add_plugin(app), add_completion(app),     add_man(app)};
+  const std::vector<NamedCommand> all = all_commands(crew);
+  const bool names_one = !words.empty() &&
+                         std::ranges::find(all, words[0], &NamedCommand::name) != all.end() &&
+                         std::ranges::find(kWriteAboutAll, words[0]) == kWriteAboutAll.end();
+  const bool only_named = known == Known::named_command && names_one;
+  std::vector<Command> commands;
+  for (const NamedCommand& command : all) {
+    if (!only_named || command.name == words[0]) commands.push_back(command.add(app));
+  }
   app.set_version_flag("--version", "hamgen " HAMGEN_VERSION, "the version");
   app.require_subcommand(1);
   app.footer(
@@ -139,13 +184,15 @@ int run_command(const std::vector<std::string>& words, Crew& crew) {
     const std::vector<std::string> asked = as_options(words, app);
     app.parse(
         std::vector<std::string>(asked.rbegin(), asked.rend()));  // it takes them from the end
-  } catch (const CLI::CallForHelp&) {
-    print(app.help());
-    return done;
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");
     return done;
   } catch (const CLI::ParseError& error) {
+    if (only_named) return run_command(words, crew, Known::all_commands);
+    if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
+      print(app.help());
+      return done;
+    }
     print_error(explain(error, app, words));
     return usage_error;
   }
@@ -176,7 +223,7 @@ int usage_failure(const char* what) {
 int dispatch(const std::vector<std::string>& words, Crew& crew) {
   report_full_files();
   try {
-    return run_command(words, crew);
+    return run_command(words, crew, Known::named_command);
   } catch (const ModelError& error) {
     if (are_of_options(error)) return usage_failure(error.what());
     print_error(error.what());

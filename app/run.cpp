@@ -102,7 +102,7 @@ std::string keep_header(const PluginSource& plugin, const SourceText& source, Re
   OutputFile header = plugin.header;
   if (request.scene && !request.scene->values.watched.empty()) {
     request.scene->values.watched.clear();
-    header = generate_plugin(source, request, HeaderProof::included).header;
+    header = generate_plugin(source, request, HeaderText::with_proof).header;
   }
   const std::filesystem::path path = std::filesystem::path(options.header) / header.path;
   runtime::atomic_write(path, header.text);
@@ -226,7 +226,7 @@ int run(const RunOptions& options) {
   report.scene = &scene;
   const Clock::time_point begin = Clock::now();
   const PluginSource plugin = generate_plugin(
-      source, request, options.header.empty() ? HeaderProof::left_out : HeaderProof::included);
+      source, request, options.header.empty() ? HeaderText::none : HeaderText::with_proof);
   report.plugin = &plugin;
   report.generate_seconds = seconds_since(begin);
 

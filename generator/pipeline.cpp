@@ -277,11 +277,11 @@ Program make_program(const SourceText& source, const Request& request) {
   return run_stages(source, request).program;
 }
 
-PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderProof proof) {
+PluginSource generate_plugin(const SourceText& source, const Request& request, HeaderText header) {
   if (request.events) {  // found by who runs it
     Request plain = request;
     plain.events = false;
-    return generate_plugin(source, plain, proof);
+    return generate_plugin(source, plain, header);
   }
   Stages stages = run_stages(source, request);
   EmitOptions options = emit_options(source, stages, request);
@@ -290,11 +290,12 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   EmitOptions anonymous = options;
   anonymous.command.clear();
   plugin.text = plugin_text(stages, anonymous, request);
-  if (proof == HeaderProof::included) {
+  if (header == HeaderText::with_proof) {
     const OutputFiles files = {{options.file_name + ".hpp", header_text(stages, options, request)}};
     add_proof(source, stages, request, files, options);
   }
-  plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
+  if (header != HeaderText::none)
+    plugin.header = {options.file_name + ".hpp", header_text(stages, options, request)};
   plugin.scheme_name = stages.equations.scheme.name;
   if (plugin.scheme_name.starts_with("member")) {
     plugin.scheme_name = stages.equations.scheme.description;

@@ -89,12 +89,12 @@ struct EmittedHeader {
 // What a run needs to know of an emitted plugin, without reading its text.
 struct PluginSource {
   Model model;
-  std::string text;                          // one translation unit, self-contained
-  OutputFile header;                         // the same mathematics as a header for the user
-  std::string scheme_name;                   // "implicit-midpoint", "alpha = 3/10, ..."
-  int order = 1;                             // of the method
-  std::string solver;                        // "Newton of size 1, ..." one line
-  std::vector<std::string> left_out;         // what the planner left out and why
+  std::string text;                   // one translation unit, self-contained
+  OutputFile header;                  // the same mathematics as a header for the user, if asked for
+  std::string scheme_name;            // "implicit-midpoint", "alpha = 3/10, ..."
+  int order = 1;                      // of the method
+  std::string solver;                 // "Newton of size 1, ..." one line
+  std::vector<std::string> left_out;  // what the planner left out and why
   std::size_t left_out_for_scene = 0;        // the first so many of them: the scene needs less
   std::vector<std::string> parameter_names;  // run-time parameters in interface order
   std::vector<std::string> invariant_names;
@@ -111,10 +111,10 @@ struct PluginSource {
   double operations_per_step = 0;  // about: additions and multiplications, others for some of these
   bool has_stages = false;         // is the method an implicit one of Runge and Kutta?
 };
-// The header as generate() emits it, with what is proved in its first lines, or without: a proof
-// can take longer than all else.
-enum class HeaderProof { left_out, included };
+// The header as generate() emits it, with what is proved in its first lines, or without, or none: a
+// proof can take longer than all else, and the header as long as the plugin.
+enum class HeaderText { none, without_proof, with_proof };
 [[nodiscard]] PluginSource generate_plugin(const SourceText& source, const Request& request,
-                                           HeaderProof proof = HeaderProof::left_out);
+                                           HeaderText header = HeaderText::none);
 
 }  // namespace hamgen

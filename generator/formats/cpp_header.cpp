@@ -209,7 +209,8 @@ std::string cpp_plugin(const Program& program, const EmitOptions& options) {
   const std::unique_ptr<Dialect> dialect = dialect_of(program, with_builtins);
   EmitContext context(program, with_builtins, *dialect);
   CodeWriter out;
-  out.lines(file_text(context, std::string(plugin_header()) + "#include <new>"));
+  out.lines(
+      file_text(context, std::string(plugin_header()) + cpp_numerics("shells/plugin_memory")));
   write_interface(out, context);
   return out.text();
 }

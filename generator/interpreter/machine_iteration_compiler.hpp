@@ -72,7 +72,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int start = index_of("start");
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
-    return [this, unknowns, ranges, residual, start, flag, body, rule = iterate.rule,
+    const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
+    return [this, unknowns, ranges, residual, start, flag, are_whole, body, rule = iterate.rule,
             name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
@@ -88,7 +89,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
               each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
             });
       }
-      const auto move = [&] { return this->move_each(each); };
+      const auto move = [&] { return this->move_each(each, are_whole, unknowns.size()); };
       if (rule == Rule::simplified_newton) {
         AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
         int& factorised = memory.flags.at(flag);

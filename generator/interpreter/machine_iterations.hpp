@@ -61,16 +61,33 @@ class MachineIterations : public MachineAddresses<Real> {
     return {answer, rule.size()};
   }
 
-  // One by one, of arrays in loops.
+  // Of arrays in loops: whole ones are summed as Distance does it, in parts, others one by one.
   template <class Each>
-  Distance move_each(const Each& each) const {
+  Distance move_each(const Each& each, bool are_whole, std::size_t arrays) const {
+    struct Seen {
+      std::vector<Real> moved, value, beside;
+    };
+    std::vector<Seen> seen(arrays);
+    std::size_t next = 0;
     Distance distance;
     each([&](const Array2& u) {
       Real& value = m_.frame.at(u.value);
       const Real increment = m_.frame.at(u.increment);
-      distance.add(magnitude(increment), magnitude(value) + magnitude(u.beside(m_.frame)));
+      const Real beside = u.beside(m_.frame);
+      if (are_whole) {
+        Seen& array = seen[next++ % arrays];
+        array.moved.push_back(increment);
+        array.value.push_back(value);
+        array.beside.push_back(beside);
+      } else {
+        distance.add(magnitude(increment), magnitude(value) + magnitude(beside));
+      }
       value += increment;
     });
+    for (const Seen& array : seen) {
+      distance.add(array.moved.data(), array.value.data(), array.beside.data(),
+                   static_cast<int>(array.moved.size()));
+    }
     return distance;
   }
   template <class Each>

@@ -47,6 +47,10 @@ struct NewtonRule : Iteration {
     taken = select(open, Real(iterations), taken);
     end_with(open & !(size <= largest), size);
     Mask done = size <= round_off;
+    if (Power == 1) {
+      const Mask leaves = contraction * size * 8192 > round_off;
+      done = done & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
+    }
     if (iterations > 1) {
       done = done | learn(size, round_off);
       done = done | is_next_lost(size, round_off);

@@ -171,10 +171,11 @@ ElementName split_element(const std::string& name) {
 
 std::string Names::unique(const std::string& wanted) {
   const std::string base = is_macro(wanted) ? beside(wanted) : wanted;
+  std::string stem = base.ends_with('_') ? base : base + "_";
+  if (is_numbered(stem + "2")) stem += "value_";  // else each of them is reserved
   std::string text = base;
-  for (int i = 2; taken_.contains(text) || is_reserved(text); ++i) {
-    text = fmt::format("{}{}{}", base, base.ends_with('_') ? "" : "_", i);
-  }
+  for (int i = 2; taken_.contains(text) || is_reserved(text); ++i)
+    text = fmt::format("{}{}", stem, i);
   taken_.insert(text);
   return text;
 }

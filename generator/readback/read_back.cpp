@@ -62,7 +62,7 @@ class FileReader {
     const bool plugin = found_.kind == TextKind::plugin;
     if (plugin) {
       expect(std::string(plugin_header()), "plugin.h");
-      expect_directive(cursor_, "#include <new>");
+      expect(std::string(tested_text("shells/plugin_memory")), "numerics/shells/plugin_memory.hpp");
     } else {
       expect_directive(cursor_, "#pragma once");
     }

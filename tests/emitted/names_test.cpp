@@ -98,6 +98,16 @@ TEST(HostileNames, GiveCodeThatCompilesForSweepsAndForAFixedPoint) {
   EXPECT_EQ(messages("g++", written_out({.solver = "fixed-point"})), "");
 }
 
+// rule_2, vector_2 and so on are all taken for what the emitted functions number themselves.
+TEST(HostileNames, NextToNumberedOnesAreFound) {
+  const std::string text = header(
+      "system numbered\ncoordinate rule, vector, matrix_\nmomentum product, vector_, matrix\n"
+      "H = (product^2 + vector_^2 + matrix^2)/2 + rule^4/4 + cos(vector - rule) + matrix_^2\n",
+      {}, "numbered");
+  ASSERT_NE(text, "");
+  EXPECT_EQ(messages("g++", text), "");
+}
+
 TEST(HostileNames, GiveCodeThatCompilesInC) {
   for (const char* alpha : {"", "0"}) {
     const std::string text = written_out({.alpha = alpha, .format = "c-header"});

@@ -146,7 +146,9 @@ EmittedStep emitted_step(const CountedStep& step) {
   request.name_space = name_space(step.name) + "::method";
   const Model model = read_request(source, request);
   const SceneValues scene = scene_values(model, {.scene = step.scene});
-  EmittedStep emitted{.name = step.name, .header = generate_plugin(source, request).header.text};
+  EmittedStep emitted{
+      .name = step.name,
+      .header = generate_plugin(source, request, HeaderText::without_proof).header.text};
   const std::string pragma = "#pragma once\n";
   emitted.header.erase(emitted.header.find(pragma), pragma.size());
   for (const auto* part : {&scene.q, &scene.p}) {

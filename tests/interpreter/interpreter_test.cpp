@@ -96,6 +96,33 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"fput", {.solver = "sweeps:3"}}, Case{"outer_solar_system", {}},
                     Case{"morse", {.order = 4}}));
 
+// Whole arrays are measured in parts, whose sums round otherwise than one long sum; a fixed point
+// that contracts slowly then ends in another iteration.
+TEST(FixedPoint, MeasuresArraysAsTheCompiledOneDoes) {
+  const SourceText source =
+      make_source("chain.ham",
+                  "size N = 30\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+                  "H = sum(i = 1..N, p[i]^2/3.4) + sum(i = 0..N, 0.3*(q[i+1] - q[i])^2/2)\n");
+  const Request request{.solver = "fixed-point"};
+  std::vector<double> state(60);
+  state[0] = 1;
+  state[31] = 0.2;
+  Interpreter<double> interpreted(make_program(source, request), {}, 0.7, state);
+  runtime::InitialValues initial{.h = {0.7, 0}};
+  for (const double value : state) initial.state.push_back({value, 0});
+  runtime::Integrator compiled(
+      runtime::load_plugin({.text = generate_plugin(source, request).text},
+                           runtime::find_compiler(), {}, runtime::open_cache())
+          .library,
+      initial);
+  for (int step = 1; step <= 100; ++step) {
+    const runtime::Report report = compiled.advance(1, false);
+    ASSERT_EQ(report.status, runtime::Status::done);
+    ASSERT_EQ(interpreted.step().iterations, report.iterations) << "in step " << step;
+    ASSERT_EQ(interpreted.state(), compiled.rounded_state()) << "after step " << step;
+  }
+}
+
 // Of a scene with steps of h: has a step taken Newton's iteration?
 bool comes_to_newton(const char* name, const Request& request, double h) {
   const SourceText source = shipped(name);

@@ -106,24 +106,30 @@ lanes::Turn turn_of_all() {
   return turn;
 }
 
-TEST(LaneRules, NewtonsIterationEndsInEachLaneAsAlone) {
+template <int Power>
+void expect_newton_ends_as_alone() {
   for (const bool predicted : {false, true}) {
     for (const int batch : {0, 1}) {
-      lanes::NewtonRule<2> rule;
+      lanes::NewtonRule<Power> rule;
       rule.begin(predicted, turn_of_all());
       ask_together(batch, [&](const lanes::Real& size, int iteration) {
         return rule(size, lanes::Real(1), iteration);
       });
       for (int lane = 0; lane < kCount; ++lane) {
-        of_double::NewtonRule<2> alone;
+        of_double::NewtonRule<Power> alone;
         alone.begin(predicted);
         const Increments& increments = increments_of(batch, lane);
         const End end = end_alone(
             increments, [&](double size, int iteration) { return alone(size, 1, iteration); });
-        EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted;
+        EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted << Power;
       }
     }
   }
+}
+
+TEST(LaneRules, NewtonsIterationEndsInEachLaneAsAlone) {
+  expect_newton_ends_as_alone<1>();
+  expect_newton_ends_as_alone<2>();
 }
 
 // Of rules that begin alike and are asked alike.

@@ -68,6 +68,21 @@ TYPED_TEST(NewtonRule, ASlowLinearContractionIsNotTakenForAQuadraticOne) {
   EXPECT_TRUE(size <= TypeParam::unit);
 }
 
+// What an approximate matrix leaves of an increment below rounding is no chance: where it is more
+// than 2^-13 roundings another increment follows, which is the last.
+TYPED_TEST(NewtonRule, AnApproximateMatrixWantsAnIncrementOfRoundingAlone) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real below = TypeParam::unit / 2;
+  auto coarse = this->template taught<1>(TypeParam::two_to(-5));
+  EXPECT_EQ(this->step(coarse, below), Verdict::go_on);
+  EXPECT_EQ(coarse(below, Real(1), 2), Verdict::done);
+  auto fine = this->template taught<1>(TypeParam::two_to(-13));
+  EXPECT_EQ(this->step(fine, below), Verdict::done);
+  auto exact = this->template taught<2>(TypeParam::two_to(-5));
+  EXPECT_EQ(this->step(exact, below), Verdict::done);
+}
+
 TYPED_TEST(NewtonRule, OneIncrementIsEnoughWhereTheMotionIsStraight) {
   using Verdict = typename TypeParam::Answer;
   auto rule = this->template taught<2>(1);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <new>
 #include <vector>
 
+#include "generator/numerics/shells/plugin_memory.hpp"
 #include "runtime/plugin.h"
 
 namespace hamgen::numerics_blocks_test::small_system {

@@ -90,7 +90,8 @@ Differences measure(const RandomCase& c, const std::string& judge) {
   return found;
 }
 
-// Two thousand models, in parts that can run side by side.
+// Two thousand models, in parts that can run side by side: two by the tests, all by `ctest -C
+// full`.
 class RandomModelsOf : public testing::TestWithParam<int> {};
 constexpr int kParts = 8;
 constexpr int kModels = 2000 / kParts;

@@ -51,7 +51,7 @@ inline Emitted emitted(const std::string& model, const Request& request) {
   const bool alone = request.format != "c-header" && !request.events && request.batch == 0;
   std::string text;
   if (alone) {
-    const PluginSource plugin = generate_plugin(source, request);
+    const PluginSource plugin = generate_plugin(source, request, HeaderText::without_proof);
     text = request.format == "cpp-plugin" ? plugin.text : plugin.header.text;
   } else {
     text = generate(source, request).at(0).text;

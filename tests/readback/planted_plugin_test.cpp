@@ -95,7 +95,7 @@ TEST(PlantedFaultInAPlugin, OfTheStepIsFoundAtItsLine) {
        "__builtin_sin(q)"},
       {"update subtracted", kNonseparable, plugin(), "q_bar += delta_q;", "q_bar -= delta_q;"},
       {"another interface", "pendulum", plugin(), "HAMGEN_NOT_FINITE = 2", "HAMGEN_NOT_FINITE = 1"},
-      {"another include", "pendulum", plugin(), "#include <new>", "#include <old>"},
+      {"another place", "pendulum", plugin(), "return place.memory", "return nullptr"},
   };
   for (const Fault& fault : faults) expect_found(fault);
 }

@@ -47,7 +47,10 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
   } else {
     ++rule->unchecked;
   }
-  if (size <= round_off) return done;
+  // What an approximate matrix leaves is no chance where it is more than 2^-13 roundings.
+  const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
+                      rule->contraction * size * 8192 <= round_off;
+  if (size <= round_off && chance) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);

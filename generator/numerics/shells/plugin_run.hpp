@@ -45,7 +45,7 @@ hamgen_run* create(const double* parameters, const double* parameters_lo, double
                    const double* state, const double* state_lo) {
   void* const memory = __builtin_malloc(sizeof(hamgen_run));
   if (!memory) return nullptr;
-  return new (memory) hamgen_run{
+  return new (hamgen_place{memory}) hamgen_run{
       Propagator(read_parameters(parameters, parameters_lo),
                  static_cast<Real>(h) + static_cast<Real>(h_lo), read_state(state, state_lo)),
       0};
@@ -159,7 +159,7 @@ void go_on_with(hamgen_run* run, const Parameters& par, Real h) {
   run->start_time = time_of(run);
   const State z = run->propagator.state();
   run->propagator.~Propagator();
-  new (&run->propagator) Propagator(par, h, z);
+  new (hamgen_place{&run->propagator}) Propagator(par, h, z);
 }
 
 void set_h(hamgen_run* run, double h, double h_lo) {
