@@ -57,10 +57,9 @@ std::optional<LocalVelocity> velocity_in_loops(const LoweredStep& lowered) {
 // Note [the way back]
 // A symmetric step is the way back only if a substep looks at one number, coming and going: at a
 // function of z + carry + dz, and not of how it was added.  A sum rounded twice is none: with it
-// the form of the chain of 25 drifts by 2e-4 units of rounding a step by Stormer-Verlet, h = 0.7.
-// So in loops a step of three substeps looks at all three rounded once.  Half a substep, which
-// comes first, is taken to be smaller than z; the whole one may be larger.  Written out it would
-// cost 20 to 40 percent of the time of a step, and is not done.
+// the form of the chain of 25 drifted by 2e-4 units of rounding a step by Stormer-Verlet, h = 0.7.
+// So a step of three substeps looks at all three, rounded once.  It is the way back to the last
+// place of the carry then.
 class SplittingRoutine {
  public:
   SplittingRoutine(const Environment& environment, const LoweredStep& lowered)
@@ -70,7 +69,7 @@ class SplittingRoutine {
         pairs_(static_cast<int>(lowered.sequence.substeps.size() / 2)),
         arrays_(lowered.plan.arrays.has_value()),
         symmetric_(lowered.plan.equations.scheme.symmetric || lowered.plain_sums),
-        canonical_(arrays_ && pairs_ == 1 && !lowered.plain_sums),
+        reversible_(pairs_ == 1 && !lowered.plain_sums),
         closed_(is_closed(lowered.sequence)) {
     const std::vector<Substep>& substeps = lowered.sequence.substeps;
     for (std::size_t i = 1; i < substeps.size(); ++i) {
@@ -135,8 +134,10 @@ class SplittingRoutine {
   void add_places(Body& body) {
     if (!begins_in_loops()) {
       body.push_back({Copy{"State", "now", "z", true}});
-      body.push_back({Copy{"State", "dz", "carry"}});
-      body.push_back({Copy{"State", "rest", ""}});
+      if (!reversible_) {  // else each component begins where it is changed
+        body.push_back({Copy{"State", "dz", "carry"}});
+        body.push_back({Copy{"State", "rest", ""}});
+      }
     } else if (closed_) {
       body.push_back({Array{"q", {n_}}});
     }
@@ -251,7 +252,7 @@ class SplittingRoutine {
       const Expression carry = component("carry", kind.kick, i);
       const Expression z = component("z", kind.kick, i);
       const Origin origin{.terms = velocity_ && !kind.kick ? velocity_->terms : std::set<int>()};
-      if (kind.once || (begins && canonical_)) {
+      if (kind.once || (begins && reversible_)) {
         body.push_back({Assign{dz.name(), change}, {}, origin});
         body.push_back({Assign{rest.name(), carry}});
       } else {
@@ -266,27 +267,12 @@ class SplittingRoutine {
       const std::string looked_at =
           to_local ? velocity_->momentum : component("now", kind.kick, i).name();
       const Expression anew = kind.once ? z + (dz + carry) : z + dz;
-      if ((kind.once || symmetric_) && !canonical_) {
+      if ((kind.once || symmetric_) && !reversible_) {
         body.push_back(to_local ? Instruction{Let{looked_at, anew}}
                                 : Instruction{Assign{looked_at, anew}});
         continue;
       }
-      const auto named = [&](const std::string& what) {
-        return Expression::symbol(what + "(" + z.name() + ")", kRankOfTemporary);
-      };
-      const Expression lost = named("lost");
-      if (canonical_ && !kind.once) {  // half a substep, and so the smaller one
-        const Expression sum = named("sum");
-        const Expression moved = named("moved");
-        const Expression small = named("small");
-        body.push_back({Let{sum.name(), z + dz}});
-        body.push_back({Let{moved.name(), sum - z}});
-        body.push_back({Let{lost.name(), dz - moved}});
-        body.push_back({Let{small.name(), lost + carry}});
-        body.push_back(to_local ? Instruction{Let{looked_at, sum + small}}
-                                : Instruction{Assign{looked_at, sum + small}});
-        continue;
-      }
+      const Expression lost = Expression::symbol("lost(" + z.name() + ")", kRankOfTemporary);
       body.push_back({Let{lost.name(), rest, true}});
       body.push_back(to_local ? Instruction{Let{looked_at, z, true}}
                               : Instruction{Assign{looked_at, z}});
@@ -321,7 +307,7 @@ class SplittingRoutine {
   const LoweredStep& lowered_;
   int n_, pairs_;
   bool arrays_, symmetric_;
-  bool canonical_;  // see Note [the way back]
+  bool reversible_;  // see Note [the way back]
   bool closed_;
   bool keeps_ = false;       // the gradient that the step ends with, for the next
   HalfStep first_, second_;  // that comes first, and the other
