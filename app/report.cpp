@@ -180,19 +180,21 @@ int report(const ReportOptions& options) {
   const std::filesystem::path directory =
       options.output.empty() ? model.name + "-report" : options.output;
   make_directories_above({directory.string()}, options.quiet);
-  const ReportContent content{.plugin = &method.plugin,
-                              .mechanics = &mechanics,
-                              .scene = &scene,
-                              .bench = &bench,
-                              .row = subject.row,
-                              .proof = verify_step(source, request),
-                              .linear = linear_points(source, request, scene),
-                              .modified = modified_energy_of(source, request, scene),
-                              .orbit = drawn.orbit,
-                              .pictures = draw_all(drawn.figures, directory),
-                              .file = shown.path,
-                              .command = request.command,
-                              .path = options.method.model};
+  const ReportContent content{
+      .plugin = &method.plugin,
+      .mechanics = &mechanics,
+      .scene = &scene,
+      .bench = &bench,
+      .row = subject.row,
+      .proof = verify_step(source, request),
+      .linear = linear_points(source, request, scene),
+      .modified = modified_energy_of(source, request, scene),
+      .orbit = drawn.orbit,
+      .pictures = draw_all(drawn.figures, directory),
+      .header = generate_plugin(shown, request, HeaderText::without_proof).header.text,
+      .file = shown.path,
+      .command = request.command,
+      .path = options.method.model};
   if (interrupt_flag()) return stopped();
   const std::filesystem::path page = directory / "report.html";
   runtime::atomic_write(page, report_page(content));

@@ -132,7 +132,6 @@ std::string capitalised(std::string text) {
 }
 
 std::string code_section(const ReportContent& content) {
-  const std::string& header = content.plugin->header.text;
   std::string left_out;
   for (const std::string& item : content.plugin->left_out)
     left_out += "<li>" + html_text(greek_text(item)) + "</li>\n";
@@ -141,8 +140,8 @@ std::string code_section(const ReportContent& content) {
                      html_text(capitalised(content.plugin->solver)),
                      command_markup(content.command)) +
          left_out +
-         folded("Its first lines", "<pre>" + html_text(head_comment(header)) + "</pre>\n") +
-         folded("The whole header", "<pre>" + html_text(header) + "</pre>\n");
+         folded("Its first lines", "<pre>" + html_text(head_comment(content.header)) + "</pre>\n") +
+         folded("The whole header", "<pre>" + html_text(content.header) + "</pre>\n");
 }
 
 // What the times depend on, in one place.

@@ -31,6 +31,7 @@ struct ReportContent {
   std::optional<ModifiedEnergy> modified;
   OrbitSummary orbit;
   std::vector<ReportPicture> pictures;
+  std::string header;   // of the page's step
   std::string file;     // of the model, without its folder
   std::string command;  // that emits the header
   std::string path;     // of the model, as typed

@@ -21,8 +21,8 @@
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
 // contraction times itself: a hundredth of a rounding error, but the same way at every step.  Along
-// Kepler's orbit (e = 0.6, order 4, h = 0.1) the angular momentum drifted by 1.6e-4 roundings a
-// step. Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
+// Kepler's orbit (e = 0.6, order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a
+// step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
 //
 // Note [a prediction is followed while increments halve]
