@@ -266,10 +266,9 @@ class SplittingRoutine {
       const bool to_local = look == Look::velocity;
       const std::string looked_at =
           to_local ? velocity_->momentum : component("now", kind.kick, i).name();
-      const Expression anew = kind.once ? z + (dz + carry) : z + dz;
-      if ((kind.once || symmetric_) && !reversible_) {
-        body.push_back(to_local ? Instruction{Let{looked_at, anew}}
-                                : Instruction{Assign{looked_at, anew}});
+      if (symmetric_ && !reversible_) {
+        body.push_back(to_local ? Instruction{Let{looked_at, z + dz}}
+                                : Instruction{Assign{looked_at, z + dz}});
         continue;
       }
       const Expression lost = Expression::symbol("lost(" + z.name() + ")", kRankOfTemporary);
