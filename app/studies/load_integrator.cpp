@@ -82,6 +82,9 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
   }
   compiler.command.emplace_back("-mno-fma");
   if (!plugin.has_stages) compiler.command.emplace_back("-mno-avx512vl");
+  // With registers of 512 bits Eigen 3.4 has its products made by that instruction, and is no text
+  // without it.
+  if (plugin.needs_eigen) compiler.command.emplace_back("-mno-avx512f");
 #endif
   return compiler;
 }

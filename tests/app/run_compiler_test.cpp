@@ -105,6 +105,31 @@ TEST(Run, RoundsEveryProductWhateverTheProcessor) {
   EXPECT_EQ(states("--portable"), states("--compiler=g++"));
 }
 
+#if defined(__x86_64__)
+// Eigen is no text where the compiler has registers of 512 bits and no fused products.  A plugin
+// with Eigen has neither, and runs where the one is missing, too.
+TEST(Run, CompilesMatricesForProcessorsWithLongRegisters) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "bodies.ham",
+      "system bodies\nsize N = 13\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, j = 1..i-1, sqrt(1 + (q[i] - q[j])^2))\n"
+      "scene ring {\n  q[i] = sin(i)\n  h = 0.1\n  steps = 10\n}\n");
+  for (const char* scheme : {"implicit-midpoint", "gauss-6"}) {
+    const auto states = [&](const std::string& option) {
+      const Result result = hamgen({"run", model, "--scheme", scheme, "--solver", "newton",
+                                    "--quiet", "-o", "-", "--every", "1", option});
+      EXPECT_EQ(result.status, 0) << result.err;
+      return result.out.substr(std::min(result.out.size(), result.out.find("\nstep,")));
+    };
+    const std::string portable = states("--portable");
+    EXPECT_GT(portable.size(), 1000u);
+    EXPECT_EQ(portable, states("--flags=-march=skylake-avx512"));
+  }
+}
+#endif
+
 TEST(Run, FindsACompilerOutThatChangesTheArithmeticByItself) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
