@@ -73,7 +73,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    return [this, unknowns, ranges, residual, start, flag, are_whole, body, rule = iterate.rule,
+    const bool measures_residual = !iterate.residual.empty();
+    return [this, unknowns, ranges, residual, measures_residual, start, flag, are_whole, body, rule = iterate.rule,
             name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
@@ -84,7 +85,12 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       if (rule == Rule::newton) {
         const bool known = memory.flags.at("known") != 0;
         return run_newton(
-            *memory.rules.at(name), known, body, [&] { return this->lengths_of_each(each); },
+            *memory.rules.at(name), known, body,
+            [&] {
+              auto lengths = this->lengths_of_each(each);
+              if (measures_residual) lengths.residual = m_.frame.at(residual);
+              return lengths;
+            },
             [&] {
               each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
             });

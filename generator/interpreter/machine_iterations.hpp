@@ -28,6 +28,7 @@ class MachineIterations : public MachineAddresses<Real> {
   struct Lengths {
     Real size = 0;
     Real scale = 0;
+    Real residual = 0;
   };
 
   // The rule hears of the corrections before they are made; the last ones are not made here.
@@ -38,7 +39,8 @@ class MachineIterations : public MachineAddresses<Real> {
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
       const Lengths lengths = measure();
-      const Answer answer = rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration));
+      const Answer answer = 
+          rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration), lengths.residual);
       if (answer != Answer::go_on) return ends(answer, lengths.size);
       correct();
     }

@@ -73,8 +73,8 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count) : Real(0);
     used_ = false;
   }
-  Answer operator()(Real size, Real scale, int iteration) override {
-    return answer(rule_(size, scale, iteration));
+  Answer operator()(Real size, Real scale, int iteration, Real residual) override {
+    return answer(rule_(size, scale, iteration, residual));
   }
 
  private:

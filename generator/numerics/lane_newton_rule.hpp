@@ -35,11 +35,12 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.  Gives the lanes
-  // that move.
-  Mask operator()(const Real& size, const Real& scale, int iterations) {
+  // size, scale, residual: as for the rule of one trajectory.  Gives the lanes that move.
+  Mask operator()(const Real& size, const Real& scale, int iterations,
+                  const Real& residual = Real(0)) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && !checks && all((!open) | is_lost(size, round_off))) {
+    const Real reach = select(residual > size, residual, size);
+    if (iterations == 1 && !checks && all((!open) | is_lost(reach, round_off))) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -53,9 +54,9 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | is_next_lost(size, round_off);
+      done = done | is_next_lost(reach, round_off);
     } else if (!checks) {
-      done = done | is_lost(size, round_off);
+      done = done | is_lost(reach, round_off);
     }
     open = open & !done;
     if (iterations > 1) {

@@ -25,6 +25,12 @@
 // step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
 //
+// Note [what is not divided by the matrix]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order is missing in the gradient, not in the solution: it is larger by the matrix, and the
+// rounding that may hide it is smaller by as much.  With the residual, matrix times increment, in
+// the place of the increment both are asked for: next * matrix^2.
+//
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
@@ -56,10 +62,12 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.
-  Verdict operator()(Real size, Real scale, int iterations) {
+  // size, scale: sums over the unknowns, of their increments and of their values; residual: of what
+  // the equations lacked before the increments, where that counts.
+  Verdict operator()(Real size, Real scale, int iterations, Real residual = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
+    const Real reach = residual > size ? residual : size;
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -77,8 +85,8 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
-    const bool looked = previous > 0 || is_straight(size, round_off);
-    if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
+    const bool looked = previous > 0 || is_straight(reach, round_off);
+    if (looked && unchecked < 32 && contraction * power(reach) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =

@@ -204,11 +204,14 @@ class IterationWriter : public StatementWriter {
         }
       };
       over(iterate.ranges, measure, Shape::braces);
+      std::vector<Value> judged = judged_by_size();
+      if (!iterate.residual.empty()) judged.push_back(symbol(iterate.residual));
+      Value verdict = action("NewtonRule", rule, "", std::move(judged));
       if (form_.lanes) {
-        look_at_moving(action("NewtonRule", rule, "", judged_by_size()));
+        look_at_moving(std::move(verdict));
         return move(iterate, at({"moving "}));
       }
-      add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
+      add(Define{"Verdict", "verdict ", std::move(verdict)});
       end_newton();
       move(iterate);
     });
