@@ -427,6 +427,7 @@ class LoopMember : LoopStage {
     if (is_p) return -(step_size() * change(0));
     if (!arrays_.reduced) return step_size() * change(n_);
     if (!weights_.p_by_q) return Expression(0);
+    weights_.bind(b.routine());
     const Expression mass =
         arrays_.mass && arrays_.mass->is_number() ? *arrays_.mass : this->mass(b);
     return -(step_size() * mass * own_share(b) * *weights_.p_by_q * change(0));
