@@ -34,6 +34,9 @@ class LoopMember : LoopStage {
     add_start_record();
     if (arrays_.reduced) code_.routines.push_back(evaluate());
     if (arrays_.matrix) code_.routines.push_back(differentiate());
+    if (is_sharp()) {
+      code_.routines.push_back(curvature_routine(environment_, plan_.equations, curved_part()));
+    }
     if (both()) {
       code_.routines.push_back(contract_routine());
       code_.routines.push_back(newton_routine());
@@ -41,8 +44,6 @@ class LoopMember : LoopStage {
     if (is_linear()) {
       code_.routines.push_back(gradient_error());
       code_.routines.push_back(curvature_routine(environment_, plan_.equations));
-    } else if (is_sharp()) {
-      code_.routines.push_back(curvature_routine(environment_, plan_.equations, curved_part()));
     }
     code_.routines.push_back(solve());
     if (solved) code_.unknowns = unknowns();
