@@ -74,8 +74,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
     const bool measures_residual = !iterate.residual.empty();
-    return [this, unknowns, ranges, residual, measures_residual, start, flag, are_whole, body, rule = iterate.rule,
-            name = iterate.name, work = iterate.work] {
+    return [this, unknowns, ranges, residual, measures_residual, start, flag, are_whole, body,
+            rule = iterate.rule, name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -84,10 +84,11 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       };
       if (rule == Rule::newton) {
         const bool known = memory.flags.at("known") != 0;
+        AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
-            *memory.rules.at(name), known, body,
+            newton, known, body,
             [&] {
-              auto lengths = this->lengths_of_each(each);
+              auto lengths = this->lengths_of_each(each, measures_residual ? &newton : nullptr);
               if (measures_residual) lengths.residual = m_.frame.at(residual);
               return lengths;
             },

@@ -35,12 +35,18 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // size, scale, residual: as for the rule of one trajectory.  Gives the lanes that move.
+  // What an increment is of what its unknown is rounded with.
+  static Real share(const Real& moved, const Real& length) {
+    return select(moved > 0, moved / length, Real(0));
+  }
+  // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations,
-                  const Real& residual = Real(0)) {
+                  const Real& residual = Real(0), const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
     const Real reach = select(residual > size, residual, size);
-    if (iterations == 1 && !checks && all((!open) | is_lost(reach, round_off))) {
+    const Real shares = select(uneven > 0, reach * (reach / size) * uneven, Real(0));
+    const Mask serves = is_even(shares, iterations > 1);
+    if (iterations == 1 && !checks && all((!open) | (serves & is_lost(reach, round_off)))) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -54,9 +60,9 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | is_next_lost(reach, round_off);
+      done = done | (serves & is_next_lost(reach, round_off));
     } else if (!checks) {
-      done = done | is_lost(reach, round_off);
+      done = done | (serves & is_lost(reach, round_off));
     }
     open = open & !done;
     if (iterations > 1) {
@@ -84,6 +90,12 @@ struct NewtonRule : Iteration {
   // The same of the first.
   Mask is_lost(const Real& size, const Real& round_off) const {
     return is_next_lost(size, round_off) & is_straight(size, round_off);
+  }
+  // Is the next increment lost in the rounding of each unknown?
+  Mask is_even(const Real& shares, bool measured) const {
+    const Mask even = contraction * shares * 16 <= epsilon;
+    if (measured) return even;
+    return even & (motion.bend * shares * 1024 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

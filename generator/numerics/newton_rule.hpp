@@ -27,9 +27,11 @@
 //
 // Note [what is not divided by the matrix]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order is missing in the gradient, not in the solution: it is larger by the matrix, and the
-// rounding that may hide it is smaller by as much.  With the residual, matrix times increment, in
-// the place of the increment both are asked for: next * matrix^2.
+// second order is missing in the gradient and not in the solution.  It is larger by the matrix, and
+// the rounding that may hide it smaller by as much: residual / size stands for the matrix, twice.
+// And it is missing in every unknown by itself: a bead that rests while its neighbour is hit moves
+// by little, all of which is increment.  Of each the next increment is taken to be the same part of
+// the last one as of all together; `uneven` is the sum of the increments' shares in their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -62,9 +64,12 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values; residual: of what
-  // the equations lacked before the increments, where that counts.
-  Verdict operator()(Real size, Real scale, int iterations, Real residual = 0) {
+  // What an increment is of what its unknown is rounded with.
+  static Real share(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  // size, scale: sums over the unknowns, of their increments and of their values.  Where gradients
+  // of the last iteration serve, residual: the sum of what the equations lacked before the
+  // increments, uneven: of the shares of these.
+  Verdict operator()(Real size, Real scale, int iterations, Real residual = 0, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
     const Real reach = residual > size ? residual : size;
@@ -86,7 +91,8 @@ struct NewtonRule {
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
     const bool looked = previous > 0 || is_straight(reach, round_off);
-    if (looked && unchecked < 32 && contraction * power(reach) * 1048576 <= round_off) {
+    const bool serves = uneven <= 0 || is_even(reach * (reach / size) * uneven);
+    if (looked && serves && unchecked < 32 && contraction * power(reach) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =
@@ -98,6 +104,13 @@ struct NewtonRule {
   bool is_chance(Real size, Real round_off) const {
     return Power == 2 || (previous > 0 && previous <= round_off) ||
            contraction * size * 8192 <= round_off;
+  }
+  // Is the next increment lost in the rounding of each unknown?  See Note [what is not divided by
+  // the matrix].
+  bool is_even(Real shares) const {
+    const bool straight =
+        previous > 0 || motion.bend * shares * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * shares * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {

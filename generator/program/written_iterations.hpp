@@ -197,15 +197,22 @@ class IterationWriter : public StatementWriter {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
       add(Define{"Real", "scale ", integer(0), true});
+      const bool shares = !iterate.residual.empty();
+      if (shares) add(Define{"Real", "uneven ", integer(0), true});
       const auto measure = [&] {
         for (const UnknownArray& u : iterate.unknowns) {
-          set(at({"size "}), magnitude(Expression::symbol(u.increment)), "+=");
+          const Value moved = magnitude(Expression::symbol(u.increment));
+          set(at({"size "}), moved, "+=");
           set(at({"scale "}), length(u.value, u.beside), "+=");
+          if (!shares) continue;
+          set(at({"uneven "}),
+              action("NewtonRule", rule, "share", {moved, length(u.value, u.beside)}), "+=");
         }
       };
       over(iterate.ranges, measure, Shape::braces);
       std::vector<Value> judged = judged_by_size();
-      if (!iterate.residual.empty()) judged.push_back(symbol(iterate.residual));
+      if (shares) judged.push_back(symbol(iterate.residual));
+      if (shares) judged.push_back(at({"uneven "}));
       Value verdict = action("NewtonRule", rule, "", std::move(judged));
       if (form_.lanes) {
         look_at_moving(std::move(verdict));
