@@ -73,9 +73,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    const bool measures_residual = !iterate.residual.empty();
-    return [this, unknowns, ranges, residual, measures_residual, start, flag, are_whole, body,
-            rule = iterate.rule, name = iterate.name, work = iterate.work] {
+    return [this, unknowns, ranges, residual, of_each = iterate.of_each, start, flag, are_whole,
+            body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -87,11 +86,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
             newton, known, body,
-            [&] {
-              auto lengths = this->lengths_of_each(each, measures_residual ? &newton : nullptr);
-              if (measures_residual) lengths.residual = m_.frame.at(residual);
-              return lengths;
-            },
+            [&] { return this->lengths_of_each(each, of_each ? &newton : nullptr); },
             [&] {
               each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
             });

@@ -28,7 +28,6 @@ class MachineIterations : public MachineAddresses<Real> {
   struct Lengths {
     Real size = 0;
     Real scale = 0;
-    Real residual = 0;
     Real uneven = 0;
   };
 
@@ -40,8 +39,8 @@ class MachineIterations : public MachineAddresses<Real> {
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
       const Lengths lengths = measure();
-      const Answer answer = rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration),
-                                 lengths.residual, lengths.uneven);
+      const Answer answer =
+          rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration), lengths.uneven);
       if (answer != Answer::go_on) return ends(answer, lengths.size);
       correct();
     }

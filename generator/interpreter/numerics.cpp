@@ -73,8 +73,8 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count) : Real(0);
     used_ = false;
   }
-  Answer operator()(Real size, Real scale, int iteration, Real residual, Real uneven) override {
-    return answer(rule_(size, scale, iteration, residual, uneven));
+  Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
+    return answer(rule_(size, scale, iteration, uneven));
   }
   [[nodiscard]] Real share(Real moved, Real length) const override {
     return rule_.share(moved, length);

@@ -66,7 +66,7 @@ struct AnyNewtonRule {
   virtual void begin(bool predicted) = 0;
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
-  virtual Answer operator()(Real size, Real scale, int iteration, Real residual, Real uneven) = 0;
+  virtual Answer operator()(Real size, Real scale, int iteration, Real uneven) = 0;
   [[nodiscard]] virtual Real share(Real moved, Real length) const = 0;
 };
 // When a fixed point ends: one of the rules that Blocks::fixed_point_rule knows.

@@ -41,12 +41,10 @@ struct NewtonRule : Iteration {
   }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations,
-                  const Real& residual = Real(0), const Real& uneven = Real(0)) {
+                  const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
-    const Real reach = select(residual > size, residual, size);
-    const Real shares = select(uneven > 0, reach * (reach / size) * uneven, Real(0));
-    const Mask serves = is_even(shares, iterations > 1);
-    if (iterations == 1 && !checks && all((!open) | (serves & is_lost(reach, round_off)))) {
+    const Mask serves = is_even(size * uneven, iterations > 1);
+    if (iterations == 1 && !checks && all((!open) | (serves & is_lost(size, round_off)))) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -60,9 +58,9 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | (serves & is_next_lost(reach, round_off));
+      done = done | (serves & is_next_lost(size, round_off));
     } else if (!checks) {
-      done = done | (serves & is_lost(reach, round_off));
+      done = done | (serves & is_lost(size, round_off));
     }
     open = open & !done;
     if (iterations > 1) {

@@ -25,13 +25,12 @@
 // step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
 //
-// Note [what is not divided by the matrix]
+// Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order is missing in the gradient and not in the solution.  It is larger by the matrix, and
-// the rounding that may hide it smaller by as much: residual / size stands for the matrix, twice.
-// And it is missing in every unknown by itself: a bead that rests while its neighbour is hit moves
-// by little, all of which is increment.  Of each the next increment is taken to be the same part of
-// the last one as of all together; `uneven` is the sum of the increments' shares in their unknowns.
+// second order is missing in every gradient by itself, and nothing moves it to where it is lost: a
+// bead that rests while its neighbour is hit moves by little, all of which is increment, and was
+// off by 57 roundings.  Of each the next increment is taken to be the same part of the last one as
+// of all together; `uneven` is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -66,13 +65,11 @@ struct NewtonRule {
   }
   // What an increment is of what its unknown is rounded with.
   static Real share(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
-  // size, scale: sums over the unknowns, of their increments and of their values.  Where gradients
-  // of the last iteration serve, residual: the sum of what the equations lacked before the
-  // increments, uneven: of the shares of these.
-  Verdict operator()(Real size, Real scale, int iterations, Real residual = 0, Real uneven = 0) {
+  // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
+  // shares of these, where each counts.
+  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
-    const Real reach = residual > size ? residual : size;
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -90,9 +87,9 @@ struct NewtonRule {
       ++unchecked;
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
-    const bool looked = previous > 0 || is_straight(reach, round_off);
-    const bool serves = uneven <= 0 || is_even(reach * (reach / size) * uneven);
-    if (looked && serves && unchecked < 32 && contraction * power(reach) * 1048576 <= round_off) {
+    const bool looked = previous > 0 || is_straight(size, round_off);
+    const bool serves = uneven <= 0 || is_even(size * uneven);
+    if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =
@@ -105,8 +102,8 @@ struct NewtonRule {
     return Power == 2 || (previous > 0 && previous <= round_off) ||
            contraction * size * 8192 <= round_off;
   }
-  // Is the next increment lost in the rounding of each unknown?  See Note [what is not divided by
-  // the matrix].
+  // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
+  // lacks].
   bool is_even(Real shares) const {
     const bool straight =
         previous > 0 || motion.bend * shares * 1024 <= epsilon * power(motion.move);

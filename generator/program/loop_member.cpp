@@ -88,7 +88,6 @@ class LoopMember : LoopStage {
     }
     if (is_sharp()) {
       array("change", arrays_.reduced ? n_ : 2 * n_, "of the slope by the last increment");
-      start.fields.push_back({.name = "residual", .remark = "the sum of what the equations lack"});
     }
     if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
     if (newton() || both()) {
@@ -227,20 +226,13 @@ class LoopMember : LoopStage {
   void add_newton(RoutineBuilder& b) const {
     Body body = iteration_body(b);
     add_matrix(body);
-    if (is_sharp()) {
-      const Expression residual = b.at("start", "residual");
-      body.push_back({Assign{residual.name(), Expression(0)}});
-      Body size{{Accumulate{residual.name(),
-                            Expression::apply("abs", {b.at("start", "lack", {affine("i")})})}}};
-      body.push_back(for_each(counting("i", unknowns()), std::move(size)));
-    }
     body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
     IterateArray iterate{.rule = Rule::newton,
                          .name = both() ? "newton_rule" : "rule",
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
-                         .body = std::move(body)};
-    if (is_sharp()) iterate.residual = b.at("start", "residual").name();
+                         .body = std::move(body),
+                         .of_each = is_sharp()};
     b.body().push_back({std::move(iterate), {"Newton's iteration on what the equations lack."}});
     if (is_sharp()) add_change_of_slope(b.body());
     const Expression value = b.at("start", "value", {affine("i")});

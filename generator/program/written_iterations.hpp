@@ -197,7 +197,7 @@ class IterationWriter : public StatementWriter {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
       add(Define{"Real", "scale ", integer(0), true});
-      const bool shares = !iterate.residual.empty();
+      const bool shares = iterate.of_each;
       if (shares) add(Define{"Real", "uneven ", integer(0), true});
       const auto measure = [&] {
         for (const UnknownArray& u : iterate.unknowns) {
@@ -211,7 +211,6 @@ class IterationWriter : public StatementWriter {
       };
       over(iterate.ranges, measure, Shape::braces);
       std::vector<Value> judged = judged_by_size();
-      if (shares) judged.push_back(symbol(iterate.residual));
       if (shares) judged.push_back(at({"uneven "}));
       Value verdict = action("NewtonRule", rule, "", std::move(judged));
       if (form_.lanes) {

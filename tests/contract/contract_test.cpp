@@ -66,7 +66,7 @@ TEST(PlainSums, KeepTheContract) {
 TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
   // It learns its contraction in free flight and believes it at the wall.
   const auto forget_the_motion = [](std::string text) {
-    const std::string look = "previous > 0 || is_straight(reach, round_off)";
+    const std::string look = "previous > 0 || is_straight(size, round_off)";
     const auto at = text.find(look);
     EXPECT_NE(at, std::string::npos);
     return at == std::string::npos ? text : text.replace(at, look.size(), "true");
