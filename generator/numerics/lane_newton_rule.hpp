@@ -43,8 +43,10 @@ struct NewtonRule : Iteration {
   Mask operator()(const Real& size, const Real& scale, int iterations,
                   const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
-    const Mask serves = is_even(size * uneven, iterations > 1);
-    if (iterations == 1 && !checks && all((!open) | (serves & is_lost(size, round_off)))) {
+    const Real shares = size * uneven;
+    const bool first = iterations == 1 && !checks;
+    const Mask alone = first ? is_lost(size, round_off) & is_even(shares, false) : Mask(false);
+    if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -58,9 +60,9 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | (serves & is_next_lost(size, round_off));
-    } else if (!checks) {
-      done = done | (serves & is_lost(size, round_off));
+      done = done | (is_next_lost(size, round_off) & is_even(shares, true));
+    } else {
+      done = done | alone;
     }
     open = open & !done;
     if (iterations > 1) {
