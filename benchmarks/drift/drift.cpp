@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <unistd.h>
 #include <exception>
 #include <string>
 #include <vector>
@@ -59,17 +56,7 @@ int main(int count, char** arguments) {
     if (!is_wanted(row, options.words)) continue;
     fmt::print("{:30} {:34} ", row.problem, row.name);
     try {
-      const Result r = measure(row, options.steps, options.starts, options.seconds,
-                               [](const std::string& header) {
-        const char* script = std::getenv("DRIFT_EDIT");
-        if (script == nullptr) return header;
-        const std::string base = "/tmp/drift_edit" + std::to_string(getpid());
-        { std::ofstream out(base + ".in"); out << header; }
-        if (std::system((std::string("python3 ") + script + " " + base + ".in " + base + ".out").c_str()) != 0) throw std::runtime_error("edit failed");
-        std::ifstream in(base + ".out");
-        std::stringstream all; all << in.rdbuf();
-        return all.str();
-      });
+      const Result r = measure(row, options.steps, options.starts, options.seconds);
       const bool drifts = r.drifts();
       if (drifts && !row.is_exempt) ++drifting;
       fmt::print("{:6} {:10.2e} {:9.1e} {:7.1f} {:9.1e} {:8.1f}  {}\n", r.starts, r.mean,
