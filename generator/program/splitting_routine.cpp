@@ -260,14 +260,12 @@ class SplittingRoutine {
       const Expression carry = component("carry", kind.kick, i);
       const Expression z = component("z", kind.kick, i);
       const Origin origin{.terms = velocity_ && !kind.kick ? velocity_->terms : std::set<int>()};
-      const bool first_of_two = reversible_ && begins && !kind.once;
-      if (kind.once || first_of_two) {
-        body.push_back({Assign{dz.name(), change}, {}, origin});
-        if (!first_of_two) body.push_back({Assign{rest.name(), carry}});
-      } else {
-        if (reversible_) {
-          body.push_back({Assign{rest.name(), carry}});
-        } else if (begins && begins_in_loops()) {
+      // See Note [the way back]; with nothing to add to there is no sum.
+      const bool no_sum = kind.once || (reversible_ && begins);
+      if (no_sum) body.push_back({Assign{dz.name(), change}, {}, origin});
+      if (kind.once || (reversible_ && !begins)) body.push_back({Assign{rest.name(), carry}});
+      if (!no_sum) {
+        if (begins && begins_in_loops()) {
           body.push_back({Assign{dz.name(), carry}});
           body.push_back({Assign{rest.name(), Expression(0)}});
         }
