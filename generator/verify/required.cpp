@@ -90,7 +90,6 @@ void require(const Proof& proof, const Requirements& required) {
 }
 
 void require_emitted(const Proof& proof) {
-  if (getenv("XDBG")) return;
   for (const char* property : {kProgram, kEmittedCode, kModelRead, "specialised"}) {
     const Finding* finding = find(proof, property);
     if (finding == nullptr || finding->verdict != Verdict::refuted) continue;
