@@ -148,10 +148,10 @@ std::vector<Cluster> clusters(const Matrix& square) {
 // by coth t = (tanh(t/2) + coth(t/2))/2, and what remains is Lambert's continued fraction
 //   coth t - 1/t = t/(3 + t^2/(5 + t^2/(7 + ...))),  1/t - cot t = t/(3 - t^2/(5 - t^2/(7 - ...))).
 // The terms are of one sign, for tan up to x = pi.  Ended after 2m + 1 the fraction lacks
-// 3 t^2m / ((2m + 1)!!^2 (2m + 3)) of itself: with n = 6 and m = 11 that is less than the rounding
-// of quad up to y = 50, and than that of double up to y = 250.
-constexpr int kHalvings = 6;
-constexpr int kLastOfFraction = 23;
+// 3 t^2m / ((2m + 1)!!^2 (2m + 3)) of itself: with n = 12 and m = 8 that is less than the rounding
+// of quad up to y = 1000, and than that of double up to y = 10000.
+constexpr int kHalvings = 12;
+constexpr int kLastOfFraction = 17;
 
 // (coth x - 1/x)/(2h), or of tan and cot (1/x - cot x)/(2h), where x = rate h.
 Expression half_of_rest(const Real& rate, bool oscillates) {
@@ -175,10 +175,9 @@ Expression half_of_rest(const Real& rate, bool oscillates) {
 
 // The same of coth at x = (s + i w) h, real and imaginary part, with
 //   tanh(u + i v) = (sinh u cosh u + i sin v cos v)/(sinh^2 u + cos^2 v),
-// divided by cosh(u)^2, which may overflow.  What remains after more halves is its series
+// divided by cosh(u)^2, which may overflow.  What remains is its series
 //   coth t - 1/t = sum_(j = 1..) B_2j 2^2j t^(2j-1)/(2j)!,
 // real and imaginary part for themselves: its first term is the only one of weight.
-constexpr int kComplexHalvings = 9;
 constexpr int kTermsOfSeries = 9;
 
 std::pair<Expression, Expression> half_of_complex_rest(const Real& s, const Real& w) {
@@ -187,7 +186,7 @@ std::pair<Expression, Expression> half_of_complex_rest(const Real& s, const Real
   Real part_s = s;
   Real part_w = w;
   Rational weight(1, 2);
-  for (int k = 1; k <= kComplexHalvings; ++k) {
+  for (int k = 1; k <= kHalvings; ++k) {
     part_s /= 2;
     part_w /= 2;
     weight /= 2;
