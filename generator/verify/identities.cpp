@@ -339,11 +339,10 @@ bool is_zero_by_algebra(const Expression& e) {
   if (e.is_number()) return false;
   std::map<const void*, std::size_t> known;
   const std::size_t size = tree_size(e, known);
-  if (size > kExpandable) {
-    SumsOfStep sums;
-    const Expression shorter = sums.replace(e);
-    return sums.count > 0 && is_zero_by_algebra(shorter);
-  }
+  SumsOfStep sums;
+  const Expression shorter = sums.replace(e);
+  if (sums.count > 0 && is_zero_by_algebra(shorter)) return true;
+  if (size > kExpandable) return false;
   if (differs_from_zero(e)) return false;
   SymbolTable table;
   const Expression plain = without_ranks(e);
