@@ -160,21 +160,30 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(int size) : size_(size) { clear(); }
+  explicit MatrixOf(int size, const ArrayMatrix& storage = {}) : size_(size) {
+    for (int i = 0; i < size; ++i) row_.push_back(storage.size == 0 ? i : storage.row(i));
+    clear();
+  }
   void clear() override {
     matrix_.clear();
     for (int i = size_; i < Size; ++i) matrix_.put(i, i, 1);
   }
-  void put(int row, int column, Real value) override { matrix_.put(row, column, value); }
+  void put(int row, int column, Real value) override {
+    matrix_.put(row_[index(row)], row_[index(column)], value);
+  }
   [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
   void solve(std::span<Real> vector) const override {
-    Padded<Real, Size> all(vector);
+    Padded<Real, Size> all({});
+    for (std::size_t i = 0; i < vector.size(); ++i) all.padded[row_[i]] = vector[i];
     matrix_.solve(all.padded);
-    std::copy_n(all.padded, vector.size(), vector.begin());
+    for (std::size_t i = 0; i < vector.size(); ++i) vector[i] = all.padded[row_[i]];
   }
 
  private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
   int size_;
+  std::vector<int> row_;
   Matrix matrix_;
 };
 
@@ -240,6 +249,15 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
     }
     using Matrix = typename NumericsOf<Real>::template Dense<most>;
     return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(const ArrayMatrix& storage) {
+  return at_least<256>(storage.size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+    constexpr int most = decltype(n)::value;
+    using Matrix = typename NumericsOf<Real>::template Dense<most>;
+    return std::make_unique<MatrixOf<Real, most, Matrix>>(storage.size, storage);
   });
 }
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "generator/solvers/matrix_storage.hpp"
+
 namespace hamgen {
 
 namespace numerics_of_float {
@@ -125,6 +127,8 @@ struct Blocks {
                                                                        int components);
   // Up to 256 rows.
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
+  // Eliminated in its order: what elimination within a band leaves out are products with zeros.
+  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(const ArrayMatrix& storage);
 };
 
 }  // namespace hamgen

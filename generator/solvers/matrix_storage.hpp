@@ -22,6 +22,16 @@ struct ArrayMatrix {
   bool in_lanes = false;
   bool kept = false;
   [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
+  // Where this unknown stands.
+  [[nodiscard]] int row(int unknown) const {
+    const int length = size / arrays;
+    const int element = unknown % length;
+    const bool second_half = 2 * element >= length;
+    const int place = !folded       ? element
+                      : second_half ? 2 * (length - 1 - element) + 1
+                                    : 2 * element;
+    return place * arrays + unknown / length;
+  }
 };
 
 }  // namespace hamgen
