@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_4bee35c5::float64 {
+namespace hamgen_d2a33e4d::float64 {
 using Real = double;
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_STEP_REPORT
-#define HAMGEN_4BEE35C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
+#define HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_VOCABULARY
-#define HAMGEN_4BEE35C5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
+#define HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_TWO_SUM
-#define HAMGEN_4BEE35C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
+#define HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_4BEE35C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
+#define HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_SUMS
-#define HAMGEN_4BEE35C5_FLOAT64_SUMS
+#ifndef HAMGEN_D2A33E4D_FLOAT64_SUMS
+#define HAMGEN_D2A33E4D_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -223,8 +223,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_BAND_MATRIX
-#define HAMGEN_4BEE35C5_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_D2A33E4D_FLOAT64_BAND_MATRIX
+#define HAMGEN_D2A33E4D_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -289,14 +289,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_VERDICT
-#define HAMGEN_4BEE35C5_FLOAT64_VERDICT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VERDICT
+#define HAMGEN_D2A33E4D_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_NEWTON_RULE
-#define HAMGEN_4BEE35C5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -363,9 +363,9 @@ struct NewtonRule {
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // What an increment is of what its unknown is rounded with.
-  static Real share(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
   // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
-  // shares of these, where each counts.
+  // relative ones, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
@@ -403,10 +403,10 @@ struct NewtonRule {
   }
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
-  bool is_even(Real shares) const {
+  bool is_even(Real parts) const {
     const bool straight =
-        previous > 0 || motion.bend * shares * 1024 <= epsilon * power(motion.move);
-    return straight && contraction * shares * 16 <= epsilon;
+        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * parts * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {
@@ -416,8 +416,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_4BEE35C5_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -439,8 +439,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_4BEE35C5_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -450,14 +450,18 @@ struct Distance {
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
   static constexpr Real lost = epsilon * epsilon * epsilon;
+  // What is rounded like this: a unit of rounding of smaller numbers may be lost below the smallest
+  // number there is, and how far they are from their end cannot be told by it.
+  static constexpr Real tiny = 1 / largest;
   Real size = 0;
   Real scale = 0;
   Real far = 0;
 
   static Real far_of(Real moved, Real length) {
-    return moved <= units * epsilon * length ? Real(0) : moved;
+    return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
   bool close() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
 
   void add(Real moved, Real length) {
     size += moved;
@@ -505,7 +509,7 @@ struct FixedPointRule {
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
     stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = epsilon * moved.scale;
+    const Real round_off = moved.round_off();
     if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
     if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
     if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;
@@ -515,8 +519,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_4BEE35C5_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -549,7 +553,7 @@ struct ContractionRule {
     const Real before = size;
     Verdict verdict = rule(moved, iterations);
     size = rule.size;
-    round_off = epsilon * moved.scale;
+    round_off = moved.round_off();
     if (verdict == Verdict::failed) return give_up();
     if (before > 0 && size > 64 * round_off) learn(size / before);
     if (is_slow()) return give_up();
@@ -598,8 +602,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_REFINEMENT
-#define HAMGEN_4BEE35C5_FLOAT64_REFINEMENT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_REFINEMENT
+#define HAMGEN_D2A33E4D_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -697,8 +701,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_HISTORY
-#define HAMGEN_4BEE35C5_FLOAT64_HISTORY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_HISTORY
+#define HAMGEN_D2A33E4D_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -790,8 +794,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_4BEE35C5_FLOAT64_FORGET
-#define HAMGEN_4BEE35C5_FLOAT64_FORGET
+#ifndef HAMGEN_D2A33E4D_FLOAT64_FORGET
+#define HAMGEN_D2A33E4D_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -801,17 +805,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_4bee35c5::float64
+}  // namespace hamgen_d2a33e4d::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xa36d5a22
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x4f53f7e1
 namespace fput::implicit_midpoint {
-inline namespace emitted_a36d5a22 {
+inline namespace emitted_4f53f7e1 {
 
-namespace numerics = ::hamgen_4bee35c5::float64;
+namespace numerics = ::hamgen_d2a33e4d::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -960,8 +964,8 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
     for (int i = 0; i < n; ++i) {
       size += magnitude(start.lack[i]);
       scale += magnitude(start.value[i]) + magnitude(z.q[i]);
-      uneven += start.newton_rule.share(magnitude(start.lack[i]), magnitude(start.value[i]) +
-                                        magnitude(z.q[i]));
+      uneven += start.newton_rule.relative(magnitude(start.lack[i]), magnitude(start.value[i]) +
+                                           magnitude(z.q[i]));
     }
     const Verdict verdict = start.newton_rule(size, scale, iteration, uneven);
     if (verdict == Verdict::failed) {
@@ -1105,9 +1109,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_a36d5a22
+}  // namespace emitted_4f53f7e1
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xa36d5a22
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4f53f7e1
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

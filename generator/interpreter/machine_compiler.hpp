@@ -94,7 +94,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       if (own) {
         own->clear();
       } else {
-        own = matrix.patterned ? Blocks<Real>::matrix(*code_.matrix)
+        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows())
                                : Blocks<Real>::matrix(matrix.size, matrix.symmetric);
       }
       m_.matrices[matrix.name] = own.get();

@@ -93,14 +93,14 @@ class MachineIterations : public MachineAddresses<Real> {
     return distance;
   }
   template <class Each>
-  Lengths lengths_of_each(const Each& each, const AnyNewtonRule<Real>* shares) const {
+  Lengths lengths_of_each(const Each& each, const AnyNewtonRule<Real>* rule) const {
     Lengths lengths;
     each([&](const Array2& u) {
       const Real moved = magnitude(m_.frame.at(u.increment));
       const Real length = magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
       lengths.size += moved;
       lengths.scale += length;
-      if (shares != nullptr) lengths.uneven += shares->share(moved, length);
+      if (rule != nullptr) lengths.uneven += rule->relative(moved, length);
     });
     return lengths;
   }

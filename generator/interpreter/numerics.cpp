@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 #include "generator/base/diagnostic.hpp"
@@ -76,8 +77,8 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
     return answer(rule_(size, scale, iteration, uneven));
   }
-  [[nodiscard]] Real share(Real moved, Real length) const override {
-    return rule_.share(moved, length);
+  [[nodiscard]] Real relative(Real moved, Real length) const override {
+    return rule_.relative(moved, length);
   }
 
  private:
@@ -160,8 +161,12 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(int size, const ArrayMatrix& storage = {}) : size_(size) {
-    for (int i = 0; i < size; ++i) row_.push_back(storage.size == 0 ? i : storage.row(i));
+  explicit MatrixOf(int size) : size_(size), place_(static_cast<std::size_t>(size)) {
+    std::iota(place_.begin(), place_.end(), 0);
+    clear();
+  }
+  explicit MatrixOf(std::vector<int> place)
+      : size_(static_cast<int>(place.size())), place_(std::move(place)) {
     clear();
   }
   void clear() override {
@@ -169,21 +174,21 @@ class MatrixOf final : public AnyMatrix<Real> {
     for (int i = size_; i < Size; ++i) matrix_.put(i, i, 1);
   }
   void put(int row, int column, Real value) override {
-    matrix_.put(row_[index(row)], row_[index(column)], value);
+    matrix_.put(place_[index(row)], place_[index(column)], value);
   }
   [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
   void solve(std::span<Real> vector) const override {
     Padded<Real, Size> all({});
-    for (std::size_t i = 0; i < vector.size(); ++i) all.padded[row_[i]] = vector[i];
+    for (std::size_t i = 0; i < vector.size(); ++i) all.padded[place_[i]] = vector[i];
     matrix_.solve(all.padded);
-    for (std::size_t i = 0; i < vector.size(); ++i) vector[i] = all.padded[row_[i]];
+    for (std::size_t i = 0; i < vector.size(); ++i) vector[i] = all.padded[place_[i]];
   }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   int size_;
-  std::vector<int> row_;
+  std::vector<int> place_;
   Matrix matrix_;
 };
 
@@ -253,11 +258,12 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
 }
 
 template <class Real>
-std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(const ArrayMatrix& storage) {
-  return at_least<256>(storage.size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place) {
+  const auto size = static_cast<int>(place.size());
+  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
     using Matrix = typename NumericsOf<Real>::template Dense<most>;
-    return std::make_unique<MatrixOf<Real, most, Matrix>>(storage.size, storage);
+    return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
   });
 }
 

@@ -36,16 +36,16 @@ struct NewtonRule : Iteration {
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
   // What an increment is of what its unknown is rounded with.
-  static Real share(const Real& moved, const Real& length) {
+  static Real relative(const Real& moved, const Real& length) {
     return select(moved > 0, moved / length, Real(0));
   }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations,
                   const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
-    const Real shares = size * uneven;
+    const Real parts = size * uneven;
     const bool first = iterations == 1 && !checks;
-    const Mask alone = first ? is_lost(size, round_off) & is_even(shares, false) : Mask(false);
+    const Mask alone = first ? is_lost(size, round_off) & is_even(parts, false) : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -60,7 +60,7 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | (is_next_lost(size, round_off) & is_even(shares, true));
+      done = done | (is_next_lost(size, round_off) & is_even(parts, true));
     } else {
       done = done | alone;
     }
@@ -92,10 +92,10 @@ struct NewtonRule : Iteration {
     return is_next_lost(size, round_off) & is_straight(size, round_off);
   }
   // Is the next increment lost in the rounding of each unknown?
-  Mask is_even(const Real& shares, bool measured) const {
-    const Mask even = contraction * shares * 16 <= epsilon;
+  Mask is_even(const Real& parts, bool measured) const {
+    const Mask even = contraction * parts * 16 <= epsilon;
     if (measured) return even;
-    return even & (motion.bend * shares * 1024 <= epsilon * power(motion.move));
+    return even & (motion.bend * parts * 1024 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

@@ -64,9 +64,9 @@ struct NewtonRule {
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // What an increment is of what its unknown is rounded with.
-  static Real share(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
   // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
-  // shares of these, where each counts.
+  // relative ones, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
@@ -104,10 +104,10 @@ struct NewtonRule {
   }
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
-  bool is_even(Real shares) const {
+  bool is_even(Real parts) const {
     const bool straight =
-        previous > 0 || motion.bend * shares * 1024 <= epsilon * power(motion.move);
-    return straight && contraction * shares * 16 <= epsilon;
+        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * parts * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {

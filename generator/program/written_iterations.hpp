@@ -197,21 +197,21 @@ class IterationWriter : public StatementWriter {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
       add(Define{"Real", "scale ", integer(0), true});
-      const bool shares = iterate.of_each;
-      if (shares) add(Define{"Real", "uneven ", integer(0), true});
+      const bool of_each = iterate.of_each;
+      if (of_each) add(Define{"Real", "uneven ", integer(0), true});
       const auto measure = [&] {
         for (const UnknownArray& u : iterate.unknowns) {
           const Value moved = magnitude(Expression::symbol(u.increment));
           set(at({"size "}), moved, "+=");
           set(at({"scale "}), length(u.value, u.beside), "+=");
-          if (!shares) continue;
+          if (!of_each) continue;
           set(at({"uneven "}),
-              action("NewtonRule", rule, "share", {moved, length(u.value, u.beside)}), "+=");
+              action("NewtonRule", rule, "relative", {moved, length(u.value, u.beside)}), "+=");
         }
       };
       over(iterate.ranges, measure, Shape::braces);
       std::vector<Value> judged = judged_by_size();
-      if (shares) judged.push_back(at({"uneven "}));
+      if (of_each) judged.push_back(at({"uneven "}));
       Value verdict = action("NewtonRule", rule, "", std::move(judged));
       if (form_.lanes) {
         look_at_moving(std::move(verdict));

@@ -1,6 +1,8 @@
 // How the matrix of a system in loops is stored and eliminated.
 #pragma once
 
+#include <vector>
+
 namespace hamgen {
 
 enum class MatrixKind {
@@ -31,6 +33,11 @@ struct ArrayMatrix {
                       : second_half ? 2 * (length - 1 - element) + 1
                                     : 2 * element;
     return place * arrays + unknown / length;
+  }
+  [[nodiscard]] std::vector<int> rows() const {
+    std::vector<int> result;
+    for (int i = 0; i < size; ++i) result.push_back(row(i));
+    return result;
   }
 };
 

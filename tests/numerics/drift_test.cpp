@@ -188,7 +188,7 @@ TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {
 
 // Where the rounded map comes to rest is no chance.
 TEST(Drift, AFixedPointIsRefinedFromAfar) {
-  expect_drift_only_with({{"moved <= units * epsilon * length", "moved <= 0 * epsilon * length"}},
+  expect_drift_only_with({{"moved <= units * epsilon * (length", "moved <= 0 * epsilon * (length"}},
                          {.model = soft_chain(4), .request = {.solver = "fixed-point"}, .h = 0.25});
 }
 

@@ -99,9 +99,16 @@ TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncrement) {
     auto rule = this->template taught<2>(1);
     rule.begin(false);
     EXPECT_EQ(rule(size, Real(1), 1, uneven), uneven < 1 ? Verdict::done : Verdict::go_on);
+  }
+  // The same where the contraction is measured in this step; below rounding nothing is waited for.
+  const Real first = TypeParam::two_to(-(TypeParam::bits + 21) / 4);
+  for (const Real uneven : {Real(0), Real(1)}) {
+    auto rule = this->template taught<2>(1);
+    rule.begin(false);
+    EXPECT_EQ(rule(first, Real(1), 1, uneven), Verdict::go_on);
+    EXPECT_EQ(rule(first * first, Real(1), 2, uneven),
+              uneven < 1 ? Verdict::done : Verdict::go_on);
     if (uneven < 1) continue;
-    // The same where the contraction has been measured; below rounding nothing is waited for.
-    EXPECT_EQ(rule(size / 2, Real(1), 2, uneven), Verdict::go_on);
     EXPECT_EQ(rule(TypeParam::unit / 2, Real(1), 3, uneven), Verdict::done);
   }
   // What was measured may be nothing, if the motion bends.
@@ -116,8 +123,8 @@ TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncrement) {
 TYPED_TEST(NewtonRule, NothingMovedIsNoShare) {
   using Real = typename TypeParam::Scalar;
   using Rule = typename TypeParam::template Newton<2>;
-  EXPECT_TRUE(Rule::share(Real(0), Real(0)) <= 0);
-  EXPECT_TRUE(Rule::share(Real(1), Real(4)) * 4 <= 1);
+  EXPECT_TRUE(Rule::relative(Real(0), Real(0)) <= 0);
+  EXPECT_TRUE(Rule::relative(Real(1), Real(4)) * 4 <= 1);
 }
 
 // The wall: what was measured has become false, but the motion bends.
