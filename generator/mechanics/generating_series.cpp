@@ -30,8 +30,7 @@ bool is_undefined(const Expression& e) {
 // Is there one at h = 0?  In a product with a zero, as of tan(h)/h, nothing would be left of it.
 bool divides_by_zero(const Expression& e) {
   if (!depends_on(e, "h")) return false;
-  if (e.kind() == Kind::power && at_zero(e.operands()[0]).is_zero() &&
-      is_undefined(at_zero(e))) {
+  if (e.kind() == Kind::power && at_zero(e.operands()[0]).is_zero() && is_undefined(at_zero(e))) {
     return true;
   }
   return std::ranges::any_of(e.operands(), divides_by_zero);

@@ -106,8 +106,7 @@ TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncrement) {
     auto rule = this->template taught<2>(1);
     rule.begin(false);
     EXPECT_EQ(rule(first, Real(1), 1, uneven), Verdict::go_on);
-    EXPECT_EQ(rule(first * first, Real(1), 2, uneven),
-              uneven < 1 ? Verdict::done : Verdict::go_on);
+    EXPECT_EQ(rule(first * first, Real(1), 2, uneven), uneven < 1 ? Verdict::done : Verdict::go_on);
     if (uneven < 1) continue;
     EXPECT_EQ(rule(TypeParam::unit / 2, Real(1), 3, uneven), Verdict::done);
   }
