@@ -87,11 +87,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_1ad5b596::float64 {
+namespace hamgen_d2a33e4d::float64 {
 using Real = double;
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_STEP_REPORT
-#define HAMGEN_1AD5B596_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
+#define HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -101,15 +101,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_VOCABULARY
-#define HAMGEN_1AD5B596_FLOAT64_VOCABULARY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
+#define HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_TWO_SUM
-#define HAMGEN_1AD5B596_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
+#define HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -119,8 +119,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_SUM_WITH_REST
-#define HAMGEN_1AD5B596_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
+#define HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -132,14 +132,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_VERDICT
-#define HAMGEN_1AD5B596_FLOAT64_VERDICT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VERDICT
+#define HAMGEN_D2A33E4D_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_NEWTON_RULE
-#define HAMGEN_1AD5B596_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -166,6 +166,13 @@ enum class Verdict { go_on, done, failed };
 // Kepler's orbit (e = 0.6, order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a
 // step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
+//
+// Note [what every unknown lacks]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order is missing in every gradient by itself, and nothing moves it to where it is lost: a
+// bead that rests while its neighbour is hit moves by little, all of which is increment, and was
+// off by 57 roundings.  Of each the next increment is taken to be the same part of the last one as
+// of all together; `uneven` is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -198,8 +205,11 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.
-  Verdict operator()(Real size, Real scale, int iterations) {
+  // What an increment is of what its unknown is rounded with.
+  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
+  // relative ones, where each counts.
+  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
     if (previous > 0) {
@@ -220,7 +230,8 @@ struct NewtonRule {
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
     const bool looked = previous > 0 || is_straight(size, round_off);
-    if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
+    const bool serves = uneven <= 0 || is_even(size * uneven);
+    if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =
@@ -233,6 +244,13 @@ struct NewtonRule {
     return Power == 2 || (previous > 0 && previous <= round_off) ||
            contraction * size * 8192 <= round_off;
   }
+  // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
+  // lacks].
+  bool is_even(Real parts) const {
+    const bool straight =
+        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * parts * 16 <= epsilon;
+  }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {
     const Real bend = motion.bend > size ? motion.bend : size;
@@ -241,8 +259,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_HISTORY
-#define HAMGEN_1AD5B596_FLOAT64_HISTORY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_HISTORY
+#define HAMGEN_D2A33E4D_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -334,8 +352,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_FORGET
-#define HAMGEN_1AD5B596_FLOAT64_FORGET
+#ifndef HAMGEN_D2A33E4D_FLOAT64_FORGET
+#define HAMGEN_D2A33E4D_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -345,17 +363,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_1ad5b596::float64
+}  // namespace hamgen_d2a33e4d::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xed517ab3
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xdc164b00
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_ed517ab3 {
+inline namespace emitted_dc164b00 {
 
-namespace numerics = ::hamgen_1ad5b596::float64;
+namespace numerics = ::hamgen_d2a33e4d::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -543,9 +561,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_ed517ab3
+}  // namespace emitted_dc164b00
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xed517ab3
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xdc164b00
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_1ad5b596::float64 {
+namespace hamgen_d2a33e4d::float64 {
 using Real = double;
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_STEP_REPORT
-#define HAMGEN_1AD5B596_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
+#define HAMGEN_D2A33E4D_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_VOCABULARY
-#define HAMGEN_1AD5B596_FLOAT64_VOCABULARY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
+#define HAMGEN_D2A33E4D_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_TWO_SUM
-#define HAMGEN_1AD5B596_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
+#define HAMGEN_D2A33E4D_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_SUM_WITH_REST
-#define HAMGEN_1AD5B596_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
+#define HAMGEN_D2A33E4D_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_SUMS
-#define HAMGEN_1AD5B596_FLOAT64_SUMS
+#ifndef HAMGEN_D2A33E4D_FLOAT64_SUMS
+#define HAMGEN_D2A33E4D_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -223,8 +223,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_BAND_MATRIX
-#define HAMGEN_1AD5B596_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_D2A33E4D_FLOAT64_BAND_MATRIX
+#define HAMGEN_D2A33E4D_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -289,14 +289,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_VERDICT
-#define HAMGEN_1AD5B596_FLOAT64_VERDICT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_VERDICT
+#define HAMGEN_D2A33E4D_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_NEWTON_RULE
-#define HAMGEN_1AD5B596_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -323,6 +323,13 @@ enum class Verdict { go_on, done, failed };
 // Kepler's orbit (e = 0.6, order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a
 // step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
+//
+// Note [what every unknown lacks]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order is missing in every gradient by itself, and nothing moves it to where it is lost: a
+// bead that rests while its neighbour is hit moves by little, all of which is increment, and was
+// off by 57 roundings.  Of each the next increment is taken to be the same part of the last one as
+// of all together; `uneven` is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -355,8 +362,11 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.
-  Verdict operator()(Real size, Real scale, int iterations) {
+  // What an increment is of what its unknown is rounded with.
+  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
+  // relative ones, where each counts.
+  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
     if (previous > 0) {
@@ -377,7 +387,8 @@ struct NewtonRule {
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
     const bool looked = previous > 0 || is_straight(size, round_off);
-    if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
+    const bool serves = uneven <= 0 || is_even(size * uneven);
+    if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =
@@ -390,6 +401,13 @@ struct NewtonRule {
     return Power == 2 || (previous > 0 && previous <= round_off) ||
            contraction * size * 8192 <= round_off;
   }
+  // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
+  // lacks].
+  bool is_even(Real parts) const {
+    const bool straight =
+        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * parts * 16 <= epsilon;
+  }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {
     const Real bend = motion.bend > size ? motion.bend : size;
@@ -398,8 +416,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_1AD5B596_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -421,8 +439,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_1AD5B596_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -432,14 +450,18 @@ struct Distance {
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
   static constexpr Real lost = epsilon * epsilon * epsilon;
+  // What is rounded like this: a unit of rounding of smaller numbers may be lost below the smallest
+  // number there is, and how far they are from their end cannot be told by it.
+  static constexpr Real tiny = 1 / largest;
   Real size = 0;
   Real scale = 0;
   Real far = 0;
 
   static Real far_of(Real moved, Real length) {
-    return moved <= units * epsilon * length ? Real(0) : moved;
+    return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
   bool close() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
 
   void add(Real moved, Real length) {
     size += moved;
@@ -487,7 +509,7 @@ struct FixedPointRule {
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
     stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = epsilon * moved.scale;
+    const Real round_off = moved.round_off();
     if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
     if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
     if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;
@@ -497,8 +519,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_1AD5B596_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_D2A33E4D_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_D2A33E4D_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -531,7 +553,7 @@ struct ContractionRule {
     const Real before = size;
     Verdict verdict = rule(moved, iterations);
     size = rule.size;
-    round_off = epsilon * moved.scale;
+    round_off = moved.round_off();
     if (verdict == Verdict::failed) return give_up();
     if (before > 0 && size > 64 * round_off) learn(size / before);
     if (is_slow()) return give_up();
@@ -580,8 +602,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_REFINEMENT
-#define HAMGEN_1AD5B596_FLOAT64_REFINEMENT
+#ifndef HAMGEN_D2A33E4D_FLOAT64_REFINEMENT
+#define HAMGEN_D2A33E4D_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -679,8 +701,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_HISTORY
-#define HAMGEN_1AD5B596_FLOAT64_HISTORY
+#ifndef HAMGEN_D2A33E4D_FLOAT64_HISTORY
+#define HAMGEN_D2A33E4D_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -772,8 +794,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_1AD5B596_FLOAT64_FORGET
-#define HAMGEN_1AD5B596_FLOAT64_FORGET
+#ifndef HAMGEN_D2A33E4D_FLOAT64_FORGET
+#define HAMGEN_D2A33E4D_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -783,17 +805,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_1ad5b596::float64
+}  // namespace hamgen_d2a33e4d::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x8219aebe
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x4f53f7e1
 namespace fput::implicit_midpoint {
-inline namespace emitted_8219aebe {
+inline namespace emitted_4f53f7e1 {
 
-namespace numerics = ::hamgen_1ad5b596::float64;
+namespace numerics = ::hamgen_d2a33e4d::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -815,13 +837,14 @@ inline Coefficients prepare(const Parameters&, Real h) {
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
-  Real value[32] = {};  // the coordinates of zbar
-  bool known = false;   // else the state itself is the start
-  Real slope[64] = {};  // grad H(zbar), dH/dq first
-  Real lack[32] = {};   // of the equations at zbar, then the increment
+  Real value[32] = {};   // the coordinates of zbar
+  bool known = false;    // else the state itself is the start
+  Real slope[64] = {};   // grad H(zbar), dH/dq first
+  Real lack[32] = {};    // of the equations at zbar, then the increment
+  Real change[32] = {};  // of the slope by the last increment
   Matrix matrix;
   WaitingNewtonRule<2> newton_rule;
-  int patience = 0;     // steps left to Newton
+  int patience = 0;      // steps left to Newton
   ContractionRule rule;
   Refinement<32, 64> refinement;
 };
@@ -861,6 +884,26 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
   matrix.put(0, 0, k.scale * entry_1);
   const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
   matrix.put(31, 31, k.scale * entry_2);
+}
+
+// y = V'' u at a stage.
+inline void potential_curvature(const Parameters& par, const Real* q, const Real* u, Real* y) {
+  for (int i = 0; i < n; ++i) y[i] = 0.0;
+  for (int i = 1; i <= 31; ++i) {
+    const Real q_i_plus_1 = q[i];
+    const Real q_i = q[i - 1];
+    const Real t1 = 1.0 + 2.0 * par.alpha * (q_i_plus_1 - q_i);
+    y[i] += t1 * u[i];
+    y[i] += -t1 * u[i - 1];
+    y[i - 1] -= t1 * u[i];
+    y[i - 1] += t1 * u[i - 1];
+  }
+  const Real q_1 = q[0];
+  const Real q_32 = q[31];
+  const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
+  y[0] += u[0] * entry_1;
+  const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
+  y[31] += u[31] * entry_2;
 }
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
@@ -917,11 +960,14 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
     start.matrix.solve(start.lack);
     Real size = 0;
     Real scale = 0;
+    Real uneven = 0;
     for (int i = 0; i < n; ++i) {
       size += magnitude(start.lack[i]);
       scale += magnitude(start.value[i]) + magnitude(z.q[i]);
+      uneven += start.newton_rule.relative(magnitude(start.lack[i]), magnitude(start.value[i]) +
+                                           magnitude(z.q[i]));
     }
-    const Verdict verdict = start.newton_rule(size, scale, iteration);
+    const Verdict verdict = start.newton_rule(size, scale, iteration, uneven);
     if (verdict == Verdict::failed) {
       report.iterations += iteration;
       report.increment = size;
@@ -935,13 +981,13 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
       start.value[i] += start.lack[i];
     }
   }
+  potential_curvature(par, start.value, start.lack, start.change);
   for (int i = 0; i < n; ++i) start.value[i] += start.lack[i];
-  evaluate(par, k, z, carry, start);
   for (int i = 0; i < n; ++i) {
     dz.q[i] = h * start.slope[n + i];
-    rest.q[i] = carry.q[i];
+    rest.q[i] = carry.q[i] - h * k.half_h * start.change[i];
     dz.p[i] = -h * start.slope[i];
-    rest.p[i] = carry.p[i];
+    rest.p[i] = carry.p[i] - h * start.change[i];
   }
   // False for infinities and NaN alike.
   const Real length = squares_of(dz.q, rest.q) + squares_of(dz.p, rest.p);
@@ -1063,9 +1109,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_8219aebe
+}  // namespace emitted_4f53f7e1
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x8219aebe
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4f53f7e1
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -123,9 +123,11 @@ void add_gsl(const StepRow& row, const SourceText& source, const SceneValues& sc
                   }});
 }
 
-void measure(const StepRow& row) {
+void measure(StepRow row) {
   const SourceText source = source_of(row);
   const SceneValues scene = scene_of(source, row);
+  // `hamgen run` makes a step for its scene.
+  row.request.scene = {.asked = {.scene = row.scene, .h = row.h}, .values = scene, .kept = {}};
   std::vector<Contender> list;
   const std::string solver = add_hamgen(row, source, scene, row.request.solver.text(), list);
   if (row.hand) {

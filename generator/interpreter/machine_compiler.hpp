@@ -94,7 +94,8 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       if (own) {
         own->clear();
       } else {
-        own = Blocks<Real>::matrix(matrix.size, matrix.symmetric);
+        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows())
+                               : Blocks<Real>::matrix(matrix.size, matrix.symmetric);
       }
       m_.matrices[matrix.name] = own.get();
       return true;

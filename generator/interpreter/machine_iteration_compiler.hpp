@@ -73,8 +73,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    return [this, unknowns, ranges, residual, start, flag, are_whole, body, rule = iterate.rule,
-            name = iterate.name, work = iterate.work] {
+    return [this, unknowns, ranges, residual, of_each = iterate.of_each, start, flag, are_whole,
+            body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -83,8 +83,10 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       };
       if (rule == Rule::newton) {
         const bool known = memory.flags.at("known") != 0;
+        AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
-            *memory.rules.at(name), known, body, [&] { return this->lengths_of_each(each); },
+            newton, known, body,
+            [&] { return this->lengths_of_each(each, of_each ? &newton : nullptr); },
             [&] {
               each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
             });

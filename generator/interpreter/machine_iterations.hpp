@@ -28,6 +28,7 @@ class MachineIterations : public MachineAddresses<Real> {
   struct Lengths {
     Real size = 0;
     Real scale = 0;
+    Real uneven = 0;
   };
 
   // The rule hears of the corrections before they are made; the last ones are not made here.
@@ -38,7 +39,8 @@ class MachineIterations : public MachineAddresses<Real> {
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
       const Lengths lengths = measure();
-      const Answer answer = rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration));
+      const Answer answer =
+          rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration), lengths.uneven);
       if (answer != Answer::go_on) return ends(answer, lengths.size);
       correct();
     }
@@ -91,11 +93,14 @@ class MachineIterations : public MachineAddresses<Real> {
     return distance;
   }
   template <class Each>
-  Lengths lengths_of_each(const Each& each) const {
+  Lengths lengths_of_each(const Each& each, const AnyNewtonRule<Real>* rule) const {
     Lengths lengths;
     each([&](const Array2& u) {
-      lengths.size += magnitude(m_.frame.at(u.increment));
-      lengths.scale += magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
+      const Real moved = magnitude(m_.frame.at(u.increment));
+      const Real length = magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
+      lengths.size += moved;
+      lengths.scale += length;
+      if (rule != nullptr) lengths.uneven += rule->relative(moved, length);
     });
     return lengths;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <type_traits>
 
 #include "generator/base/diagnostic.hpp"
@@ -73,8 +74,11 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count) : Real(0);
     used_ = false;
   }
-  Answer operator()(Real size, Real scale, int iteration) override {
-    return answer(rule_(size, scale, iteration));
+  Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
+    return answer(rule_(size, scale, iteration, uneven));
+  }
+  [[nodiscard]] Real relative(Real moved, Real length) const override {
+    return rule_.relative(moved, length);
   }
 
  private:
@@ -157,21 +161,34 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(int size) : size_(size) { clear(); }
+  explicit MatrixOf(int size) : size_(size), place_(static_cast<std::size_t>(size)) {
+    std::iota(place_.begin(), place_.end(), 0);
+    clear();
+  }
+  explicit MatrixOf(std::vector<int> place)
+      : size_(static_cast<int>(place.size())), place_(std::move(place)) {
+    clear();
+  }
   void clear() override {
     matrix_.clear();
     for (int i = size_; i < Size; ++i) matrix_.put(i, i, 1);
   }
-  void put(int row, int column, Real value) override { matrix_.put(row, column, value); }
+  void put(int row, int column, Real value) override {
+    matrix_.put(place_[index(row)], place_[index(column)], value);
+  }
   [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
   void solve(std::span<Real> vector) const override {
-    Padded<Real, Size> all(vector);
+    Padded<Real, Size> all({});
+    for (std::size_t i = 0; i < vector.size(); ++i) all.padded[place_[i]] = vector[i];
     matrix_.solve(all.padded);
-    std::copy_n(all.padded, vector.size(), vector.begin());
+    for (std::size_t i = 0; i < vector.size(); ++i) vector[i] = all.padded[place_[i]];
   }
 
  private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
   int size_;
+  std::vector<int> place_;
   Matrix matrix_;
 };
 
@@ -237,6 +254,16 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
     }
     using Matrix = typename NumericsOf<Real>::template Dense<most>;
     return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place) {
+  const auto size = static_cast<int>(place.size());
+  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+    constexpr int most = decltype(n)::value;
+    using Matrix = typename NumericsOf<Real>::template Dense<most>;
+    return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
   });
 }
 

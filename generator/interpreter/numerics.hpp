@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace hamgen {
 
@@ -66,7 +67,8 @@ struct AnyNewtonRule {
   virtual void begin(bool predicted) = 0;
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
-  virtual Answer operator()(Real size, Real scale, int iteration) = 0;
+  virtual Answer operator()(Real size, Real scale, int iteration, Real uneven) = 0;
+  [[nodiscard]] virtual Real relative(Real moved, Real length) const = 0;
 };
 // When a fixed point ends: one of the rules that Blocks::fixed_point_rule knows.
 template <class Real>
@@ -124,6 +126,9 @@ struct Blocks {
                                                                        int components);
   // Up to 256 rows.
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
+  // Eliminated in this order, place[i] for unknown i: what elimination within a band leaves out are
+  // products with zeros.
+  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(std::vector<int> place);
 };
 
 }  // namespace hamgen

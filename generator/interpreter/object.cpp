@@ -33,7 +33,7 @@ template <class Real>
 void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
-    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->size);
+    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows());
   } else if (field.type.starts_with("NewtonRule")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), false);
   } else if (field.type.starts_with("WaitingNewtonRule")) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "generator/algebra/derivative.hpp"
 #include "generator/algebra/polynomial.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -17,13 +19,21 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Expression step() { return Expression::symbol("h", kRankOfStep); }
 
+Expression at_zero(const Expression& e) { return substitute(e, {{"h", Expression(0)}}); }
+
 // Is there a reciprocal of zero in it?
 bool is_undefined(const Expression& e) {
   if (e.kind() == Kind::power && e.operands()[0].is_zero()) return true;
-  for (const Expression& operand : e.operands()) {
-    if (is_undefined(operand)) return true;
+  return std::ranges::any_of(e.operands(), is_undefined);
+}
+
+// Is there one at h = 0?  In a product with a zero, as of tan(h)/h, nothing would be left of it.
+bool divides_by_zero(const Expression& e) {
+  if (!depends_on(e, "h")) return false;
+  if (e.kind() == Kind::power && at_zero(e.operands()[0]).is_zero() && is_undefined(at_zero(e))) {
+    return true;
   }
-  return false;
+  return std::ranges::any_of(e.operands(), divides_by_zero);
 }
 
 // M J with J = [[0, I], [-I, 0]]: its column j is -(column n + j of M), its column n + j is column
@@ -53,7 +63,7 @@ std::vector<SparseMatrix> gauge_series(const SparseMatrix& c, int count) {
   };
   for (const auto& [place, value] : c) {
     if (has_corner(value)) throw without_series(value);
-    if (is_undefined(substitute(value, {{"h", Expression(0)}}))) {
+    if (divides_by_zero(value)) {
       // It may still have a limit, and a series.
       if (const auto limits = step_series(value, count)) {
         for (int l = 0; l < count; ++l) {
@@ -69,10 +79,10 @@ std::vector<SparseMatrix> gauge_series(const SparseMatrix& c, int count) {
         derivative_of_entry = derivative(derivative_of_entry, step());
         factorial *= l;
       }
-      const Expression at_zero = substitute(derivative_of_entry, {{"h", Expression(0)}});
-      if (is_undefined(at_zero)) throw without_series(value);
-      if (!at_zero.is_zero()) {
-        series[at(l)][place] = at_zero * Expression(Rational(1 / factorial));
+      const Expression coefficient = at_zero(derivative_of_entry);
+      if (is_undefined(coefficient)) throw without_series(value);
+      if (!coefficient.is_zero()) {
+        series[at(l)][place] = coefficient * Expression(Rational(1 / factorial));
       }
     }
   }

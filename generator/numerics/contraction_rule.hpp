@@ -30,7 +30,7 @@ struct ContractionRule {
     const Real before = size;
     Verdict verdict = rule(moved, iterations);
     size = rule.size;
-    round_off = epsilon * moved.scale;
+    round_off = moved.round_off();
     if (verdict == Verdict::failed) return give_up();
     if (before > 0 && size > 64 * round_off) learn(size / before);
     if (is_slow()) return give_up();

@@ -7,14 +7,18 @@ struct Distance {
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
   static constexpr Real lost = epsilon * epsilon * epsilon;
+  // What is rounded like this: a unit of rounding of smaller numbers may be lost below the smallest
+  // number there is, and how far they are from their end cannot be told by it.
+  static constexpr Real tiny = 1 / largest;
   Real size = 0;
   Real scale = 0;
   Real far = 0;
 
   static Real far_of(Real moved, Real length) {
-    return moved <= units * epsilon * length ? Real(0) : moved;
+    return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
   bool close() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
 
   void add(Real moved, Real length) {
     size += moved;
@@ -62,7 +66,7 @@ struct FixedPointRule {
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
     stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = epsilon * moved.scale;
+    const Real round_off = moved.round_off();
     if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
     if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
     if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;

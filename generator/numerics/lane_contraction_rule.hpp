@@ -18,7 +18,7 @@ struct ContractionRule : FixedPointRule<2> {
   Mask operator()(const Distance& moved, int iterations) {
     const Real before = size;
     Judgement judgement = judge(moved, iterations);
-    round_off = select(open, epsilon * moved.scale, round_off);
+    round_off = select(open, moved.round_off(), round_off);
     const Mask second = before > 0;
     learn(open & !judgement.failed & second & (size > 64 * round_off), size / before);
     judgement.failed = judgement.failed | is_slow();

@@ -4,14 +4,17 @@ struct Distance {
   static constexpr double units = 64;
   // What is less than this of the whole is not waited for.
   static constexpr double lost = epsilon * epsilon * epsilon;
+  // What is rounded like this.
+  static constexpr double tiny = 1 / largest;
   Real size = 0;
   Real scale = 0;
   Real far = 0;
 
   static Real far_of(const Real& moved, const Real& length) {
-    return select(moved <= units * epsilon * length, Real(0), moved);
+    return select(moved <= units * epsilon * (length + tiny), Real(0), moved);
   }
   Mask close() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
 
   void add(const Real& moved, const Real& length) {
     size += moved;
@@ -54,7 +57,7 @@ struct FixedPointRule : Iteration {
     const Mask decreased = (smallest <= 0) | (size < smallest);
     smallest = select(decreased, size, smallest);
     stuck = select(decreased, Real(0), stuck + 1);
-    const Real round_off = epsilon * moved.scale;
+    const Real round_off = moved.round_off();
     const Mask rests = ((stuck >= 2) & (size <= 64 * round_off)) |
                        ((stuck >= 3) & (size <= 512 * round_off)) |
                        ((stuck >= 4) & (size <= 4096 * round_off));

@@ -35,11 +35,18 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.  Gives the lanes
-  // that move.
-  Mask operator()(const Real& size, const Real& scale, int iterations) {
+  // What an increment is of what its unknown is rounded with.
+  static Real relative(const Real& moved, const Real& length) {
+    return select(moved > 0, moved / length, Real(0));
+  }
+  // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
+  Mask operator()(const Real& size, const Real& scale, int iterations,
+                  const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && !checks && all((!open) | is_lost(size, round_off))) {
+    const Real parts = size * uneven;
+    const bool first = iterations == 1 && !checks;
+    const Mask alone = first ? is_lost(size, round_off) & is_even(parts, false) : Mask(false);
+    if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
       return open;
@@ -53,9 +60,9 @@ struct NewtonRule : Iteration {
     }
     if (iterations > 1) {
       done = done | learn(size, round_off);
-      done = done | is_next_lost(size, round_off);
-    } else if (!checks) {
-      done = done | is_lost(size, round_off);
+      done = done | (is_next_lost(size, round_off) & is_even(parts, true));
+    } else {
+      done = done | alone;
     }
     open = open & !done;
     if (iterations > 1) {
@@ -83,6 +90,12 @@ struct NewtonRule : Iteration {
   // The same of the first.
   Mask is_lost(const Real& size, const Real& round_off) const {
     return is_next_lost(size, round_off) & is_straight(size, round_off);
+  }
+  // Is the next increment lost in the rounding of each unknown?
+  Mask is_even(const Real& parts, bool measured) const {
+    const Mask even = contraction * parts * 16 <= epsilon;
+    if (measured) return even;
+    return even & (motion.bend * parts * 1024 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

@@ -25,6 +25,13 @@
 // step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
 // alone.
 //
+// Note [what every unknown lacks]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order is missing in every gradient by itself, and nothing moves it to where it is lost: a
+// bead that rests while its neighbour is hit moves by little, all of which is increment, and was
+// off by 57 roundings.  Of each the next increment is taken to be the same part of the last one as
+// of all together; `uneven` is the sum of what the increments are of their unknowns.
+//
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
@@ -56,8 +63,11 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // size, scale: sums over the unknowns, of their increments and of their values.
-  Verdict operator()(Real size, Real scale, int iterations) {
+  // What an increment is of what its unknown is rounded with.
+  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
+  // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
+  // relative ones, where each counts.
+  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
     if (previous > 0) {
@@ -78,7 +88,8 @@ struct NewtonRule {
     }
     if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
     const bool looked = previous > 0 || is_straight(size, round_off);
-    if (looked && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
+    const bool serves = uneven <= 0 || is_even(size * uneven);
+    if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
     const bool astray =
@@ -90,6 +101,13 @@ struct NewtonRule {
   bool is_chance(Real size, Real round_off) const {
     return Power == 2 || (previous > 0 && previous <= round_off) ||
            contraction * size * 8192 <= round_off;
+  }
+  // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
+  // lacks].
+  bool is_even(Real parts) const {
+    const bool straight =
+        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+    return straight && contraction * parts * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off) const {

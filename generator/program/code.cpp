@@ -288,8 +288,13 @@ void collect_symbols(const Body& body, std::set<std::string>& names) {
 bool uses_object(const Routine& routine, const std::string& object) {
   Mentions found;
   mention(routine.body, found);
-  // A symbol of this name may be another place: the parameter k beside the coefficients k.
-  const bool is_symbol = !routine.places.contains(object) && found.read.contains(object);
+  // A symbol of this name may be something else: the parameter k beside the coefficients k, the
+  // momentum par beside the parameters par.  Of arguments only numbers are symbols themselves.
+  const auto argument = std::ranges::find(routine.arguments, object, &Argument::name);
+  const bool is_record =
+      argument != routine.arguments.end() && !(argument->record.empty() && argument->sizes.empty());
+  const bool is_symbol =
+      !is_record && !routine.places.contains(object) && found.read.contains(object);
   if (is_symbol || found.objects.contains(object)) return true;
   return std::ranges::any_of(routine.places, [&](const auto& entry) {
     const auto& [symbol, place] = entry;

@@ -194,6 +194,8 @@ struct IterateArray {
   int lanes = 0;  // so many of one array of unknowns are moved at once, as of For
   // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
   std::optional<int> work = {};
+  // Of Newton: whether the increment of each unknown counts, not their sum alone.
+  bool of_each = false;
   // Of a simplified Newton: whether its matrix serves, and what the equations lacked.
   std::optional<Place> factorised = {};
   std::string residual = {};

@@ -75,7 +75,11 @@ std::string member_equations(const Member& member) {
   const std::string raised =
       member.generating_order > 0 ? ", K(z, h) a modified Hamiltonian in place of H" : "";
   const auto parameters = uniform_parameters(member);
-  if (!parameters || to_text(parameters->alpha).size() > 40) {
+  const auto is_long = [](const Expression& e, std::size_t most) {
+    return to_text(e).size() > most;
+  };
+  if (!parameters || is_long(parameters->alpha, 40) || is_long(parameters->beta, 80) ||
+      is_long(parameters->gamma, 80)) {
     return fmt::format("Z = z + h J grad {}(zbar), zbar = (z + Z)/2 + C (Z - z), z = (q, p){}",
                        function, raised);
   }

@@ -98,6 +98,11 @@ Expression LoopStage::exact_lack(RoutineBuilder& b, Body& body, bool is_p,
   return left + b.let(body, stem + "small", small);
 }
 
+Expression LoopStage::own_share(RoutineBuilder& b) const {
+  if (!needs_drift()) return Expression(1);
+  return Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
+}
+
 void LoopStage::add_exact_result(RoutineBuilder& b) const {
   Body& body = b.body();
   const auto at = [&](const char* field, bool momentum) {
@@ -118,9 +123,7 @@ void LoopStage::add_exact_result(RoutineBuilder& b) const {
   call("gradient_error", {{"start", "slope"}, {"start", "change"}, {"start", "lost"}});
   body.back().remark = {
       "What the equations lack at the rounded solution, and the way to their own."};
-  Expression own(1);
-  if (needs_drift())
-    own = Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
+  const Expression own = own_share(b);
   Body lack;
   Expression lost_q = at("lost", false);
   Expression lost_p = at("lost", true);

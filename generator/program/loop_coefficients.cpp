@@ -46,7 +46,8 @@ std::optional<Coefficients> loop_coefficients(const Environment& environment,
     b.body().push_back(
         {Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"zero"}, {"k", "drift"}}}});
   }
-  const bool keeps_mass = !one_mass || needs_drift || tangent || plan.constant_matrix;
+  const bool keeps_mass = !one_mass || needs_drift || tangent || plan.constant_matrix ||
+                          (plan.matrix && !plan.mass->is_number());
   if (plan.reduced && keeps_mass && (needs_drift || needs_scale)) {
     record.fields.push_back({.name = "mass", .sizes = sizes, .remark = "d2H/dp_i^2"});
     if (one_mass) {

@@ -144,8 +144,7 @@ Routine LoopStage::evaluate() const {
     b.body().push_back(for_each(elements(), lacks(b, at)));
     return b.take();
   }
-  const Expression own =
-      Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
+  const Expression own = own_share(b);
   const Expression drift = b.at("k", "drift", {affine("i")});
   const StageRow first = weights_.row_of_p(b, each, {at.by_q, drift});
   set_stage(b, each, bar, z, carry, first, "change");

@@ -71,6 +71,8 @@ class LoopStage {
   [[nodiscard]] Gradient slope(RoutineBuilder& b) const;
   static Expression state(RoutineBuilder& b, const char* object, const char* field);
   [[nodiscard]] Expression mass(RoutineBuilder& b) const;
+  // 1 / (1 + h beta m): by what a torn momentum answers to what moves it.
+  Expression own_share(RoutineBuilder& b) const;
   // start.slope = grad H at a stage.
   void add_gradient(Body& body, const Place& q, const Place& p) const;
   void add_gradient_at_stage(Body& body) const;

@@ -158,7 +158,8 @@ void StepBuilder::tear_value(NewtonBlock& newton, int t) {
     stage_value_[index(t)] = first;
     const Expression value = at_stage(equations_.stage_gradient(k));
     stage_value_[index(t)] = stage;
-    gradient_[index(k)] = name_once(gradient_[index(k)].name() + " at first", value, newton.where);
+    const std::string name = gradient_[index(k)].name() + " at first(" + name_of(t) + ")";
+    gradient_[index(k)] = name_once(name, value, newton.where);
   }
   const Expression lack = lacking(t, first, newton.where);
   for (const int k : equations_.row_gradients(t)) gradient_[index(k)] = gradient[index(k)];
@@ -214,7 +215,11 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
     const std::vector<int> gradients = equations_.row_gradients(t);
     if (solves_constants_ || !std::ranges::all_of(gradients, is_force)) continue;
     std::vector<Expression> terms;
-    for (const int k : gradients) terms.push_back(weight(t, k) * correction_[index(k)].second);
+    for (const int k : gradients) {
+      // Of an earlier block the row has it in the gradient itself.
+      const bool is_ours = std::ranges::find(newton.evaluated, k) != newton.evaluated.end();
+      if (is_ours) terms.push_back(weight(t, k) * correction_[index(k)].second);
+    }
     if (const auto off = newton.off.find(t); off != newton.off.end()) terms.push_back(off->second);
     moved[t] = Expression::sum(std::move(terms));
   }
@@ -225,6 +230,8 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
     renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + moved[v],
           newton.outside);
   }
+  // What the last iteration made of them is behind the solution from here on.
+  for (const int t : block.torn) torn_change_.erase(t);
 }
 
 // dH/dz_k as the last iteration evaluated it, and what the last increment adds.

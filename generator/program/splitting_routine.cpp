@@ -60,6 +60,9 @@ std::optional<LocalVelocity> velocity_in_loops(const LoweredStep& lowered) {
 // the form of the chain of 25 drifted by 2e-4 units of rounding a step by Stormer-Verlet, h = 0.7.
 // So a step of three substeps looks at all three, rounded once.  It is the way back to the last
 // place of the carry then.
+// Until the last substep of a kind there is nothing in its rest but the carry: it begins there.  In
+// loops the coordinates that are looked at stand in its place, which makes one array less to go
+// through, and none to clear.
 class SplittingRoutine {
  public:
   SplittingRoutine(const Environment& environment, const LoweredStep& lowered)
@@ -103,6 +106,9 @@ class SplittingRoutine {
     }
     routine_.arguments.push_back(state_argument("dz", true));
     routine_.arguments.push_back(state_argument("rest", true));
+    if (begins_in_loops() && closed_ && reversible_)
+      routine_.remark.emplace_back(
+          "The coordinates it looks at stand in rest.p before that begins.");
     if (velocity_) {
       environment_.bind_parameters(routine_);
       for (const auto& [symbol, place] : velocity_->places) routine_.places[symbol] = place;
@@ -131,6 +137,8 @@ class SplittingRoutine {
   // What the step works on.  Where velocities are local nobody looks at the momenta on the way, and
   // a step of one pair of substeps begins its sums where it has the components.
   [[nodiscard]] bool begins_in_loops() const { return velocity_ && pairs_ == 1; }
+  // The coordinates that it looks at there.
+  [[nodiscard]] Place looked_at() const { return reversible_ ? Place{"rest", "p"} : Place{"q"}; }
   void add_places(Body& body) {
     if (!begins_in_loops()) {
       body.push_back({Copy{"State", "now", "z", true}});
@@ -138,7 +146,7 @@ class SplittingRoutine {
         body.push_back({Copy{"State", "dz", "carry"}});
         body.push_back({Copy{"State", "rest", ""}});
       }
-    } else if (closed_) {
+    } else if (closed_ && !reversible_) {
       body.push_back({Array{"q", {n_}}});
     }
     for (const HalfStep& kind : {first_, second_}) {
@@ -200,7 +208,7 @@ class SplittingRoutine {
       return;
     }
     Place point{state, kind.kick ? "q" : "p"};
-    if (begins_in_loops() && state == "now") point = {"q"};
+    if (begins_in_loops() && state == "now") point = looked_at();
     body.push_back({Call{kind.routine(), {{"par"}, std::move(point), kind.gradient}}});
   }
 
@@ -217,7 +225,7 @@ class SplittingRoutine {
   }
   // Component `index` of the coordinates or momenta of a state.
   Expression component(const std::string& state, bool momentum, const AffineIndex& index) {
-    if (begins_in_loops() && state == "now") return element({"q"}, index);
+    if (begins_in_loops() && state == "now") return element(looked_at(), index);
     if (arrays_) return element({state, momentum ? "p" : "q"}, index);
     const Place place =
         environment_.place(state, static_cast<int>(index.constant) + (momentum ? n_ : 0));
@@ -252,10 +260,11 @@ class SplittingRoutine {
       const Expression carry = component("carry", kind.kick, i);
       const Expression z = component("z", kind.kick, i);
       const Origin origin{.terms = velocity_ && !kind.kick ? velocity_->terms : std::set<int>()};
-      if (kind.once || (begins && reversible_)) {
-        body.push_back({Assign{dz.name(), change}, {}, origin});
-        body.push_back({Assign{rest.name(), carry}});
-      } else {
+      // See Note [the way back]; with nothing to add to there is no sum.
+      const bool no_sum = kind.once || (reversible_ && begins);
+      if (no_sum) body.push_back({Assign{dz.name(), change}, {}, origin});
+      if (kind.once || (reversible_ && !begins)) body.push_back({Assign{rest.name(), carry}});
+      if (!no_sum) {
         if (begins && begins_in_loops()) {
           body.push_back({Assign{dz.name(), carry}});
           body.push_back({Assign{rest.name(), Expression(0)}});
@@ -272,7 +281,7 @@ class SplittingRoutine {
         continue;
       }
       const Expression lost = Expression::symbol("lost(" + z.name() + ")", kRankOfTemporary);
-      body.push_back({Let{lost.name(), rest, true}});
+      body.push_back({Let{lost.name(), reversible_ ? carry : rest, true}});
       body.push_back(to_local ? Instruction{Let{looked_at, z, true}}
                               : Instruction{Assign{looked_at, z}});
       body.push_back({Collect{looked_at, lost.name(), dz}});

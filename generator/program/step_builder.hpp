@@ -115,6 +115,7 @@ class StepBuilder {
                                                             int section);
   // h times this, and what rounding took from it: where h is a simple fraction a pattern again.
   std::pair<Expression, Expression> flow_of(int k, const Expression& gradient, int section);
+  std::string short_name(const std::string& text, const std::string& place);
   // What rounding took from dH/dz_k itself.
   void find_lost_of_gradient(int k, int section);
   // Does dH/dz_k depend on the stage?
@@ -191,6 +192,7 @@ class StepBuilder {
   std::map<std::string, Expression> lost_of_gradient_;  // by its name
   // zbar_t - z_t by the rows torn out, see Note [momenta before they are rounded].
   std::map<int, Expression> torn_change_;
+  std::map<std::string, std::string> short_names_;  // of products, by their texts
   std::map<std::string, int> rests_;  // how many have been named, by what they belong to
   std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;

@@ -86,7 +86,7 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
   if (!factor.is_number()) {
     factor = name_once("(" + to_text(factor) + ")", factor, kCoefficients);
   }
-  const std::string text = to_text(factor) + "*" + of;
+  const std::string text = short_name(to_text(factor) + "*" + of, name_of(i) + " " + of);
   const Expression part =
       name_once("part(" + text + ")", factor * flow, section, Lowering::Keep::apart);
   const Expression lost =
@@ -94,6 +94,12 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
   if (!is_left) return {sign * part, sign * lost + entry * flow_lost};
   const Expression left = name_once("left(" + text + ")", flow - part, section);
   return {sign * left, -(sign * lost) + entry * flow_lost};
+}
+
+// The product's own text, or of a long one, whose first place names it, that place.
+std::string StepBuilder::short_name(const std::string& text, const std::string& place) {
+  constexpr std::size_t longest = 40;
+  return text.size() <= longest ? text : short_names_.try_emplace(text, place).first->second;
 }
 
 std::pair<Expression, Expression> StepBuilder::flow_of(int k, const Expression& gradient,
@@ -130,7 +136,8 @@ void StepBuilder::find_lost_of_gradient(int k, int section) {
     if (factor.is_zero()) continue;
     if (depends_on_state(factor)) return;
     const Expression& value = stage_value_[index(v)];
-    const std::string text = to_text(factor) + "*" + value.name();
+    const std::string text =
+        short_name(to_text(factor) + "*" + value.name(), gradient.name() + " " + value.name());
     const Expression number =
         factor.is_number() ? factor : name_once("(" + to_text(factor) + ")", factor, kCoefficients);
     parts.push_back(

@@ -158,24 +158,29 @@ void add_step(Body& body, const Program& code, const std::string& h, const std::
   body.push_back({std::move(step)});
 }
 
-Routine curvature_routine(const Environment& environment, const StepEquations& equations) {
+std::string curvature_name(Part part) {
+  return part == Part::potential ? "potential_curvature" : "curvature";
+}
+
+Routine curvature_routine(const Environment& environment, const StepEquations& equations,
+                          Part part) {
   const int n = environment.degrees_of_freedom;
-  RoutineBuilder b(
-      {.name = "curvature",
-       .remark = {"y = H'' u at a state, q first."},
-       .arguments = {parameters_argument(),
-                     {.name = "q", .sizes = {n}, .decays = true},
-                     {.name = "p", .sizes = {n}, .decays = true},
-                     {.name = "u", .sizes = {2 * n}, .decays = true},
-                     {.name = "y", .sizes = {2 * n}, .changes = true, .decays = true}}});
-  if (equations.function) {
-    b.routine().remark = {"y = K'' u at a state, q first."};
-    std::vector<Argument>& list = b.routine().arguments;
-    list.insert(list.begin() + 1, {.name = "h"});
-  }
+  const bool all = part == Part::all;
+  const int size = all ? 2 * n : n;
+  RoutineBuilder b({.name = curvature_name(part),
+                    .remark = {!all                 ? "y = V'' u at a stage."
+                               : equations.function ? "y = K'' u at a state, q first."
+                                                    : "y = H'' u at a state, q first."},
+                    .arguments = {parameters_argument()}});
+  std::vector<Argument>& list = b.routine().arguments;
+  if (equations.function) list.push_back({.name = "h"});
+  list.push_back({.name = "q", .sizes = {n}, .decays = true});
+  if (all) list.push_back({.name = "p", .sizes = {n}, .decays = true});
+  list.push_back({.name = "u", .sizes = {size}, .decays = true});
+  list.push_back({.name = "y", .sizes = {size}, .changes = true, .decays = true});
   // A coordinate may be called y.
   Body zero{{Assign{at_apart(b.routine(), {"y", "", {affine("i")}}).name(), Expression(0)}}};
-  b.body().push_back(for_each(counting("i", 2 * n), std::move(zero)));
+  b.body().push_back(for_each(counting("i", size), std::move(zero)));
   const auto use = [n](Routine& routine, Body& body, const HessianEntry& entry) {
     const auto element = [&](const char* array, const StateElement& of) {
       AffineIndex index = of.index;
@@ -185,7 +190,7 @@ Routine curvature_routine(const Environment& environment, const StepEquations& e
     body.push_back(
         {Accumulate{element("y", entry.row).name(), entry.value * element("u", entry.column)}});
   };
-  return kernel_entries(environment, equations.mechanics, Part::all, b.take(), {"q"}, {"p"}, use);
+  return kernel_entries(environment, equations.mechanics, part, b.take(), {"q"}, {"p"}, use);
 }
 
 }  // namespace hamgen

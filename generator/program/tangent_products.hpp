@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/kernel_routines.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
 #include "generator/program/routine_builder.hpp"
@@ -71,8 +72,9 @@ class TangentBuilder : public RoutineBuilder {
 void add_step(Body& body, const Program& code, const std::string& h, const std::string& state);
 
 // Of a system in loops: curvature(par, q, p, u, y), y = H'' u; where K stands in for H, of that,
-// with h behind par.
+// with h behind par.  Of the potential alone potential_curvature(par, q, u, y), y = V'' u.
+[[nodiscard]] std::string curvature_name(Part part);
 [[nodiscard]] Routine curvature_routine(const Environment& environment,
-                                        const StepEquations& equations);
+                                        const StepEquations& equations, Part part = Part::all);
 
 }  // namespace hamgen

@@ -197,18 +197,27 @@ class IterationWriter : public StatementWriter {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
       add(Define{"Real", "scale ", integer(0), true});
+      const bool of_each = iterate.of_each;
+      if (of_each) add(Define{"Real", "uneven ", integer(0), true});
       const auto measure = [&] {
         for (const UnknownArray& u : iterate.unknowns) {
-          set(at({"size "}), magnitude(Expression::symbol(u.increment)), "+=");
+          const Value moved = magnitude(Expression::symbol(u.increment));
+          set(at({"size "}), moved, "+=");
           set(at({"scale "}), length(u.value, u.beside), "+=");
+          if (!of_each) continue;
+          set(at({"uneven "}),
+              action("NewtonRule", rule, "relative", {moved, length(u.value, u.beside)}), "+=");
         }
       };
       over(iterate.ranges, measure, Shape::braces);
+      std::vector<Value> judged = judged_by_size();
+      if (of_each) judged.push_back(at({"uneven "}));
+      Value verdict = action("NewtonRule", rule, "", std::move(judged));
       if (form_.lanes) {
-        look_at_moving(action("NewtonRule", rule, "", judged_by_size()));
+        look_at_moving(std::move(verdict));
         return move(iterate, at({"moving "}));
       }
-      add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
+      add(Define{"Verdict", "verdict ", std::move(verdict)});
       end_newton();
       move(iterate);
     });

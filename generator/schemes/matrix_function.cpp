@@ -68,8 +68,6 @@ Expression number(const Real& value) { return Expression(to_rational(value)); }
 
 Expression call(const char* name, const Expression& x) { return Expression::apply(name, {x}); }
 
-const Expression kHalf(Rational(1, 2));
-
 RationalMatrix product(const RationalMatrix& a, const RationalMatrix& b) {
   RationalMatrix result(a.size(), std::vector<Rational>(a.size()));
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -142,6 +140,82 @@ std::vector<Cluster> clusters(const Matrix& square) {
   return result;
 }
 
+// Note [no difference of poles]
+// With x = y/2 the poles of 1/y - coth(y/2)/2 and of cot(y/2)/2 - 1/y at 0 cancel, and of a small x
+// the difference of what is left has nothing of worth.  Halves of x take the pole away:
+//   coth x - 1/x = sum_(k = 1..n) 2^-k tanh(x/2^k) + 2^-n (coth t - 1/t),  t = x/2^n,
+//   1/x - cot x  = sum_(k = 1..n) 2^-k tan(x/2^k)  + 2^-n (1/t - cot t),
+// by coth t = (tanh(t/2) + coth(t/2))/2, and what remains is Lambert's continued fraction
+//   coth t - 1/t = t/(3 + t^2/(5 + t^2/(7 + ...))),  1/t - cot t = t/(3 - t^2/(5 - t^2/(7 - ...))).
+// The terms are of one sign, for tan up to x = pi.  Ended after 2m + 1 the fraction lacks
+// 3 t^2m / ((2m + 1)!!^2 (2m + 3)) of itself: with n = 12 and m = 8 that is less than the rounding
+// of quad up to y = 1000, and than that of double up to y = 10000.
+constexpr int kHalvings = 12;
+constexpr int kLastOfFraction = 17;
+
+// (coth x - 1/x)/(2h), or of tan and cot (1/x - cot x)/(2h), where x = rate h.
+Expression half_of_rest(const Real& rate, bool oscillates) {
+  std::vector<Expression> terms;
+  Real part = rate;
+  Rational weight(1, 2);
+  for (int k = 1; k <= kHalvings; ++k) {
+    part /= 2;
+    weight /= 2;
+    terms.push_back(Expression(weight) * call(oscillates ? "tan" : "tanh", number(part) * h()) /
+                    h());
+  }
+  const Expression square = number(oscillates ? Real(-part * part) : Real(part * part)) * h() * h();
+  Expression fraction(kLastOfFraction);
+  for (int odd = kLastOfFraction - 2; odd >= 3; odd -= 2) {
+    fraction = Expression(odd) + square / fraction;
+  }
+  terms.push_back(Expression(weight) * number(part) / fraction);
+  return Expression::sum(std::move(terms));
+}
+
+// The same of coth at x = (s + i w) h, real and imaginary part, with
+//   tanh(u + i v) = (sinh u cosh u + i sin v cos v)/(sinh^2 u + cos^2 v),
+// divided by cosh(u)^2, which may overflow.  What remains is its series
+//   coth t - 1/t = sum_(j = 1..) B_2j 2^2j t^(2j-1)/(2j)!,
+// real and imaginary part for themselves: its first term is the only one of weight.
+constexpr int kTermsOfSeries = 9;
+
+std::pair<Expression, Expression> half_of_complex_rest(const Real& s, const Real& w) {
+  std::vector<Expression> real;
+  std::vector<Expression> imaginary;
+  Real part_s = s;
+  Real part_w = w;
+  Rational weight(1, 2);
+  for (int k = 1; k <= kHalvings; ++k) {
+    part_s /= 2;
+    part_w /= 2;
+    weight /= 2;
+    const Expression u = number(part_s) * h();
+    const Expression v = number(part_w) * h();
+    const Expression tangent = call("tanh", u);
+    const Expression sine = call("sin", v) / call("cosh", u);
+    const Expression cosine = call("cos", v) / call("cosh", u);
+    const Expression denominator = tangent * tangent + cosine * cosine;
+    real.push_back(Expression(weight) * tangent / denominator / h());
+    imaginary.push_back(Expression(weight) * sine * cosine / denominator / h());
+  }
+  Real power_s = part_s;
+  Real power_w = part_w;
+  for (int j = 1; j <= kTermsOfSeries; ++j) {
+    const GiNaC::ex exact = GiNaC::bernoulli(2 * j) * GiNaC::pow(4, j) / GiNaC::factorial(2 * j);
+    const Rational factor = weight * hamgen::to_rational(GiNaC::ex_to<GiNaC::numeric>(exact));
+    const Expression power = Expression::power(h(), Expression(2 * j - 2));
+    real.push_back(number(to_real(factor) * power_s) * power);
+    imaginary.push_back(number(to_real(factor) * power_w) * power);
+    for (int twice = 0; twice < 2; ++twice) {
+      const Real product_s = power_s * part_s - power_w * part_w;
+      power_w = power_s * part_w + power_w * part_s;
+      power_s = product_s;
+    }
+  }
+  return {Expression::sum(std::move(real)), Expression::sum(std::move(imaginary))};
+}
+
 void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) {
   const Matrix linear = a * cluster.projector;
   if (cluster.b == 0 && cluster.a == 0) {
@@ -152,36 +226,23 @@ void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) 
     // Eigenvalues +-i w or +-s of A.
     const bool oscillates = cluster.a < 0;
     const Real rate = sqrt(abs(cluster.a));
-    const Expression y = number(rate) * h();
-    const Expression half_coth = kHalf / call(oscillates ? "tan" : "tanh", y * kHalf);
-    const Expression function =
-        oscillates ? half_coth - Expression(1) / y : Expression(1) / y - half_coth;
+    const Expression function = -h() * half_of_rest(rate / 2, oscillates);
     result.terms.push_back({function, to_rational(Matrix(linear / rate))});
     if (oscillates) result.frequencies.push_back(to_rational(rate));
     return;
   }
   // Eigenvalues +-(s +- i w): with f(h(s + i w)) = F + i G and Q = (A^2 - a) P / b, whose square is
-  // -P, the part is A (Re((F + i G)/(s + i w)) P + Im((F + i G)/(s + i w)) Q), and
-  // coth((u + i v)/2) = (sinh u - i sin v)/(cosh u - cos v), in half angles because
-  // cosh u - cos v = 2 sinh(u/2)^2 + 2 sin(v/2)^2 would cancel, and divided by cosh(u/2)^2, which
-  // may overflow.
+  // -P, the part is A (Re((F + i G)/(s + i w)) P + Im((F + i G)/(s + i w)) Q).
   const Real modulus = sqrt(cluster.a * cluster.a + cluster.b * cluster.b);
   const Real s = sqrt((modulus + cluster.a) / 2);
   const Real w = sqrt((modulus - cluster.a) / 2);
   const Matrix turned =
       a * ((a * a - cluster.a * Matrix::Identity(a.rows(), a.cols())) * cluster.projector) /
       cluster.b;
-  const Expression u = number(s) * h();
-  const Expression v = number(w) * h();
-  const Expression square = number(modulus) * h();
-  const Expression tangent = call("tanh", u * kHalf);
-  const Expression sine = call("sin", v * kHalf) / call("cosh", u * kHalf);
-  const Expression cosine = call("cos", v * kHalf) / call("cosh", u * kHalf);
-  const Expression denominator = tangent * tangent + sine * sine;
-  const Expression real = number(s) / square - kHalf * tangent / denominator;
-  const Expression imaginary = kHalf * sine * cosine / denominator - number(w) / square;
-  result.terms.push_back({real, to_rational(Matrix((s * linear - w * turned) / modulus))});
-  result.terms.push_back({imaginary, to_rational(Matrix((w * linear + s * turned) / modulus))});
+  const auto [real, imaginary] = half_of_complex_rest(s / 2, w / 2);
+  result.terms.push_back({-h() * real, to_rational(Matrix((s * linear - w * turned) / modulus))});
+  result.terms.push_back(
+      {-h() * imaginary, to_rational(Matrix((w * linear + s * turned) / modulus))});
 }
 
 }  // namespace

@@ -16,16 +16,6 @@ constexpr int kLargestDense = 1024;
 // Up to here dense elimination takes less than 100 microseconds, whatever the pattern.
 constexpr int kSmall = 64;
 
-// Where unknown i stands.
-int place(const ArrayMatrix& order, int i) {
-  const int length = order.size / order.arrays;
-  const int element = i % length;
-  const bool second_half = 2 * element >= length;
-  const int row =
-      !order.folded ? element : (second_half ? 2 * (length - 1 - element) + 1 : 2 * element);
-  return row * order.arrays + i / length;
-}
-
 // How many arrays of the same length the variables are; 1 if they differ in length.
 int equal_arrays(const Mechanics& mechanics, int size) {
   std::vector<int> lengths;
@@ -92,8 +82,7 @@ ArrayMatrix choose_matrix(const Mechanics& mechanics, const FamilyParameters& me
   std::vector<bool> filled(maybe_dense ? rows * rows : 0);
   for_each_entry(mechanics, member, reduced, [&](int row, int column) {
     for (ArrayMatrix& order : orders) {
-      order.bandwidth =
-          std::max(order.bandwidth, std::abs(place(order, row) - place(order, column)));
+      order.bandwidth = std::max(order.bandwidth, std::abs(order.row(row) - order.row(column)));
     }
     if (maybe_dense)
       filled[static_cast<std::size_t>(row) * rows + static_cast<std::size_t>(column)] = true;

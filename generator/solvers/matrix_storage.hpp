@@ -1,6 +1,8 @@
 // How the matrix of a system in loops is stored and eliminated.
 #pragma once
 
+#include <vector>
+
 namespace hamgen {
 
 enum class MatrixKind {
@@ -22,6 +24,21 @@ struct ArrayMatrix {
   bool in_lanes = false;
   bool kept = false;
   [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
+  // Where this unknown stands.
+  [[nodiscard]] int row(int unknown) const {
+    const int length = size / arrays;
+    const int element = unknown % length;
+    const bool second_half = 2 * element >= length;
+    const int place = !folded       ? element
+                      : second_half ? 2 * (length - 1 - element) + 1
+                                    : 2 * element;
+    return place * arrays + unknown / length;
+  }
+  [[nodiscard]] std::vector<int> rows() const {
+    std::vector<int> result;
+    for (int i = 0; i < size; ++i) result.push_back(row(i));
+    return result;
+  }
 };
 
 }  // namespace hamgen

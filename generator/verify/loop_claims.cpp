@@ -36,7 +36,8 @@ class LoopMemberClaims {
 
   std::vector<Identities> run() {
     std::vector<Identities> parts;
-    if (step_.code.routine("differentiate") != nullptr) parts.push_back(matrix_identities());
+    if (has("differentiate")) parts.push_back(matrix_identities());
+    if (has("differentiate") && !has("gradient_error")) parts.push_back(curvature_identities());
     if (!has("contract")) {
       parts.push_back(solve_identities({}));
       return parts;
@@ -116,6 +117,33 @@ class LoopMemberClaims {
     return std::move(identities_);
   }
 
+  // --- H'' times a vector: V'' where the momenta are torn out ----------------------------------
+
+  [[nodiscard]] const char* curvature() const {
+    return reduced_ ? "potential_curvature" : "curvature";
+  }
+  Identities curvature_identities() {
+    SymbolicMachine machine = step_.machine();
+    const int size = reduced_ ? n_ : 2 * n_;
+    const auto u = [&](int i) { return Expression::symbol("u(" + step_.name(i) + ")"); };
+    for (int i = 0; i < n_; ++i) machine.set({"q", "", {{i, {}}}}, step_.mechanics.variable(i));
+    for (int i = n_; i < size; ++i)
+      machine.set({"p", "", {{i - n_, {}}}}, step_.mechanics.variable(i));
+    for (int i = 0; i < size; ++i) machine.set({"u", "", {{i, {}}}}, u(i));
+    machine.run(curvature());
+    identities_ = {};
+    for (int k = 0; k < size; ++k) {
+      std::vector<Expression> terms;
+      for (const int j : partners_of(k)) {
+        if (j < size) terms.push_back(derivatives_.second(k, j) * u(j));
+      }
+      claim(fmt::format("element {} of H'' times a vector", k + 1),
+            machine.value({"y", "", {{k, {}}}}), Expression::sum(std::move(terms)));
+    }
+    identities_.emitted = machine.definitions();
+    return std::move(identities_);
+  }
+
   // --- the step -------------------------------------------------------------------------------
 
   // grad H as it was called at these points; a symbol that nobody knows if it was not.
@@ -176,6 +204,7 @@ class LoopMemberClaims {
     std::set<std::string> opaque = {"gradient", "potential_gradient", "generating_gradient",
                                     "differentiate"};
     if (!local_) opaque.insert("kinetic_gradient");
+    if (!has("gradient_error")) opaque.insert(curvature());
     SymbolicMachine machine = step_.machine(std::move(opaque));
     for (int i = 0; i < n_; ++i) machine.name({"start", "value", {{i, {}}}}, bar(i));
     for (int i = 0; i < n_ && (!reduced_ || keeps_momenta()); ++i) {
@@ -310,14 +339,14 @@ class LoopMemberClaims {
       claim_refined(machine, trace, g);
       return;
     }
-    claim_newton(machine, unknowns, increments, g);
+    claim_newton(machine, point, unknowns, increments);
   }
 
-  // The matrix is what `differentiate` makes of the unknowns; the last increment is made, and
-  // everything evaluated there.
-  void claim_newton(SymbolicMachine& machine, const std::vector<Expression>& unknowns,
-                    const std::vector<Expression>& increments,
-                    const std::function<Expression(int)>& g) {
+  // The matrix is what `differentiate` makes of the unknowns; the last increment is made.
+  void claim_newton(SymbolicMachine& machine, const std::vector<Expression>& before,
+                    const std::vector<Expression>& unknowns,
+                    const std::vector<Expression>& increments) {
+    const auto g = [&](int k) { return slope(machine, before, k); };
     const auto m = static_cast<int>(unknowns.size());
     const std::size_t systems = has("gradient_error") ? 2 : 1;
     const bool solved = machine.systems.size() == systems;
@@ -340,13 +369,32 @@ class LoopMemberClaims {
       claim("the last stage value of " + step_.name(i), moved.back(),
             unknowns[at(i)] + increments[at(i)]);
     }
-    const std::vector<Expression> point = stage_of(machine, moved, "at the end");
     if (systems == 2) {
-      claim_linear(machine, point);
-      return;
+      claim_linear(machine, stage_of(machine, moved, "at the end"));
+    } else {
+      claim_moved_slope(machine, before, increments, g);
     }
-    const auto last = [&](int k) { return slope(machine, point, k); };
-    claim_increments(machine, last);
+  }
+
+  // The step moves by the gradient of the last iteration and H'' times the last increment, of which
+  // the torn momenta have their share.
+  void claim_moved_slope(SymbolicMachine& machine, const std::vector<Expression>& before,
+                         const std::vector<Expression>& increments,
+                         const std::function<Expression(int)>& g) {
+    std::vector<Expression> input(before.begin(), before.begin() + std::ssize(increments));
+    input.insert(input.end(), increments.begin(), increments.end());
+    const auto call = std::ranges::find(machine.calls, curvature(), &CallTrace::routine);
+    const bool is_there = call != machine.calls.end() && call->input == input;
+    claim("H'' times the last increment is taken at the unknowns", Expression(is_there ? 1 : 0),
+          Expression(1));
+    if (!is_there) return;
+    const auto& [alpha, beta, gamma] = member_;
+    const Expression h = step_size();
+    claim_increments(machine, [&](int k) {
+      if (!reduced_ || k < n_) return g(k) + call->output[at(k)];
+      const Expression own = mass(k - n_) / (Expression(1) + h * beta * mass(k - n_));
+      return g(k) - h * (Expression(1) - alpha) * own * call->output[at(k - n_)];
+    });
   }
 
   // H is quadratic, its gradient H'' z: whatever was rounded in the slopes taken at this point, the

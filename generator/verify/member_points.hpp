@@ -167,17 +167,18 @@ class MemberPoints {
   bool is_affine(int v) const {
     for (const auto& [k, weight] : weights_.at(v)) {
       for (const int u : variables_of(k)) {
-        if (points_[at(u)].unknown >= 0 || !is_implicit(u)) continue;
+        if (points_[at(u)].unknown >= 0 || !depends(u, v)) continue;
         const std::set<std::string> read = symbols(derivatives_.second(k, u));
         for (const int w : variables_of(k)) {
-          if (points_[at(w)].unknown < 0 && is_implicit(w) && read.contains(name(w))) return false;
+          if (points_[at(w)].unknown < 0 && depends(w, v) && read.contains(name(w))) return false;
         }
       }
     }
     return true;
   }
   // Does what is not iterated depend on itself through the rows of others?
-  bool is_implicit(int v) const {
+  bool is_implicit(int v) const { return depends(v, v); }
+  bool depends(int v, int on) const {
     std::set<int> reached;
     std::vector<int> open = {v};
     while (!open.empty()) {
@@ -188,7 +189,7 @@ class MemberPoints {
       for (const auto& [k, weight] : row->second) {
         for (const int u : variables_of(k)) {
           if (points_[at(u)].unknown >= 0) continue;
-          if (u == v) return true;
+          if (u == on) return true;
           if (reached.insert(u).second) open.push_back(u);
         }
       }

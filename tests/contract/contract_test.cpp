@@ -63,6 +63,18 @@ TEST(PlainSums, KeepTheContract) {
 }
 
 // Negative controls, of emitted text that is changed.
+TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
+  const auto forget_each = [](std::string text) {
+    const std::string look = "uneven <= 0 || is_even(";
+    const auto at = text.find(look);
+    EXPECT_NE(at, std::string::npos);
+    return at == std::string::npos ? text : text.replace(at, 11, "uneven >= 0");
+  };
+  const Case beads = case_of("beads", "shot", {.solver = "newton"}, 100);
+  EXPECT_LE(measure({beads}).at(0).worst, kAllowed);
+  EXPECT_GE(measure({beads}, forget_each).at(0).worst, 2 * kAllowed);
+}
+
 TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
   // It learns its contraction in free flight and believes it at the wall.
   const auto forget_the_motion = [](std::string text) {

@@ -108,6 +108,16 @@ TEST(HostileNames, NextToNumberedOnesAreFound) {
   EXPECT_EQ(messages("g++", text), "");
 }
 
+// The state's elements in what takes no parameters: `par` there is not the record of these.
+TEST(HostileNames, InInvariantsAreNotThoseOfArguments) {
+  const std::string text = header(
+      "system rotor\ncoordinate q, r\nmomentum par, pr\nparameter w = 2\n"
+      "H = (par^2 + pr^2)/2\ninvariant L = q*pr - r*par\n",
+      {}, "rotor");
+  ASSERT_NE(text, "");
+  for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
+}
+
 TEST(HostileNames, GiveCodeThatCompilesInC) {
   for (const char* alpha : {"", "0"}) {
     const std::string text = written_out({.alpha = alpha, .format = "c-header"});

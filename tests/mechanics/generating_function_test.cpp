@@ -57,6 +57,17 @@ TEST(GeneratingSeries, IsTheSameInBothForms) {
   }
 }
 
+// Of tan(h)/h - 1 = h^2/3 + 2 h^4/15 + ... nothing may be lost where zero meets its reciprocal.
+TEST(GaugeSeries, GoesThroughPolesThatCancel) {
+  const Expression h = Expression::symbol("h", kRankOfStep);
+  const Expression tangent = Expression::apply("tan", {h}) / h;
+  const auto gauge = gauge_series({{{0, 0}, tangent - Expression(1)}}, 5);
+  EXPECT_TRUE(gauge[0].empty());
+  EXPECT_EQ(gauge[2].at({0, 0}), Expression(Rational(1, 3)));
+  EXPECT_EQ(gauge[4].at({0, 0}), Expression(Rational(2, 15)));
+  EXPECT_THROW(gauge_series({{{0, 0}, Expression(1) / h}}, 3), UsageError);
+}
+
 // For H = (p^2 + q^2)/2 and C = 0 the flow is the midpoint step of (2/h) tan(h/2) H.
 TEST(GeneratingSeries, OfTheOscillatorIsThatOfTheTangent) {
   const Mechanics m = mechanics_of("coordinate q\nmomentum p\nH = (p^2 + q^2)/2\n");

@@ -77,6 +77,61 @@ TEST(Gauge, FullMatricesThatAreOddInHHaveOrderTwoAndOthersOrderOne) {
   }
 }
 
+// One block after another: the first is iterated, and its gradient, with what the last increment
+// adds, is in the rows of the second, where it counts once and as it is at the end.
+const auto kTwoBlocks = [](const std::vector<Jet<long double>>& z) {
+  return 0.5L * (z[2] * z[2] + z[3] * z[3]) + 0.25L * (z[0] * z[0] * z[0] * z[0]) +
+         0.25L * (z[1] * z[1] * z[1] * z[1]) + 0.5L * (z[1] * z[1]);
+};
+const char* const kTwoBlocksText =
+    "coordinate x, y\nmomentum px, py\nH = (px^2 + py^2)/2 + (x^4 + y^4)/4 + y^2/2\n";
+
+TEST(Gauge, ABlockTakesTheOneBeforeAsItWasLeft) {
+  const Vector start = {0.5L, 0.25L, -0.125L, 0.375L};
+  const long double h = 0.125L;
+  for (const long double own : {0.0L, 1.0L}) {
+    for (const long double other : {0.125L, 1.0L}) {
+      const Request request{
+          .alpha = own > 0 ? (other < 1 ? "[[1, 0], [1/8, 1/2]]" : "[[1, 0], [1, 1/2]]")
+                           : (other < 1 ? "[[0, 0], [1/8, 1/2]]" : "[[0, 0], [1, 1/2]]"),
+          .gamma = other < 1 ? "[[1/4, 0], [0, 0]]" : "[[1, 0], [0, 0]]",
+          .scalar = "long-double"};
+      const long double gamma = other < 1 ? 0.25L : 1;
+      const Matrix c = {
+          {own - 0.5L, 0, -gamma, 0}, {other, 0, 0, 0}, {0, 0, 0.5L - own, -other}, {0, 0, 0, 0}};
+      Vector by_hand = start;
+      constexpr int steps = 16;
+      for (int i = 0; i < steps; ++i) by_hand = iterated_step(kTwoBlocks, c, h, by_hand);
+      // As above, over t = 2.
+      EXPECT_LT(distance(Emitted(kTwoBlocksText, request).after(steps, start, h), by_hand),
+                12800 * 0x1p-64L)
+          << static_cast<double>(own) << " " << static_cast<double>(other);
+    }
+  }
+}
+
+// A matrix that is constant, in equations that another block makes nonlinear.
+TEST(Gauge, ALinearBlockMayFollowOthers) {
+  const auto hamiltonian = [](const std::vector<Jet<long double>>& z) {
+    return z[0] * z[2] + z[1] * z[3] + z[0] * z[3] - z[1] * z[2] + z[0] * z[0] * z[0];
+  };
+  const std::string text =
+      "coordinate x, y\nmomentum px, py\nH = x*px + y*py + x*py - y*px + x^3\n";
+  const Vector start = {0.5L, 0.25L, -0.125L, 0.375L};
+  const Matrix midpoint(4, Vector(4));
+  const Matrix c = {{0, 0.125L, 0, 0}, {-0.125L, 0, 0, 0}, {0, 0, 0, 0.125L}, {0, 0, -0.125L, 0}};
+  const long double h = 0.0625L;
+  constexpr int steps = 16;
+  for (const bool is_midpoint : {true, false}) {
+    Request request{.scalar = "long-double"};
+    if (!is_midpoint) request.alpha = "[[1/2, 1/8], [-1/8, 1/2]]";
+    Vector by_hand = start;
+    for (int i = 0; i < steps; ++i)
+      by_hand = iterated_step(hamiltonian, is_midpoint ? midpoint : c, h, by_hand);
+    EXPECT_LT(distance(Emitted(text, request).after(steps, start, h), by_hand), 12800 * 0x1p-64L);
+  }
+}
+
 // A linear system with its flow in closed form.
 struct Linear {
   const char* text;
@@ -168,6 +223,22 @@ TEST(LocallyExact, TheOscillatorIsExactForStepsOfManyPeriods) {
     EXPECT_NEAR(static_cast<double>(end[1] + std::sin(t)), 0, static_cast<double>(bound))
         << static_cast<double>(h);
   }
+}
+
+// Walls of exponentials: at the reference the frequency is 1e-9, and its gauge no difference.
+TEST(LocallyExact, FrequenciesNextToZeroAreNoWorseThanOthers) {
+  const std::string text =
+      "coordinate q\nmomentum p\nH = p^2/2 + exp(-50*(q + 1)) + exp(50*(q - 1))\n";
+  const Request exact{.gauge = "locally-exact", .reference = {{"q", "0"}}};
+  Request longer = exact;
+  longer.scalar = "long-double";
+  const long double h = static_cast<long double>(0.02);
+  const Vector start = {0, -1};
+  // To and fro six times, at every wall with a rounding error of q, 2^-53, that counts 50 times in
+  // the force and p, and then h in q: of a hundred steps next to walls each less than 2^-53 * 50.
+  EXPECT_LT(distance(Emitted(text, exact).after(300, start, h),
+                     Emitted(text, longer).after(300, start, h)),
+            100 * 50 * 0x1p-53L);
 }
 
 TEST(LocallyExact, NonlinearSystemsHaveOrderTwo) {

@@ -69,6 +69,27 @@ TEST(StiffAndLong, AWaveIntoAChainAtRestIsNotFollowedToTheSmallestNumber) {
 
 // The midpoint rule turns (omega q, p) by theta = 2 atan(h omega/2) exactly: with x = h omega/2,
 //   cos theta = (1 - x^2)/(1 + x^2),  sin theta = 2 x/(1 + x^2).
+// Below the smallest normal number a unit of rounding is one of the smallest numbers, and a fixed
+// point may go to and fro by one for ever.  `after` wants every step to succeed.
+TEST(StiffAndLong, AStateOfTheSmallestNumbersHasItsFixedPoints) {
+  const std::string chain =
+      "size N = 5\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2)/2 + sum(i = 0..N, (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^4/4)\n";
+  const std::string oscillator = "coordinate q\nmomentum p\nH = p^2/2 + q^2/2 + q^4\n";
+  for (const long double size : {1e-308L, 1e-310L, 1e-315L}) {
+    Vector state;
+    for (int i = 1; i <= 5; ++i) state.push_back(size * std::sin(0.3L * i));
+    for (int i = 1; i <= 5; ++i) state.push_back(size * std::cos(1.0L * i));
+    for (const int order : {0, 4}) {
+      const Request request{.order = order, .solver = "fixed-point"};
+      const Vector end = Emitted(chain, request).after(500, state, 0.05L);
+      EXPECT_LT(distance(end, Vector(10)), 100 * size) << order;
+    }
+    const Emitted one(oscillator, {.solver = "fixed-point"});
+    EXPECT_LT(distance(one.after(2000, {size, size}, 0.1L), Vector(2)), 2 * size);
+  }
+}
+
 TEST(StiffAndLong, LinearModesTurnByTheExactAngleEvenAtAMillionRadiansAStep) {
   const Emitted oscillator = Emitted::shipped("harmonic", {});
   double worst = 0.0;  // in ulp

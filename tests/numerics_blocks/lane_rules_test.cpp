@@ -107,20 +107,21 @@ lanes::Turn turn_of_all() {
 }
 
 template <int Power>
-void expect_newton_ends_as_alone() {
+void expect_newton_ends_as_alone(double uneven) {
   for (const bool predicted : {false, true}) {
     for (const int batch : {0, 1}) {
       lanes::NewtonRule<Power> rule;
       rule.begin(predicted, turn_of_all());
       ask_together(batch, [&](const lanes::Real& size, int iteration) {
-        return rule(size, lanes::Real(1), iteration);
+        return rule(size, lanes::Real(1), iteration, lanes::Real(uneven));
       });
       for (int lane = 0; lane < kCount; ++lane) {
         of_double::NewtonRule<Power> alone;
         alone.begin(predicted);
         const Increments& increments = increments_of(batch, lane);
-        const End end = end_alone(
-            increments, [&](double size, int iteration) { return alone(size, 1, iteration); });
+        const End end = end_alone(increments, [&](double size, int iteration) {
+          return alone(size, 1, iteration, uneven);
+        });
         EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted << Power;
       }
     }
@@ -128,8 +129,8 @@ void expect_newton_ends_as_alone() {
 }
 
 TEST(LaneRules, NewtonsIterationEndsInEachLaneAsAlone) {
-  expect_newton_ends_as_alone<1>();
-  expect_newton_ends_as_alone<2>();
+  expect_newton_ends_as_alone<1>(0);
+  for (const double uneven : {0.0, 1e-6, 1.0, 1e6}) expect_newton_ends_as_alone<2>(uneven);
 }
 
 // Of rules that begin alike and are asked alike.

@@ -90,6 +90,42 @@ TYPED_TEST(NewtonRule, OneIncrementIsEnoughWhereTheMotionIsStraight) {
   EXPECT_EQ(this->step(rule, 4 * this->small()), Verdict::go_on);  // measured: not small enough
 }
 
+// Increments that are all that an unknown has moved: one may serve for their sum, and not for each.
+TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncrement) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real size = this->small();
+  for (const Real uneven : {Real(0), TypeParam::unit, Real(1)}) {
+    auto rule = this->template taught<2>(1);
+    rule.begin(false);
+    EXPECT_EQ(rule(size, Real(1), 1, uneven), uneven < 1 ? Verdict::done : Verdict::go_on);
+  }
+  // The same where the contraction is measured in this step; below rounding nothing is waited for.
+  const Real first = TypeParam::two_to(-(TypeParam::bits + 21) / 4);
+  for (const Real uneven : {Real(0), Real(1)}) {
+    auto rule = this->template taught<2>(1);
+    rule.begin(false);
+    EXPECT_EQ(rule(first, Real(1), 1, uneven), Verdict::go_on);
+    EXPECT_EQ(rule(first * first, Real(1), 2, uneven), uneven < 1 ? Verdict::done : Verdict::go_on);
+    if (uneven < 1) continue;
+    EXPECT_EQ(rule(TypeParam::unit / 2, Real(1), 3, uneven), Verdict::done);
+  }
+  // What was measured may be nothing, if the motion bends.
+  auto rule = this->template taught<2>(TypeParam::unit);
+  rule.motion.bend = TypeParam::two_to(-4);
+  rule.begin(false);
+  EXPECT_EQ(rule(TypeParam::unit * 4, Real(1), 1, Real(0)), Verdict::done);
+  rule.begin(false);
+  EXPECT_EQ(rule(TypeParam::unit * 4, Real(1), 1, Real(1)), Verdict::go_on);
+}
+
+TYPED_TEST(NewtonRule, NothingMovedIsNoShare) {
+  using Real = typename TypeParam::Scalar;
+  using Rule = typename TypeParam::template Newton<2>;
+  EXPECT_TRUE(Rule::relative(Real(0), Real(0)) <= 0);
+  EXPECT_TRUE(Rule::relative(Real(1), Real(4)) * 4 <= 1);
+}
+
 // The wall: what was measured has become false, but the motion bends.
 TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughWhereTheMotionBends) {
   using Verdict = typename TypeParam::Answer;
