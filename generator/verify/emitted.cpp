@@ -224,6 +224,7 @@ std::vector<Identities> all_identities(const StepUnderProof& step, const SolvePl
                                       {middle, of_step.gradient().end()}));
   }
   if (scheme.has_member() && loops) {
+    add(loop_hessian_identities(step, of_step, scheme.member()));
     add(loop_member_identities(step, of_step, scheme.member(), plan.sweeps));
   } else if (scheme.has_member()) {
     parts.push_back(member_identities(step, of_step, scheme.member(), plan.sweeps));

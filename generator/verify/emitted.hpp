@@ -39,11 +39,16 @@ class FunctionValues {
                                            std::optional<int> sweeps);
 // The same solve where derivatives have been evaluated before.
 [[nodiscard]] Identities ready_identities(const StepUnderProof& step);
-// All routines of a member whose sums are loops but the energy and its tangent map.
+// All routines of a member whose sums are loops but the energy, what is made of H'', and its
+// tangent map.
 [[nodiscard]] std::vector<Identities> loop_member_identities(const StepUnderProof& step,
                                                              const Derivatives& derivatives,
                                                              const Member& member,
                                                              std::optional<int> sweeps);
+// Of these, what is made of H'' in Newton's iteration, where there is one.
+[[nodiscard]] std::vector<Identities> loop_hessian_identities(const StepUnderProof& step,
+                                                              const Derivatives& derivatives,
+                                                              const Member& member);
 
 // solve of a splitting and of a Runge-Kutta method, with the gradients it calls as functions of
 // which nothing is known; the substeps of a composition.

@@ -35,7 +35,13 @@ struct Reach {
 class Locality {
  public:
   explicit Locality(std::vector<GrowingEvent> events)
-      : events_(std::move(events)), rooms_(events_) {}
+      : events_(std::move(events)), rooms_(events_) {
+    const auto is_linear = [](const GrowingEvent& event) {
+      return event.of.kind == Event::routine && event.of.text == "gradient_error";
+    };
+    if (std::ranges::none_of(events_, is_linear))
+      functions_.insert({"curvature", "potential_curvature"});
+  }
 
   // Elements at either end that places without an index name, and what is around them.
   Reach reach() {
@@ -74,12 +80,8 @@ class Locality {
   [[nodiscard]] bool in_growing() const { return growing_loops() > 0; }
   [[nodiscard]] bool in_pairs() const { return growing_loops() == 2; }
 
-  // The claims about all others take these for functions of which nothing is known.
-  static bool is_function(const std::string& routine) {
-    static const std::set<std::string> functions = {
-        "vector_field",        "hessian",       "gradient", "potential_gradient",
-        "generating_gradient", "vector_fields", "forces"};
-    return functions.contains(routine);
+  [[nodiscard]] bool is_function(const std::string& routine) const {
+    return functions_.contains(routine);
   }
   [[nodiscard]] bool is_opaque(const std::string& called) const {
     return is_function(called) && !is_function(routine_);
@@ -371,6 +373,11 @@ class Locality {
     summed_over_pairs_.insert(name);
   }
 
+  // The claims about all other routines take these for functions of which nothing is known: H''
+  // times a vector, too, but where H is quadratic.
+  std::set<std::string> functions_ = {"vector_field",       "hessian",       "gradient",
+                                      "potential_gradient", "vector_fields", "forces",
+                                      "generating_gradient"};
   std::vector<GrowingEvent> events_;
   Rooms rooms_;
   std::size_t at_ = 0;

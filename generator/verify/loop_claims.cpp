@@ -3,8 +3,8 @@
 // what they are for systems that are too large for that.
 //
 // In solve the gradient is a function of which nothing is known: what it returns is free, and where
-// it is called is compared.  What the functions return, and the entries of Newton's matrix, are
-// claims of their own, against H written out and differentiated anew.
+// it is called is compared.  What the functions return, and what is made of H''
+// (loop_hessian_claims), are claims of their own, against H written out and differentiated anew.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,16 +35,9 @@ class LoopMemberClaims {
         local_(reduced_ && (!member.beta.is_zero() || !calls_velocity(step))) {}
 
   std::vector<Identities> run() {
-    std::vector<Identities> parts;
-    if (has("differentiate")) parts.push_back(matrix_identities());
-    if (has("differentiate") && !has("gradient_error")) parts.push_back(curvature_identities());
-    if (!has("contract")) {
-      parts.push_back(solve_identities({}));
-      return parts;
-    }
+    if (!has("contract")) return {solve_identities({})};
     // Either may be what a step is solved by.
-    for (const char* other : {"newton", "contract"}) parts.push_back(solve_identities(other));
-    return parts;
+    return {solve_identities("newton"), solve_identities("contract")};
   }
 
  private:
@@ -60,89 +53,10 @@ class LoopMemberClaims {
   void claim(std::string what, const Expression& emitted, const Expression& expected) {
     identities_.claims.push_back({std::move(what), emitted, expected});
   }
-  Expression mass(int i) const { return derivatives_.second(n_ + i, n_ + i); }
-
-  // --- Newton's matrix ------------------------------------------------------------------------
-
-  // With the momenta torn out, pbar = (p - h (1 - alpha) V_q - h beta d)/(1 + h beta m), that of
-  //   qbar - q - h alpha T_p(pbar) - h gamma V_q(qbar);
-  // else I - h (I/2 + C) J H''.
-  Expression expected_entry(int i, int j) {
-    const auto& [alpha, beta, gamma] = member_;
-    const Expression h = step_size();
-    const Expression unit(i == j ? 1 : 0);
-    if (reduced_) {
-      const Expression own = mass(i);
-      const Expression slope = -(h * (Expression(1) - alpha)) / (Expression(1) + h * beta * own);
-      return unit - (h * alpha * own * slope + h * gamma) * derivatives_.second(i, j);
-    }
-    if (i < n_) {
-      return unit - h * alpha * derivatives_.second(n_ + i, j) -
-             h * gamma * derivatives_.second(i, j);
-    }
-    return unit + h * (Expression(1) - alpha) * derivatives_.second(i - n_, j) +
-           h * beta * derivatives_.second(i, j);
-  }
-
-  Identities matrix_identities() {
-    SymbolicMachine machine = step_.machine();
-    const int size = reduced_ ? n_ : 2 * n_;
-    for (int i = 0; i < 2 * n_; ++i)
-      machine.set({"at", "", {{i, {}}}}, step_.mechanics.variable(i));
-    if (has("prepare")) machine.run("prepare");
-    machine.matrix("matrix")[{0, 0}] = Expression::symbol("left from before");
-    machine.run("differentiate");
-    const MatrixEntries entries = machine.matrix("matrix");
-    identities_ = {};
-    std::set<std::pair<long, long>> places;
-    for (const auto& [place, value] : entries) places.insert(place);
-    for (int i = 0; i < size; ++i) places.insert({i, i});
-    for (const auto& [place, value] : derivatives_.hessian()) {
-      const auto add = [&](int i, int j) {
-        if (i < size && j < size) places.insert({i, j});
-      };
-      for (const auto& [i, j] : {place, std::pair(place.second, place.first)}) {
-        if (reduced_ && (i >= n_ || j >= n_)) continue;
-        add(i, j);
-        add(i < n_ ? i + n_ : i - n_, j);
-      }
-    }
-    for (const auto& [i, j] : places) {
-      const auto it = entries.find({i, j});
-      claim(fmt::format("entry {}, {} of Newton's matrix", i + 1, j + 1),
-            it == entries.end() ? Expression(0) : it->second,
-            expected_entry(static_cast<int>(i), static_cast<int>(j)));
-    }
-    identities_.emitted = machine.definitions();
-    return std::move(identities_);
-  }
-
-  // --- H'' times a vector: V'' where the momenta are torn out ----------------------------------
-
   [[nodiscard]] const char* curvature() const {
     return reduced_ ? "potential_curvature" : "curvature";
   }
-  Identities curvature_identities() {
-    SymbolicMachine machine = step_.machine();
-    const int size = reduced_ ? n_ : 2 * n_;
-    const auto u = [&](int i) { return Expression::symbol("u(" + step_.name(i) + ")"); };
-    for (int i = 0; i < n_; ++i) machine.set({"q", "", {{i, {}}}}, step_.mechanics.variable(i));
-    for (int i = n_; i < size; ++i)
-      machine.set({"p", "", {{i - n_, {}}}}, step_.mechanics.variable(i));
-    for (int i = 0; i < size; ++i) machine.set({"u", "", {{i, {}}}}, u(i));
-    machine.run(curvature());
-    identities_ = {};
-    for (int k = 0; k < size; ++k) {
-      std::vector<Expression> terms;
-      for (const int j : partners_of(k)) {
-        if (j < size) terms.push_back(derivatives_.second(k, j) * u(j));
-      }
-      claim(fmt::format("element {} of H'' times a vector", k + 1),
-            machine.value({"y", "", {{k, {}}}}), Expression::sum(std::move(terms)));
-    }
-    identities_.emitted = machine.definitions();
-    return std::move(identities_);
-  }
+  Expression mass(int i) const { return derivatives_.second(n_ + i, n_ + i); }
 
   // --- the step -------------------------------------------------------------------------------
 

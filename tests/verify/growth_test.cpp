@@ -151,6 +151,28 @@ TEST(Growth, ProvesManyBodiesAndNoMutantOfThem) {
   }
 }
 
+// H'' times a vector is a sum over pairs, of which the step knows nothing, as of the gradient.
+// Where H is quadratic the step looks into it.
+TEST(Growth, ProvesNewtonOfManyBodies) {
+  const std::string linear =
+      kVariables + kKinetic + "sum(i = 1..N, j = i+1..N, (q[i] - q[j])^2)/2\n";
+  for (const auto& [text, verdict] :
+       {std::pair(kBodies, Verdict::proved), std::pair(linear, Verdict::tested)}) {
+    const long size = verdict == Verdict::proved ? 13 : 25;
+    const auto sized = [&](long elements) {
+      return system_of(text, elements, "implicit-midpoint", 2, "newton");
+    };
+    const SizedSystem large = sized(40);
+    const Finding finding =
+        prove_emitted(large.mechanics, large.scheme, large.plan, large.program, {}, {}, {},
+                      SmallerSystems{"N", 40, sized(size), sized(size + 1), sized(size + 2)});
+    EXPECT_EQ(finding.verdict, verdict) << finding.detail;
+    if (verdict == Verdict::tested) {
+      EXPECT_TRUE(finding.detail.ends_with("a sum over pairs is looked into")) << finding.detail;
+    }
+  }
+}
+
 // A sum over the others may be added up; what is made of it is no sum over pairs.
 TEST(Growth, AFunctionOfASumOverPairsIsNoSumOverPairs) {
   const auto squared = [](SizedSystem system) {

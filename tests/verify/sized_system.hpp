@@ -17,7 +17,7 @@ namespace hamgen::verify_test {
 
 // The system of a text at a size.
 inline SizedSystem system_of(const std::string& text, long size, const std::string& scheme_name,
-                             int order = 2) {
+                             int order = 2, const std::string& solver = "fixed-point") {
   const Model model = read_model(
       make_source("chain.ham", fmt::format("system chain\nsize N = {}\n{}", size, text)));
   Mechanics mechanics = derive(model);
@@ -25,7 +25,7 @@ inline SizedSystem system_of(const std::string& text, long size, const std::stri
   Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
   if (order > 2) scheme = raise_order(std::move(scheme), order);
   const bool is_explicit = scheme_name == "stormer-verlet" || scheme_name == "rk4";
-  const LoweredStep lowered = lowered_of(mechanics, scheme, is_explicit ? "" : "fixed-point");
+  const LoweredStep lowered = lowered_of(mechanics, scheme, is_explicit ? "" : solver);
   return {size,         std::move(mechanics),   std::move(scheme),
           lowered.plan, build_program(lowered), written_out_hamiltonian(model)};
 }
