@@ -811,9 +811,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x4f53f7e1
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x30ac85d1
 namespace fput::implicit_midpoint {
-inline namespace emitted_4f53f7e1 {
+inline namespace emitted_30ac85d1 {
 
 namespace numerics = ::hamgen_d2a33e4d::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -916,10 +916,12 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     evaluate(par, k, z, carry, start);
     Distance distance;
     distance.add(start.lack, start.value, z.q, n);
-    for (int i = 0; i < n; ++i) {
-      start.value[i] += start.lack[i];
-    }
     const Verdict verdict = start.rule(distance, iteration);
+    if (verdict == Verdict::go_on || start.rule.settled) {
+      for (int i = 0; i < n; ++i) {
+        start.value[i] += start.lack[i];
+      }
+    }
     if (verdict == Verdict::go_on) continue;
     report.iterations += iteration;
     if (verdict == Verdict::done) break;
@@ -927,9 +929,14 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     return false;
   }
   // What the equations lack at the rounded unknowns is solved for, too.
-  for (bool more = true; more;) {
+  if (start.rule.settled) {
     evaluate(par, k, z, carry, start);
+  }
+  for (bool more = true; more;) {
     more = start.refinement(start.rule, start.value, start.lack, start.slope);
+    if (more) {
+      evaluate(par, k, z, carry, start);
+    }
   }
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.refinement.slope[i];
@@ -1109,9 +1116,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_4f53f7e1
+}  // namespace emitted_30ac85d1
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4f53f7e1
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x30ac85d1
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

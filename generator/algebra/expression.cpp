@@ -342,6 +342,23 @@ Expression Expression::power(const Expression& base, const Expression& exponent)
   return make(Kind::power, 0, {}, 0, {base, exponent});
 }
 
+Expression with_operands(const Expression& e, std::vector<Expression> operands) {
+  switch (e.kind()) {
+    case Kind::sum:
+      return Expression::sum(std::move(operands));
+    case Kind::product:
+      return Expression::product(std::move(operands));
+    case Kind::power:
+      return Expression::power(operands[0], operands[1]);
+    case Kind::function:
+      return Expression::apply(e.name(), std::move(operands));
+    case Kind::number:
+    case Kind::symbol:
+      break;
+  }
+  return e;
+}
+
 Expression square_root(const Expression& e) {
   return Expression::power(e, Expression(Rational(1, 2)));
 }

@@ -93,6 +93,9 @@ using Substitution = std::map<std::string, Expression>;
 [[nodiscard]] std::vector<Expression> substitute(std::span<const Expression> values,
                                                  const Substitution& replacements);
 
+// The same operation of other operands; e itself if it has none.
+[[nodiscard]] Expression with_operands(const Expression& e, std::vector<Expression> operands);
+
 [[nodiscard]] Expression square_root(const Expression& e);
 
 // An expression of numbers and roots as a number, to 90 digits; an internal error for any other.

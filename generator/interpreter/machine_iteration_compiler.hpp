@@ -73,8 +73,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    return [this, unknowns, ranges, residual, of_each = iterate.of_each, start, flag, are_whole,
-            body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
+    return [this, unknowns, ranges, residual, of_each = iterate.of_each,
+            leaves_last = iterate.leaves_last, start, flag, are_whole, body, rule = iterate.rule,
+            name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -87,26 +88,28 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         return run_newton(
             newton, known, body,
             [&] { return this->lengths_of_each(each, of_each ? &newton : nullptr); },
-            [&] {
-              each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
-            });
+            [&] { this->move_each(each); });
       }
-      const auto move = [&] { return this->move_each(each, are_whole, unknowns.size()); };
+      const auto measure = [&] { return this->measure_each(each, are_whole, unknowns.size()); };
       if (rule == Rule::simplified_newton) {
         AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
         int& factorised = memory.flags.at(flag);
         newton.begin(factorised != 0);
-        return run_contraction(body, move, [&](const Distance& distance, int iteration) {
+        const auto judge = [&](const Distance& distance, int iteration) {
           bool serves = factorised != 0;
           const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
           factorised = serves ? 1 : 0;
           return std::pair(answer, newton.size());
-        });
+        };
+        return run_contraction(body, measure, judge, [&](Answer) { this->move_each(each); });
       }
       AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
       fixed_point.begin(work.value_or(0));
-      return run_contraction(body, move, [&](const Distance& distance, int iteration) {
+      const auto judge = [&](const Distance& distance, int iteration) {
         return judged(fixed_point, distance, iteration);
+      };
+      return run_contraction(body, measure, judge, [&](Answer answer) {
+        if (!leaves_last || answer == Answer::go_on || fixed_point.settled()) this->move_each(each);
       });
     };
   }
@@ -122,11 +125,14 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int target = index_of(refine.refinement.object);
     const int start = refine.rule.empty() ? 0 : index_of("start");
     return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
-            first = steps(refine.first), body = steps(refine.body)] {
+            begun = refine.begun, first = steps(refine.first), body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
       const bool begins = !first.empty();
+      const bool is_left =
+          begun && (rule.empty() || !object(start).contractions.at(rule)->settled());
       for (bool more = true, is_first = true; more; is_first = false) {
-        if (!run_all(is_first && begins ? first : body)) return false;
+        const bool is_known = is_first && is_left;
+        if (!is_known && !run_all(is_first && begins ? first : body)) return false;
         more = rule.empty() ? refinement(span(point), span(lack), span(gradient))
                             : refinement.refine(*object(start).contractions.at(rule), span(point),
                                                 span(lack), span(gradient));

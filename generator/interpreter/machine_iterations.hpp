@@ -46,15 +46,22 @@ class MachineIterations : public MachineAddresses<Real> {
     }
   }
 
-  // The rule hears of the unknowns when they have moved.
-  template <class Move, class Judge>
-  bool run_contraction(const Steps& body, const Move& move, const Judge& judge) const {
+  // The rule hears of the unknowns as they are measured, which may move them; what is left to move
+  // depends on its answer.
+  template <class Measure, class Judge, class Move>
+  bool run_contraction(const Steps& body, const Measure& measure, const Judge& judge,
+                       const Move& move) const {
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
-      const Distance distance = move();
+      const Distance distance = measure();
       const auto [answer, size] = judge(distance, static_cast<int>(m_.iteration));
+      move(answer);
       if (answer != Answer::go_on) return ends(answer, size);
     }
+  }
+  template <class Measure, class Judge>
+  bool run_contraction(const Steps& body, const Measure& measure, const Judge& judge) const {
+    return run_contraction(body, measure, judge, [](Answer) {});
   }
 
   static std::pair<Answer, Real> judged(AnyFixedPointRule<Real>& rule, const Distance& distance,
@@ -65,7 +72,7 @@ class MachineIterations : public MachineAddresses<Real> {
 
   // Of arrays in loops: whole ones are summed as Distance does it, in parts, others one by one.
   template <class Each>
-  Distance move_each(const Each& each, bool are_whole, std::size_t arrays) const {
+  Distance measure_each(const Each& each, bool are_whole, std::size_t arrays) const {
     struct Seen {
       std::vector<Real> moved, value, beside;
     };
@@ -73,7 +80,7 @@ class MachineIterations : public MachineAddresses<Real> {
     std::size_t next = 0;
     Distance distance;
     each([&](const Array2& u) {
-      Real& value = m_.frame.at(u.value);
+      const Real value = m_.frame.at(u.value);
       const Real increment = m_.frame.at(u.increment);
       const Real beside = u.beside(m_.frame);
       if (are_whole) {
@@ -84,13 +91,16 @@ class MachineIterations : public MachineAddresses<Real> {
       } else {
         distance.add(magnitude(increment), magnitude(value) + magnitude(beside));
       }
-      value += increment;
     });
     for (const Seen& array : seen) {
       distance.add(array.moved.data(), array.value.data(), array.beside.data(),
                    static_cast<int>(array.moved.size()));
     }
     return distance;
+  }
+  template <class Each>
+  void move_each(const Each& each) const {
+    each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
   }
   template <class Each>
   Lengths lengths_of_each(const Each& each, const AnyNewtonRule<Real>* rule) const {

@@ -152,8 +152,8 @@ class Printer {
                      to_text(refine.refinement)));
     if (!refine.first.empty()) {
       inside(refine.first);
-      line("then, where it has been moved:");
     }
+    if (refine.begun || !refine.first.empty()) line("then, where it has been moved:");
     inside(refine.body);
   }
   void operator()(const Refine& refine) {

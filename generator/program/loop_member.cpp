@@ -261,7 +261,8 @@ class LoopMember : LoopStage {
                          .name = "rule",
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
-                         .body = std::move(body)};
+                         .body = std::move(body),
+                         .leaves_last = true};
     if (settles()) iterate.work = both() ? arrays_.matrix_work : 0;
     b.body().push_back({std::move(iterate), {"Fixed-point iteration."}});
     b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
@@ -271,6 +272,7 @@ class LoopMember : LoopStage {
                                     .rule = settles() ? "rule" : "",
                                     .count = unknowns(),
                                     .components = 2 * n_,
+                                    .begun = true,
                                     .body = refined},
                         {kRefinementRemark}});
   }

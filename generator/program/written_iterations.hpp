@@ -58,11 +58,17 @@ class IterationWriter : public StatementWriter {
     for (const Place& place : {refine.point, refine.lack, refine.gradient})
       given.push_back(object(place));
     Value refined = action("Refinement", refine.refinement, "", std::move(given));
+    const bool begins = refine.first.empty() && !refine.begun;
     write(refine.first);
+    if (refine.begun && !refine.rule.empty()) {
+      const Value settled = is_settled(refine.rule);
+      branch(form_.lanes ? call("any", {settled}) : settled, Shape::braces,
+             [&] { write(refine.body); });
+    }
     add(While{inside([&] {
-      if (refine.first.empty()) write(refine.body);
+      if (begins) write(refine.body);
       set(at({"more "}), std::move(refined));
-      if (refine.first.empty()) return;
+      if (begins) return;
       branch(at({"more "}), Shape::braces, [&] { write(refine.body); });
     })});
   }
@@ -265,7 +271,7 @@ class IterationWriter : public StatementWriter {
         form_.lanes ? move_lanes(at({iterate.name, "open"}), symbol(u.symbol), increment)
                     : set(symbol(u.symbol), increment, "+=");
       }
-      judge(type, rule, {object({"distance "}), at({"iteration "})});
+      judge(rule, action(type, rule, "", {object({"distance "}), at({"iteration "})}));
     });
     if (form_.lanes) end_lanes(rule);
   }
@@ -287,19 +293,23 @@ class IterationWriter : public StatementWriter {
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
       if (iterate.lanes > 0) write({{moved_in_lanes(iterate)}});
-      if (iterate.lanes == 0 && !form_.lanes) move(iterate);
+      const bool is_heard_first = form_.lanes || iterate.leaves_last;
+      if (iterate.lanes == 0 && !is_heard_first) move(iterate);
       std::vector<Value> judged = {object({"distance "})};
       if (newton) judged.push_back(symbol(iterate.residual));
       if (newton) judged.push_back(object(*iterate.factorised));
       judged.push_back(at({"iteration "}));
-      if (!form_.lanes) return judge("ContractionRule", rule, std::move(judged));
-      look_at_moving(action("ContractionRule", rule, "", std::move(judged)));
+      Value verdict = action("ContractionRule", rule, "", std::move(judged));
+      if (!form_.lanes) return judge(rule, std::move(verdict), iterate);
+      look_at_moving(std::move(verdict));
       move(iterate, at({"moving "}));
     });
     if (!form_.lanes) return;
     end_lanes(rule);
-    move(iterate, lanes_in_turn());
+    if (!iterate.leaves_last) return move(iterate, lanes_in_turn());
+    if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), is_settled(iterate.name)}));
   }
+  static Value is_settled(const std::string& rule) { return at({"start", rule + ".settled"}); }
 
   void distance_of(const IterateArray& iterate) {
     const auto add_to_distance = [&](std::vector<Value> values) {
@@ -324,11 +334,15 @@ class IterationWriter : public StatementWriter {
     over(iterate.ranges, lines, Shape::braces);
   }
 
-  // What the rule says of an iteration that has moved, and what follows from it.
-  void judge(const std::string& type, const Place& rule, std::vector<Value> given) {
-    Value verdict = action(type, rule, "", std::move(given));
+  // What the rule says of an iteration, and what follows from it.
+  void judge(const Place& rule, Value verdict, const std::optional<IterateArray>& moves = {}) {
     if (form_.lanes) return break_unless_any(std::move(verdict));
     add(Define{"Verdict", "verdict ", std::move(verdict)});
+    if (moves && moves->leaves_last) {
+      Value goes_on = is_verdict("go_on");
+      if (moves->work) goes_on = joined("||", {std::move(goes_on), is_settled(moves->name)});
+      branch(std::move(goes_on), Shape::braces, [&] { move(*moves); });
+    }
     Place size = rule;
     size.field += size.field.empty() ? "size" : ".size";
     branch(is_verdict("go_on"), Shape::line, [this] { add(Continue{}); });

@@ -150,7 +150,8 @@ class Outline {
     for (const std::string& name : iterate.kept) word("kept " + local(name));
   }
   void operator()(const IterateArray& iterate) {
-    word(fmt::format("iterate {} {}", static_cast<int>(iterate.rule), iterate.name));
+    word(fmt::format("iterate {} {}{}", static_cast<int>(iterate.rule), iterate.name,
+                     iterate.leaves_last ? " but for the last" : ""));
     run(iterate.body);
     for (const KernelRange& range : iterate.ranges) loop(range);
     for (const UnknownArray& unknown : iterate.unknowns) {
@@ -174,7 +175,7 @@ class Outline {
       word("then");
     }
     run(refine.body);
-    word("refine " + refine.rule);
+    word((refine.begun ? "refine further " : "refine ") + refine.rule);
     whole("refinement", refine.refinement);
     whole("at", refine.point);
     whole("lack", refine.lack);

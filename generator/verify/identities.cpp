@@ -6,6 +6,7 @@
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/verify/precise.hpp"
+#include "generator/verify/sums_of_step.hpp"
 
 namespace hamgen {
 
@@ -37,53 +38,6 @@ Expression without_ranks(const Expression& e) {
   for (const std::string& name : symbols(e)) plain.emplace(name, Expression::symbol(name));
   return substitute(e, plain);
 }
-
-Expression with_operands(const Expression& e, std::vector<Expression> operands) {
-  switch (e.kind()) {
-    case Kind::sum:
-      return Expression::sum(std::move(operands));
-    case Kind::product:
-      return Expression::product(std::move(operands));
-    case Kind::power:
-      return Expression::power(operands[0], operands[1]);
-    case Kind::function:
-      return Expression::apply(e.name(), std::move(operands));
-    case Kind::number:
-    case Kind::symbol:
-      break;
-  }
-  return e;
-}
-
-// Long sums of functions of h alone as symbols: the gauge of a linear part, which every equation
-// has and none takes apart.  What vanishes for any value of theirs vanishes.
-struct SumsOfStep {
-  std::map<const void*, std::size_t> sizes = {};
-  ExpressionMap<Expression> known = {};
-  int count = 0;
-  bool is_one(const Expression& e) {
-    constexpr std::size_t least = 50;
-    const auto is_function = [](const Expression& x) { return x.kind() == Kind::function; };
-    return e.kind() == Kind::sum && tree_size(e, sizes) >= least &&
-           symbols(e) == std::set<std::string>{"h"} &&
-           std::ranges::any_of(e.operands(), [&](const Expression& term) {
-             return is_function(term) || std::ranges::any_of(term.operands(), is_function);
-           });
-  }
-  Expression replace(const Expression& e) {
-    if (e.operands().empty()) return e;
-    if (const auto it = known.find(e); it != known.end()) return it->second;
-    Expression result;
-    if (is_one(e)) {
-      result = Expression::symbol("sum#" + std::to_string(count++));
-    } else {
-      std::vector<Expression> operands;
-      for (const Expression& operand : e.operands()) operands.push_back(replace(operand));
-      result = with_operands(e, std::move(operands));
-    }
-    return known.emplace(e, result).first->second;
-  }
-};
 
 // Square roots as symbols: s_b^k for b^(k/2), with s_b^2 = b to be used afterwards.
 struct SquareRoots {
@@ -340,8 +294,8 @@ bool is_zero_by_algebra(const Expression& e) {
   std::map<const void*, std::size_t> known;
   const std::size_t size = tree_size(e, known);
   SumsOfStep sums;
-  const Expression shorter = sums.replace(e);
-  if (sums.count > 0 && is_zero_by_algebra(shorter)) return true;
+  const Expression shorter = sums.named(e);
+  if (!sums.empty() && is_zero_by_algebra(shorter)) return true;
   if (size > kExpandable) return false;
   if (differs_from_zero(e)) return false;
   SymbolTable table;

@@ -7,6 +7,7 @@
 #include "generator/mechanics/step_series.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/proof.hpp"
+#include "generator/verify/sums_of_step.hpp"
 
 namespace hamgen {
 
@@ -52,6 +53,7 @@ Finding prove_step_symplectic(const Member& of, int n, const Surroundings& aroun
   // The generic symmetric S and the gauge of the first m degrees of freedom.
   GiNaC::matrix s(size, size);
   GiNaC::matrix c(size, size);
+  SumsOfStep sums;
   const GiNaC::ex half = GiNaC::numeric(1, 2);
   auto place = [&](unsigned i) {
     const int k = static_cast<int>(i);
@@ -60,7 +62,7 @@ Finding prove_step_symplectic(const Member& of, int n, const Surroundings& aroun
   for (unsigned i = 0; i < size; ++i) {
     for (unsigned j = 0; j < size; ++j) {
       s(i, j) = table.symbol(fmt::format("S{}_{}", std::min(i, j) + 1, std::max(i, j) + 1), 0);
-      c(i, j) = to_ginac(entry(member.c, place(i), place(j)), table);
+      c(i, j) = to_ginac(sums.named(entry(member.c, place(i), place(j))), table);
     }
   }
   const GiNaC::matrix j = canonical_j(static_cast<unsigned>(m));
@@ -76,7 +78,7 @@ Finding prove_step_symplectic(const Member& of, int n, const Surroundings& aroun
     for (unsigned column = 0; column < size; ++column) {
       const GiNaC::ex difference = (left(row, column) - right(row, column)).expand();
       if (difference.is_zero()) continue;
-      const Expression entry = from_ginac(difference, table);
+      const Expression entry = sums.written_out(from_ginac(difference, table));
       const Decision decision = decide_equal("`A+ J A+^T`", entry, Expression(0), around);
       if (decision.verdict == Verdict::tested) at_points = decision;
       if (holds(decision.verdict)) continue;
