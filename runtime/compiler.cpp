@@ -119,11 +119,11 @@ Compiler find_compiler(const std::optional<std::string>& explicit_choice) {
            "--interpret` needs none"});
 }
 
-std::string compiler_version(const Compiler& compiler) {
+std::string compiler_version(const Compiler& compiler, const std::atomic<bool>* stop) {
   std::vector<std::string> command = compiler.command;
   command.push_back("--version");
   const ProcessResult result =
-      run_process({.command = command, .time_limit = std::chrono::seconds(10)});
+      run_process({.command = command, .time_limit = std::chrono::seconds(10), .stop = stop});
   return result.output.substr(0, result.output.find('\n'));
 }
 

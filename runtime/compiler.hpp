@@ -1,6 +1,7 @@
 // Which C++ compiler to use.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,9 @@ struct Compiler {
 // never replaced by another compiler.  Throws ToolError.
 [[nodiscard]] Compiler find_compiler(const std::optional<std::string>& explicit_choice = {});
 
-// The words of "g++ --version"'s first line.  Costs a process (about 5 ms): for people only.
-[[nodiscard]] std::string compiler_version(const Compiler& compiler);
+// The words of "g++ --version"'s first line.  Costs a process (about 5 ms): for people only.  Does
+// not wait for it any longer once `stop` is set, if given.
+[[nodiscard]] std::string compiler_version(const Compiler& compiler,
+                                           const std::atomic<bool>* stop = nullptr);
 
 }  // namespace hamgen::runtime

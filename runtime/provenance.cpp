@@ -24,14 +24,14 @@ std::string processor_name() {
 
 }  // namespace
 
-Provenance provenance_of(const Compiler& compiler) {
+Provenance provenance_of(const Compiler& compiler, const std::atomic<bool>* stop) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::vector<std::string> flags(compiler.command.begin() + 1, compiler.command.end());
   const std::vector<std::string> always = compile_flags({}, compiler, {});
   flags.insert(flags.end(), always.begin(), always.end());
   return {.machine =
               fmt::format("{}, {} threads", processor_name(), std::thread::hardware_concurrency()),
-          .compiler = compiler_version(compiler),
+          .compiler = compiler_version(compiler, stop),
           .flags = fmt::format("{}", fmt::join(flags, " ")),
           .date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(now))};
 }

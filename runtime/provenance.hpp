@@ -1,6 +1,7 @@
 // Where and when a measurement was made: what its times depend on.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "runtime/compiler.hpp"
@@ -14,6 +15,8 @@ struct Provenance {
   std::string date;      // "2026-01-31", UTC
 };
 
-[[nodiscard]] Provenance provenance_of(const Compiler& compiler);
+// Does not wait for the compiler to say its version any longer once `stop` is set, if given.
+[[nodiscard]] Provenance provenance_of(const Compiler& compiler,
+                                       const std::atomic<bool>* stop = nullptr);
 
 }  // namespace hamgen::runtime

@@ -177,7 +177,7 @@ Bench run_bench(const BenchRequest& request) {
               .scene = request.scene.name,
               .time = to_double(request.time),
               .observed = request.observed};
-  bench.provenance = runtime::provenance_of(chosen_compiler(request.compiler));
+  bench.provenance = runtime::provenance_of(chosen_compiler(request.compiler), request.stop);
   // Before anything takes long: no run is too long.
   for (const Rational& h : request.steps.empty() ? std::vector{*request.scene.h} : request.steps)
     static_cast<void>(row_of(0, request.time, h));

@@ -97,12 +97,12 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
 // takes 1.1 to 3 times as long as one of -O3; at -O2 those of Gauss' methods are within a tenth of
 // it, loops over arrays are not.  An operation of operations_per_step takes some 0.4 ns at -O3.
 // At -O0, which takes half to three quarters of the time of -O1, a step is 4 to 30 times as long:
-// some 10 ms where that is asked for.  What a step computes is the same: no flag lets the optimiser
-// change the arithmetic.
+// some 10 ms where that is asked for.  An operation of quad numbers is a call that takes 30 ns at
+// any level.  What a step computes is the same: no flag lets the optimiser change the arithmetic.
 std::string optimisation_for(const PluginSource& plugin, double steps) {
   const double operations = steps * plugin.operations_per_step;
   if (operations < 1e6) return "-O0";
-  if (operations < 1e8) return "-O1";
+  if (operations < 1e8 || plugin.needs_quadmath) return "-O1";
   if (plugin.has_stages && operations < 5e9) return "-O2";
   return "-O3";
 }

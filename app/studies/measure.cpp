@@ -47,7 +47,9 @@ Measured measure(const SourceText& source, Request request, const SceneRequest& 
   request.tangent = true;
   const PluginSource plugin = generate_plugin(source, request);
   const SceneValues scene = complete_scene(plugin.model, wanted, "");
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, {}, stop);
+  // Those of the orbit, and as many again for difference quotients and the way back.
+  const double steps = 2.0 * static_cast<double>(std::min(*scene.steps, kOrbit));
+  const runtime::LoadedPlugin loaded = load_integrator(plugin, {}, stop, steps);
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   Proof proof;
   if (loaded.library->plugin().tangent != nullptr) {

@@ -12,17 +12,35 @@ using Polynomial = std::vector<Rational>;  // coefficients of 1, x, x^2, ...
 // 77 digits: twice those of the widest scalar.
 constexpr unsigned long kBits = 256;
 
-Rational rounded(const Rational& value) {
-  Integer scaled = value.get_num() << kBits;
-  mpz_fdiv_q(scaled.get_mpz_t(), scaled.get_mpz_t(), value.get_den_mpz_t());
-  Rational result(scaled, Integer(1) << kBits);
+// Note [fractions of the list of schemes]
+// Every start of the command comes here.  Sums and products of reduced fractions would take 10 ms,
+// nearly all of it for common divisors: what is rounded anyway is an integer in units of 2^-kBits,
+// rounded down from a quotient of integers that is not reduced.
+Integer quotient_down(const Integer& numerator, const Integer& denominator) {
+  Integer result;
+  if (mpz_popcount(denominator.get_mpz_t()) == 1) {  // a power of 2
+    mpz_fdiv_q_2exp(result.get_mpz_t(), numerator.get_mpz_t(),
+                    mpz_scan1(denominator.get_mpz_t(), 0));
+  } else {
+    mpz_fdiv_q(result.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
+  }
+  return result;
+}
+
+Rational in_ones(const Integer& units) {
+  Rational result(units, Integer(1) << kBits);
   result.canonicalize();
   return result;
 }
 
-Rational at(const Polynomial& p, const Rational& x) {
-  Rational value(0);
-  for (std::size_t k = p.size(); k-- > 0;) value = rounded(value * x + p[k]);
+// In units, rounded after every power.
+Integer at(const Polynomial& p, const Rational& x) {
+  Integer value(0);
+  for (std::size_t k = p.size(); k-- > 0;) {
+    value = quotient_down(
+        value * x.get_num() * p[k].get_den() + Integer(p[k].get_num() << kBits) * x.get_den(),
+        x.get_den() * p[k].get_den());
+  }
   return value;
 }
 
@@ -65,34 +83,51 @@ Polynomial legendre(int degree) {
 // is left when those known are divided out.
 std::vector<Rational> zeros(const Polynomial& p) {
   const Polynomial slope = derivative(p);
-  std::vector<Rational> found;
-  const Rational tiny(Integer(1), Integer(1) << (kBits - 16));
+  const Integer one = Integer(1) << kBits;
+  const Integer tiny = Integer(1) << 16;
+  std::vector<Integer> found;  // in units
   while (found.size() + 1 < p.size()) {
-    Rational x = found.empty() ? Rational(1) : found.back();
-    if (!found.empty()) x -= tiny;
+    Integer x = found.empty() ? one : Integer(found.back() - tiny);
     for (int iteration = 0; iteration < 2000; ++iteration) {
-      const Rational value = at(p, x);
-      if (value == 0) break;
-      Rational quotient = at(slope, x) / value;
-      for (const Rational& zero : found) quotient -= 1 / (x - zero);
-      const Rational step = rounded(1 / quotient);
+      const Rational point = in_ones(x);
+      // The slope over the value, less 1 / (x - zero) for every zero that is known.
+      Integer numerator = at(slope, point);
+      Integer denominator = at(p, point);
+      if (denominator == 0) break;
+      for (const Integer& zero : found) {
+        const Integer distance = x - zero;
+        numerator = numerator * distance - (denominator << kBits);
+        denominator *= distance;
+      }
+      const Integer step = quotient_down(denominator << kBits, numerator);
       x -= step;
       if (abs(step) < tiny) break;
     }
     found.push_back(x);
   }
-  return found;
+  std::vector<Rational> numbers;
+  for (const Integer& zero : found) numbers.push_back(in_ones(zero));
+  return numbers;
 }
 
 // Multiples of the polynomial that is 1 at node i and 0 at the others.
 Polynomial lagrange(const std::vector<Rational>& nodes, std::size_t i) {
-  Polynomial result{Rational(1)};
+  std::vector<Integer> units = {Integer(1) << kBits};
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     if (j == i) continue;
-    const Rational width = nodes[i] - nodes[j];
-    result = product(result, {Rational(-nodes[j] / width), Rational(1 / width)});
-    for (Rational& c : result) c = rounded(c);
+    // Times (x - node) / width.
+    const Rational& node = nodes[j];
+    const Rational width = nodes[i] - node;
+    const Integer divisor = node.get_den() * width.get_num();
+    units.emplace_back(0);
+    for (std::size_t k = units.size(); k-- > 0;) {
+      const Integer below = k > 0 ? units[k - 1] : Integer(0);
+      units[k] = quotient_down(
+          (below * node.get_den() - units[k] * node.get_num()) * width.get_den(), divisor);
+    }
   }
+  Polynomial result;
+  for (const Integer& c : units) result.push_back(in_ones(c));
   return result;
 }
 
@@ -104,8 +139,9 @@ RungeKutta collocation(const std::vector<Rational>& nodes) {
   method.a.resize(nodes.size());
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     const Polynomial weight = integral(lagrange(nodes, j));
-    method.b.emplace_back(at(weight, Rational(1)));
-    for (std::size_t i = 0; i < nodes.size(); ++i) method.a[i].emplace_back(at(weight, nodes[i]));
+    method.b.emplace_back(in_ones(at(weight, Rational(1))));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      method.a[i].emplace_back(in_ones(at(weight, nodes[i])));
   }
   return method;
 }

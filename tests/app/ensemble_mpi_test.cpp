@@ -8,13 +8,15 @@ namespace hamgen::app_test {
 namespace {
 
 #ifdef HAMGEN_MPI_EXECUTABLE
-// Of a job with so many ranks, each with so many threads.
+// Of a job with so many ranks, each with so many threads.  A job that fails is ended at once: by
+// default a second passes before each kill.
 int mpi(const Scratch& scratch, int ranks, std::vector<std::string> words,
         const std::string& variable = "HAMGEN_NOTHING=1") {
   const std::vector<std::string> head = {"/usr/bin/env",
                                          "OMPI_ALLOW_RUN_AS_ROOT=1",
                                          "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
                                          "OMPI_MCA_rmaps_base_oversubscribe=1",
+                                         "OMPI_MCA_odls_base_sigkill_timeout=0",
                                          "OMPI_MCA_btl_vader_single_copy_mechanism=none",
                                          variable,
                                          HAMGEN_MPIEXEC,

@@ -26,8 +26,8 @@ std::vector<Variant> variants() {
 }
 
 // The header of a shipped model, in the namespace MODEL_SCALAR::VARIANT.
-std::string header(const std::filesystem::path& model, const Variant& variant,
-                   const std::string& scalar) {
+std::string shipped_header(const std::filesystem::path& model, const Variant& variant,
+                           const std::string& scalar) {
   Request request = variant.request;
   request.scalar = scalar;
   std::string suffix = scalar;
@@ -42,7 +42,7 @@ std::string unit(const std::vector<std::filesystem::path>& models, const std::st
   for (const auto& model : models) {
     for (const Variant& variant : variants()) {
       text += "#line 1 \"" + model.stem().string() + "_" + variant.name + ".hpp\"\n";
-      text += without_pragma(header(model, variant, scalar));
+      text += without_pragma(shipped_header(model, variant, scalar));
     }
   }
   return text;
@@ -141,7 +141,7 @@ TEST_P(EmittedHeader, OfOtherMethodsCompilesWithoutAWarning) {
     std::string text;
     for (const char* name : {"pendulum", "spring_pendulum", "kepler", "toda", "beads"}) {
       try {
-        text += without_pragma(header(
+        text += without_pragma(shipped_header(
             HAMGEN_SOURCE_DIR "/hamiltonians/" + std::string(name) + ".ham", method, "double"));
         ++headers;
       } catch (const UsageError& error) {
@@ -190,7 +190,7 @@ TEST(OptimisedHeader, CompilesWithoutAWarning) {
     if (name == "outer_solar_system" || name == "figure_eight") continue;  // Eigen: too slow
     for (const Variant& variant : variants()) {
       if (variant.name != "midpoint" && variant.name != "general") continue;
-      const std::string code = header(model, variant, "double");
+      const std::string code = shipped_header(model, variant, "double");
       if (code.find("Eigen") != std::string::npos) continue;
       text += without_pragma(code);
       const std::string space = "shipped_" + name + "_double";
@@ -209,7 +209,7 @@ TEST(OptimisedHeader, CompilesWithoutAWarning) {
 
 TEST(EmittedHeaders, StandAloneWithTheHeadersTheyInclude) {
   for (const auto& model : shipped_models()) {
-    EXPECT_EQ(messages("g++", without_pragma(header(model, variants()[0], "double"))), "")
+    EXPECT_EQ(messages("g++", without_pragma(shipped_header(model, variants()[0], "double"))), "")
         << model.stem();
   }
 }
@@ -218,7 +218,7 @@ TEST(EmittedHeaders, IncludeNothingThatTheyDoNotUse) {
   for (const auto& model : shipped_models()) {
     for (const Variant& variant : variants()) {
       const SourceText source = read_source(model.string());
-      const std::string text = header(model, variant, "double");
+      const std::string text = shipped_header(model, variant, "double");
       SCOPED_TRACE(model.stem().string() + ", " + variant.name);
       std::istringstream lines(text);
       for (std::string line; std::getline(lines, line);) {
@@ -255,7 +255,7 @@ TEST(EmittedHeaders, GiveNoWarningAtFullOptimisation) {
     const std::filesystem::path model =
         std::filesystem::path(HAMGEN_SOURCE_DIR) / "hamiltonians" / (std::string(name) + ".ham");
     for (const Variant& method : methods) {
-      text += without_pragma(header(model, method, "double"));
+      text += without_pragma(shipped_header(model, method, "double"));
       uses += "bool use(shipped_" + std::string(name) + "_double::" + method.name +
               "::Propagator& run) { return run.advance(9).converged; }\n";
     }
@@ -269,7 +269,7 @@ TEST(EmittedHeaders, GiveNoWarningAtFullOptimisation) {
 // an even number of them.
 TEST(EmittedHeaders, HaveTheFormatOfTheProject) {
   for (const auto& model : shipped_models()) {
-    std::istringstream lines(header(model, variants()[3], "double"));
+    std::istringstream lines(shipped_header(model, variants()[3], "double"));
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("//")) continue;  // the user's own text
       EXPECT_LE(line.size(), 100u) << model.stem() << ": " << line;

@@ -11,7 +11,7 @@
 namespace hamgen::emitted_test {
 namespace {
 
-std::string header_of(const std::string& hamiltonian, const Request& request) {
+std::string staged_header(const std::string& hamiltonian, const Request& request) {
   const std::string text = "system one\ncoordinate q\nmomentum p\nH = " + hamiltonian + "\n";
   return without_pragma(generate(make_source("one.ham", text), request).front().text);
 }
@@ -41,7 +41,7 @@ int main() {
   Request named = request;
   named.name_space = "one";
   flags.insert(flags.end(), {"-O2", "-ffp-contract=off"});
-  return run_program(header_of(hamiltonian, named) + main, flags);
+  return run_program(staged_header(hamiltonian, named) + main, flags);
 }
 
 // A power takes what the logarithm and the exponential function are made of.
@@ -49,7 +49,7 @@ TEST(StagesInLanes, OfAPowerAloneCompile) {
   Request batch;
   batch.batch = 2;
   for (const Request& request : {gauss("gauss-4"), batch})
-    EXPECT_EQ(messages("g++", header_of("p^2/2 + q^2.3", request)), "");
+    EXPECT_EQ(messages("g++", staged_header("p^2/2 + q^2.3", request)), "");
 }
 
 TEST(StagesInLanes, HaveTheSameBitsWithAnyInstructions) {
@@ -87,13 +87,13 @@ TEST(StagesInLanes, TakeTheFunctionsOfTheLibraryIfAsked) {
   Request request = gauss("gauss-8");
   request.math = "libm";
   request.require = "emitted-code";
-  const std::string header = header_of("(1 + p^2)*cos(q)", request);
+  const std::string header = staged_header("(1 + p^2)*cos(q)", request);
   EXPECT_NE(header.find("2.0 * p * library<std::cos>(q)"), std::string::npos);
   EXPECT_EQ(header.find("lane_cos"), std::string::npos);
   EXPECT_EQ(messages("g++", header), "");
   // Where nothing is in lanes nobody has functions to choose.
   request.scheme = "gauss-2";
-  EXPECT_THROW(header_of("(1 + p^2)*cos(q)", request), UsageError);
+  EXPECT_THROW(staged_header("(1 + p^2)*cos(q)", request), UsageError);
 }
 
 // The state at the end of the lines.
@@ -107,7 +107,7 @@ std::pair<double, double> end_of(const std::string& lines) {
 
 // Its second derivative vanishes, and its velocity is no multiple of p.
 TEST(StagesInLanes, OfAMomentumsMagnitudeKeepTheirMomenta) {
-  const std::string header = header_of("p^2/2 + abs(p)/3 + cos(q)", gauss("gauss-4"));
+  const std::string header = staged_header("p^2/2 + abs(p)/3 + cos(q)", gauss("gauss-4"));
   EXPECT_EQ(header.find("evaluate_coordinates"), std::string::npos);
 }
 
@@ -116,8 +116,8 @@ TEST(StagesInLanes, OfCoordinatesAloneEndWhereThoseOfAllDo) {
   const Request request = gauss("gauss-8");
   const std::string squares = "p^2/2 + cos(q)";
   const std::string roots = "sqrt(p^4)/2 + cos(q)";
-  EXPECT_NE(header_of(squares, request).find("evaluate_coordinates"), std::string::npos);
-  EXPECT_EQ(header_of(roots, request).find("evaluate_coordinates"), std::string::npos);
+  EXPECT_NE(staged_header(squares, request).find("evaluate_coordinates"), std::string::npos);
+  EXPECT_EQ(staged_header(roots, request).find("evaluate_coordinates"), std::string::npos);
   const auto [q, p] = end_of(steps_of(squares, request, {}));
   const auto [other_q, other_p] = end_of(steps_of(roots, request, {}));
   // Fifty steps round by 2^-53 each, and from the top of the hill that grows by e^5 until t = 5.

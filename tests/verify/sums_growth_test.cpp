@@ -16,9 +16,10 @@ using verify_test::system_of;
 const std::string kFree =
     "coordinate q[1..N] periodic\nmomentum p[1..N]\nparameter K = 1\n"
     "H = sum(i = 1..N, p[i]^2/2) + ";
-const std::string kRotators = kFree +
-                              "K*sum(i = 1..N, cos(q[i]))^2/50 + exp(sum(i = 1..N, sin(q[i]))/40)"
-                              " + sqrt(1 + sum(i = 1..N, p[i])^2)\n";
+const std::string kFreeRotators =
+    kFree +
+    "K*sum(i = 1..N, cos(q[i]))^2/50 + exp(sum(i = 1..N, sin(q[i]))/40)"
+    " + sqrt(1 + sum(i = 1..N, p[i])^2)\n";
 
 Finding finding_of(const std::string& text, const std::string& scheme, long size = 25) {
   const SizedSystem large = system_of(text, 60, scheme);
@@ -30,7 +31,7 @@ Finding finding_of(const std::string& text, const std::string& scheme, long size
 
 TEST(GrowthOfSums, ProvesAFunctionOfThem) {
   for (const char* scheme : {"implicit-midpoint", "gauss-4"}) {
-    const Finding finding = finding_of(kRotators, scheme);
+    const Finding finding = finding_of(kFreeRotators, scheme);
     EXPECT_EQ(finding.verdict, Verdict::proved) << scheme << ": " << finding.detail;
   }
   // Beside neighbours, and of neighbours.
@@ -47,9 +48,9 @@ TEST(GrowthOfSums, ProvesAFunctionOfThem) {
 
 TEST(GrowthOfSums, ProvesNoMutantOfIt) {
   for (const std::string scheme : {"implicit-midpoint", "gauss-4"}) {
-    const SizedOutline first = routines(system_of(kRotators, 25, scheme));
-    const SizedOutline second = routines(system_of(kRotators, 26, scheme));
-    const SizedSystem large = system_of(kRotators, 60, scheme);
+    const SizedOutline first = routines(system_of(kFreeRotators, 25, scheme));
+    const SizedOutline second = routines(system_of(kFreeRotators, 26, scheme));
+    const SizedSystem large = system_of(kFreeRotators, 60, scheme);
     int mutants = 0;
     const auto refuse = [&](const std::vector<verify_test::Mutant>& list) {
       for (const verify_test::Mutant& mutant : list) {
@@ -91,7 +92,7 @@ TEST(GrowthOfSums, AreIndependentWhereTheirJacobianHasFullRank) {
   EXPECT_FALSE(
       independent("exp(sum(i = 1..N, q[i]^2)) + sum(i = 1..N, (q[i] + q[i+1])^2"
                   " - 2*q[i]*q[i+1])^3"));
-  EXPECT_FALSE(are_sums_independent(system_of(kRotators, 25, "implicit-midpoint"), "nothing"));
+  EXPECT_FALSE(are_sums_independent(system_of(kFreeRotators, 25, "implicit-midpoint"), "nothing"));
 }
 
 // Of events by hand: what reads a sum reads all of it, and it is the same for all that do.
