@@ -109,7 +109,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         return judged(fixed_point, distance, iteration);
       };
       return run_contraction(body, measure, judge, [&](Answer answer) {
-        if (!leaves_last || answer == Answer::go_on || fixed_point.settled()) this->move_each(each);
+        if (!leaves_last || answer == Answer::go_on || fixed_point.moves()) this->move_each(each);
       });
     };
   }
@@ -128,8 +128,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
             begun = refine.begun, first = steps(refine.first), body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
       const bool begins = !first.empty();
-      const bool is_left =
-          begun && (rule.empty() || !object(start).contractions.at(rule)->settled());
+      const bool is_left = begun && (rule.empty() || !object(start).contractions.at(rule)->moves());
       for (bool more = true, is_first = true; more; is_first = false) {
         const bool is_known = is_first && is_left;
         if (!is_known && !run_all(is_first && begins ? first : body)) return false;

@@ -79,7 +79,7 @@ struct AnyFixedPointRule {
   virtual void begin(int work) = 0;
   virtual Answer operator()(const Distance& moved, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
-  [[nodiscard]] bool settled() { return contraction() != nullptr && contraction()->settled; }
+  [[nodiscard]] bool moves() { return contraction() != nullptr && contraction()->moves(); }
   // For Refinement; none if it is no ContractionRule.
   [[nodiscard]] virtual typename NumericsOf<Real>::Contraction* contraction() = 0;
 };

@@ -10,6 +10,13 @@
 // The contraction is that of two increments well above rounding, or what Refinement finds, at least
 // in every 32nd step.  Whatever it was, what the equations lack where the slopes are taken is
 // looked at in every step: if it is not lost in the rounding of the unknowns, Refinement goes on.
+//
+// Note [who has chosen the point]
+// The last increment may be left to Refinement, which begins at the last iterate then: of its
+// rounded image, which may be itself, the rounding of the slopes taken there has chosen the point,
+// as far as it is seen through the contraction.  Of 13 bodies at h = 0.2, whose contraction is a
+// tenth, the angular momentum fell by 3e-4 roundings a step.  Where it contracts more than that the
+// increment is made, and Refinement has less to do.
 struct ContractionRule {
   FixedPointRule<2> rule;
   Real contraction = largest;  // where nothing is known
@@ -49,6 +56,8 @@ struct ContractionRule {
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
   }
+  // Is the last increment made?  See Note [who has chosen the point].
+  bool moves() const { return settled || contraction * 32 <= 1; }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(Real seen) {
     const bool first = contraction >= largest;

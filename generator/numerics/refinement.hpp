@@ -1,12 +1,10 @@
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
-// point close by, some ten units of rounding from the solution: in loops from the last iterate,
-// whose increment it is left, for its image may be itself, and then the rounding of the gradient
-// there has chosen it.  What the equations lack there is small, and known without an error.  Over
-// that distance they are linear, and their change along it is found by a difference over one
-// `amplifier` times as long: what is not linear, and what a difference loses, are both far below a
-// unit of rounding.
+// point close by, some ten units of rounding from the solution.  What the equations lack there is
+// small, and known without an error.  Over that distance they are linear, and their change along it
+// is found by a difference over one `amplifier` times as long: what is not linear, and what a
+// difference loses, are both far below a unit of rounding.
 template <int Size, int Components>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.

@@ -196,8 +196,8 @@ struct IterateArray {
   std::optional<int> work = {};
   // Of Newton: whether the increment of each unknown counts, not their sum alone.
   bool of_each = false;
-  // Of a fixed point: whether the increment with which it ends is left to Refinement, unless the
-  // rule has settled it.
+  // Of a fixed point: whether the increment with which it ends is left to Refinement, unless a
+  // ContractionRule makes it.
   bool leaves_last = false;
   // Of a simplified Newton: whether its matrix serves, and what the equations lacked.
   std::optional<Place> factorised = {};
@@ -224,7 +224,7 @@ struct RefineArray {
   std::string rule = {};  // a ContractionRule of start that may have settled it, or none
   int count = 0;          // of unknowns
   int components = 0;     // of the gradient
-  bool begun = false;     // the body has been run there, but where the rule has settled it
+  bool begun = false;     // the body has been run there, unless the rule has moved it
   Body first = {};
   Body body;
 };

@@ -61,8 +61,8 @@ class IterationWriter : public StatementWriter {
     const bool begins = refine.first.empty() && !refine.begun;
     write(refine.first);
     if (refine.begun && !refine.rule.empty()) {
-      const Value settled = is_settled(refine.rule);
-      branch(form_.lanes ? call("any", {settled}) : settled, Shape::braces,
+      const Value moved = makes_last(refine.rule);
+      branch(form_.lanes ? call("any", {moved}) : moved, Shape::braces,
              [&] { write(refine.body); });
     }
     add(While{inside([&] {
@@ -307,9 +307,11 @@ class IterationWriter : public StatementWriter {
     if (!form_.lanes) return;
     end_lanes(rule);
     if (!iterate.leaves_last) return move(iterate, lanes_in_turn());
-    if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), is_settled(iterate.name)}));
+    if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), makes_last(iterate.name)}));
   }
-  static Value is_settled(const std::string& rule) { return at({"start", rule + ".settled"}); }
+  static Value makes_last(const std::string& rule) {
+    return action("ContractionRule", {"start", rule}, "moves", {});
+  }
 
   void distance_of(const IterateArray& iterate) {
     const auto add_to_distance = [&](std::vector<Value> values) {
@@ -340,7 +342,7 @@ class IterationWriter : public StatementWriter {
     add(Define{"Verdict", "verdict ", std::move(verdict)});
     if (moves && moves->leaves_last) {
       Value goes_on = is_verdict("go_on");
-      if (moves->work) goes_on = joined("||", {std::move(goes_on), is_settled(moves->name)});
+      if (moves->work) goes_on = joined("||", {std::move(goes_on), makes_last(moves->name)});
       branch(std::move(goes_on), Shape::braces, [&] { move(*moves); });
     }
     Place size = rule;
