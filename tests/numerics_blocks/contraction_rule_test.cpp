@@ -40,6 +40,25 @@ TYPED_TEST(ContractionRule, LeavesMoreThanThatToRefinement) {
   EXPECT_FALSE(rule.settled);
 }
 
+// The last increment is left to Refinement where rounding is seen through the contraction, or where
+// that is not known.
+TYPED_TEST(ContractionRule, MakesTheLastIncrementWhereItContractsMuch) {
+  for (const auto& [contraction, moves] : {std::pair(0x1p-5, true), std::pair(0x1p-4, false)}) {
+    auto rule = this->with_contraction(contraction);
+    EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+    EXPECT_FALSE(rule.settled);
+    EXPECT_EQ(rule.moves(), moves) << contraction;
+  }
+  typename TestFixture::Rule unknown;
+  unknown.begin(0);
+  EXPECT_FALSE(unknown.moves());
+  // None at all settles it, whatever the contraction.
+  auto rule = this->with_contraction(0.5);
+  EXPECT_EQ(this->show(rule, 0, 1), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+  EXPECT_TRUE(rule.moves());
+}
+
 // One increment more settles it: 2^-9 cubed, 16 units, 2^20.
 TYPED_TEST(ContractionRule, GoesOnWhereTheNextIncrementSettlesIt) {
   auto rule = this->with_contraction(1.0 / (1 << 9));

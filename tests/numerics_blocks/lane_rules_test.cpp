@@ -188,6 +188,7 @@ TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
           end_alone(increments,
                     [&](double size, int iteration) { return other(moved_by(size), iteration); });
           EXPECT_EQ(together.settled[lane], other.settled) << increments.name << " " << known;
+          EXPECT_EQ(together.moves()[lane], other.moves()) << increments.name << " " << known;
           EXPECT_EQ(together.contraction[lane], other.contraction) << increments.name;
         }
       }
