@@ -12,11 +12,9 @@
 // looked at in every step: if it is not lost in the rounding of the unknowns, Refinement goes on.
 //
 // Note [who has chosen the point]
-// The last increment may be left to Refinement, which begins at the last iterate then: of its
-// rounded image, which may be itself, the rounding of the slopes taken there has chosen the point,
-// as far as it is seen through the contraction.  Of 13 bodies at h = 0.2, whose contraction is a
-// tenth, the angular momentum fell by 3e-4 roundings a step.  Where it contracts more than that the
-// increment is made, and Refinement has less to do.
+// Of the last iterate's rounded image the rounding of the slopes may have chosen the place, as far
+// as it is seen through the contraction: 13 bodies lost 3e-4 roundings a step.  Then Refinement
+// begins at the iterate.
 struct ContractionRule {
   FixedPointRule<2> rule;
   Real contraction = largest;  // where nothing is known

@@ -20,17 +20,15 @@
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
-// contraction times itself: a hundredth of a rounding error, but the same way at every step.  Along
-// Kepler's orbit (e = 0.6, order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a
-// step.  Where that counts (2^-13 is 1.2e-4) one more increment follows, which is made of rounding
-// alone.
+// contraction times itself: a hundredth of a rounding error, but the same way at every step.  Of
+// Kepler's orbit (order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a step.  Where
+// that counts one more increment follows, which is made of rounding alone.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order is missing in every gradient by itself, and nothing moves it to where it is lost: a
-// bead that rests while its neighbour is hit moves by little, all of which is increment, and was
-// off by 57 roundings.  Of each the next increment is taken to be the same part of the last one as
-// of all together; `uneven` is the sum of what the increments are of their unknowns.
+// second order stays where it is: a bead that rests while its neighbour is hit was off by 57
+// roundings.  Of each the next increment is taken to be the same part of the last one as of all
+// together; `uneven` is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
