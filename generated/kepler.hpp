@@ -96,11 +96,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_82e1cdc4::float64 {
+namespace hamgen_275bf021::float64 {
 using Real = double;
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_STEP_REPORT
-#define HAMGEN_82E1CDC4_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_275BF021_FLOAT64_STEP_REPORT
+#define HAMGEN_275BF021_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -110,15 +110,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_VOCABULARY
-#define HAMGEN_82E1CDC4_FLOAT64_VOCABULARY
+#ifndef HAMGEN_275BF021_FLOAT64_VOCABULARY
+#define HAMGEN_275BF021_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_TWO_SUM
-#define HAMGEN_82E1CDC4_FLOAT64_TWO_SUM
+#ifndef HAMGEN_275BF021_FLOAT64_TWO_SUM
+#define HAMGEN_275BF021_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -128,8 +128,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_SUM_WITH_REST
-#define HAMGEN_82E1CDC4_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_275BF021_FLOAT64_SUM_WITH_REST
+#define HAMGEN_275BF021_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -141,14 +141,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_VERDICT
-#define HAMGEN_82E1CDC4_FLOAT64_VERDICT
+#ifndef HAMGEN_275BF021_FLOAT64_VERDICT
+#define HAMGEN_275BF021_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_NEWTON_RULE
-#define HAMGEN_82E1CDC4_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_275BF021_FLOAT64_NEWTON_RULE
+#define HAMGEN_275BF021_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -177,9 +177,9 @@ enum class Verdict { go_on, done, failed };
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order stays where it is: a bead that rests while its neighbour is hit was off by 57
-// roundings.  Of each the next increment is taken to be the same part of the last one as of all
-// together; `uneven` is the sum of what the increments are of their unknowns.
+// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
+// each the next increment is taken to be the same part of the last one as of all together; `uneven`
+// is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -266,8 +266,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_HISTORY
-#define HAMGEN_82E1CDC4_FLOAT64_HISTORY
+#ifndef HAMGEN_275BF021_FLOAT64_HISTORY
+#define HAMGEN_275BF021_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -359,8 +359,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_82E1CDC4_FLOAT64_FORGET
-#define HAMGEN_82E1CDC4_FLOAT64_FORGET
+#ifndef HAMGEN_275BF021_FLOAT64_FORGET
+#define HAMGEN_275BF021_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -370,17 +370,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_82e1cdc4::float64
+}  // namespace hamgen_275bf021::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0xb9de55a1
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x29b71fba
 namespace kepler::implicit_midpoint {
-inline namespace emitted_b9de55a1 {
+inline namespace emitted_29b71fba {
 
-namespace numerics = ::hamgen_82e1cdc4::float64;
+namespace numerics = ::hamgen_275bf021::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -596,9 +596,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_b9de55a1
+}  // namespace emitted_29b71fba
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xb9de55a1
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x29b71fba
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -12,9 +12,8 @@
 // looked at in every step: if it is not lost in the rounding of the unknowns, Refinement goes on.
 //
 // Note [who has chosen the point]
-// Of the last iterate's rounded image the rounding of the slopes may have chosen the place, as far
-// as it is seen through the contraction: 13 bodies lost 3e-4 roundings a step.  Then Refinement
-// begins at the iterate.
+// Where rounding is seen through the contraction it may have chosen the last iterate's image (13
+// bodies lost 3e-4 roundings a step): Refinement begins at the iterate itself.
 struct ContractionRule {
   FixedPointRule<2> rule;
   Real contraction = largest;  // where nothing is known

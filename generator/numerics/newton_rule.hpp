@@ -26,9 +26,9 @@
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order stays where it is: a bead that rests while its neighbour is hit was off by 57
-// roundings.  Of each the next increment is taken to be the same part of the last one as of all
-// together; `uneven` is the sum of what the increments are of their unknowns.
+// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
+// each the next increment is taken to be the same part of the last one as of all together; `uneven`
+// is the sum of what the increments are of their unknowns.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
