@@ -31,9 +31,10 @@ constexpr std::size_t kMostInOne = 8;
 long factor_of(const AffineIndex& index) {
   return index.factors.empty() ? 0 : index.factors.begin()->second;
 }
-// How far apart the elements of neighbouring instances are.
+// How far apart the elements of neighbouring instances are; a constant has none.
 long stride_of(const Kernel& kernel) {
-  return kernel.ranges.empty() ? 1 : std::abs(factor_of(kernel.slots.front().position));
+  const bool moves = !kernel.ranges.empty() && !kernel.slots.empty();
+  return moves ? std::abs(factor_of(kernel.slots.front().position)) : 1;
 }
 
 // Where each instance meets a fixed number of others.

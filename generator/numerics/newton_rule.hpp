@@ -14,9 +14,9 @@
 //   bend, its difference of order 2 + Power, is h^2 |force^(Power)| move^Power,
 // while an increment leaves h^2 |force^(Power)| size^Power or less (an approximate matrix is taken
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
-// needs this to be lost in rounding too.  Both are those of the step before, or the increment
-// itself where it is larger than bend, and count 2^10 times: for a force that has grown since, and
-// for an increment across the motion or in unknowns that move less than others.
+// needs this to be lost in rounding too.  Both are those of the step before, or the increment where
+// it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
+// increment across the motion or in unknowns that move less than others.
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -48,6 +48,7 @@ struct NewtonRule {
   bool predicted = false;
   Motion motion;
 
+  static constexpr Real tiny = 64 * epsilon / largest;  // of which a rounding may be lost
   static Real power(Real size) { return Power == 2 ? size * size : size; }
   // From a prediction, or else from the state itself.
   void begin(bool from_prediction) {
@@ -62,13 +63,14 @@ struct NewtonRule {
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // What an increment is of what its unknown is rounded with.
-  static Real relative(Real moved, Real length) { return moved > 0 ? moved / length : Real(0); }
-  // size, scale: sums over the unknowns, of their increments and of their values; uneven: of the
-  // relative ones, where each counts.
+  static Real relative(Real moved, Real length) {
+    return moved > tiny ? moved / length : Real(0);
+  }
+  // Sums over the unknowns, of their increments and of their values; uneven: where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
-    const Real round_off = epsilon * scale;
-    if (previous > 0) {
+    const Real round_off = epsilon * scale + tiny;
+    if (power(previous) > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
       const bool first = contraction >= largest;

@@ -199,26 +199,31 @@ std::pair<Expression, Expression> half_of_complex_rest(const Real& s, const Real
     real.push_back(Expression(weight) * tangent / denominator / h());
     imaginary.push_back(Expression(weight) * sine * cosine / denominator / h());
   }
-  Real power_s = part_s;
-  Real power_w = part_w;
-  for (int j = 1; j <= kTermsOfSeries; ++j) {
-    const GiNaC::ex exact = GiNaC::bernoulli(2 * j) * GiNaC::pow(4, j) / GiNaC::factorial(2 * j);
-    const Rational factor = weight * hamgen::to_rational(GiNaC::ex_to<GiNaC::numeric>(exact));
-    const Expression power = Expression::power(h(), Expression(2 * j - 2));
-    real.push_back(number(to_real(factor) * power_s) * power);
-    imaginary.push_back(number(to_real(factor) * power_w) * power);
-    for (int twice = 0; twice < 2; ++twice) {
-      const Real product_s = power_s * part_s - power_w * part_w;
-      power_w = power_s * part_w + power_w * part_s;
-      power_s = product_s;
+  // With t = r e^(i a) its terms are r^(2j-1) times a number near one: nested in r^2, for the
+  // powers of a small r may be no numbers any more.
+  const Real modulus = sqrt(part_s * part_s + part_w * part_w);
+  const Real angle = atan2(part_w, part_s);
+  const Expression square = number(Real(modulus * modulus)) * h() * h();
+  const auto nested = [&](const auto& part) {
+    Expression sum;
+    for (int j = kTermsOfSeries; j >= 1; --j) {
+      const GiNaC::ex exact = GiNaC::bernoulli(2 * j) * GiNaC::pow(4, j) / GiNaC::factorial(2 * j);
+      const Real factor = to_real(hamgen::to_rational(GiNaC::ex_to<GiNaC::numeric>(exact)));
+      sum = number(factor * part(Real((2 * j - 1) * angle))) + square * sum;
     }
-  }
+    return Expression(weight) * number(modulus) * sum;
+  };
+  real.push_back(nested([](const Real& x) { return Real(cos(x)); }));
+  imaginary.push_back(nested([](const Real& x) { return Real(sin(x)); }));
   return {Expression::sum(std::move(real)), Expression::sum(std::move(imaginary))};
 }
 
+// Rates below this do not turn in any step: f(x) = -x/12 to the last place for h below 1e20.
+const Real kAtRest("1e-40");
+
 void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) {
   const Matrix linear = a * cluster.projector;
-  if (cluster.b == 0 && cluster.a == 0) {
+  if (sqrt(abs(cluster.a) + cluster.b) < kAtRest) {
     result.terms.push_back({-h() / Expression(12), to_rational(linear)});
     return;
   }

@@ -70,8 +70,13 @@ void expect_written_out(const std::string& text, int size, const Asked& asked) {
       << text;
 }
 
+// A summand without a variable meets no other.
+const std::string kWithConstants =
+    kRing + kQuadratic + "sum(i = 1..N, q[i]^4/4 + 1 + (q[i+1] - q[i])^2/2)\n";
+
 TEST(KernelSeries, IsTheSeriesWrittenOut) {
-  for (const std::string& text : {kChainOfMasses, kPendula, kDimers, kCoupled, kLadder}) {
+  for (const std::string& text :
+       {kChainOfMasses, kPendula, kDimers, kCoupled, kLadder, kWithConstants}) {
     expect_written_out(text, 4, {4, {}});
     expect_written_out(text, 5, {3, {"3/10", "1/5", "-1/10"}});
     expect_written_out(text, 4, {4, {"1/2", "h/5", "2*h"}});

@@ -1,7 +1,9 @@
 // Members with a full matrix C against the same step by hand: no generator, no blocks, no tearing.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -239,6 +241,31 @@ TEST(LocallyExact, FrequenciesNextToZeroAreNoWorseThanOthers) {
   EXPECT_LT(distance(Emitted(text, exact).after(300, start, h),
                      Emitted(text, longer).after(300, start, h)),
             100 * 50 * 0x1p-53L);
+}
+
+// A spiral, whose eigenvalues are complex, from ordinary rates to such that their powers are no
+// numbers: Z = exp(a h) (turned by b h) of the positions.
+TEST(LocallyExact, SpiralsOfEveryRateAreSolvedInEveryScalar) {
+  for (const char* scalar : {"float", "double", "quad"}) {
+    const bool is_float = std::string_view(scalar) == "float";
+    for (const auto& [a, b] :
+         {std::pair("0.3", "1"), std::pair("2", "7"), std::pair("1e-9", "3e-9"),
+          std::pair("1e-15", "1e-15"), std::pair("1e-60", "1e-60")}) {
+      // Of these the square, by which the gauge goes on, is no number of float: refused.
+      if (is_float && std::stold(a) < 1e-12L) continue;
+      const std::string text = fmt::format(
+          "coordinate x, y\nmomentum u, v\nH = {}*(x*u + y*v) + {}*(x*v - y*u)\n", a, b);
+      const Vector end = Emitted(text, {.gauge = "locally-exact", .scalar = scalar})
+                             .after(1, {1, 0.5L, 0, 0}, 0.5L);
+      const long double grown = std::exp(0.5L * std::stold(a));
+      const long double c = std::cos(0.5L * std::stold(b));
+      const long double s = std::sin(0.5L * std::stold(b));
+      // Some ten operations, of conditions up to 1/|cos| of what is turned: 32 units.
+      const Vector exact = {grown * (c - 0.5L * s), grown * (s + 0.5L * c), 0, 0};
+      EXPECT_LT(distance(end, exact), 32 * (is_float ? 0x1p-23L : 0x1p-52L))
+          << scalar << ", " << a << ", " << b;
+    }
+  }
 }
 
 TEST(LocallyExact, NonlinearSystemsHaveOrderTwo) {

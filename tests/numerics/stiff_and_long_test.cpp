@@ -67,8 +67,6 @@ TEST(StiffAndLong, AWaveIntoAChainAtRestIsNotFollowedToTheSmallestNumber) {
   EXPECT_LE(iterations.most, 20);
 }
 
-// The midpoint rule turns (omega q, p) by theta = 2 atan(h omega/2) exactly: with x = h omega/2,
-//   cos theta = (1 - x^2)/(1 + x^2),  sin theta = 2 x/(1 + x^2).
 // Below the smallest normal number a unit of rounding is one of the smallest numbers, and a fixed
 // point may go to and fro by one for ever.  `after` wants every step to succeed.
 TEST(StiffAndLong, AStateOfTheSmallestNumbersHasItsFixedPoints) {
@@ -90,6 +88,21 @@ TEST(StiffAndLong, AStateOfTheSmallestNumbersHasItsFixedPoints) {
   }
 }
 
+// Newton in loops, too, where nothing can be measured of squares of increments.
+TEST(StiffAndLong, AStateOfTheSmallestNumbersIsSolvedByNewtonInLoops) {
+  const Emitted chain(
+      "size N = 26\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 - cos(q[i])) + sum(i = 0..N, (q[i+1] - q[i])^2/2)\n",
+      {.solver = "newton"});
+  for (const long double size : {1e-300L, 1e-309L, 1e-312L, 1e-318L}) {
+    Vector state(52);
+    state[0] = size;
+    EXPECT_LT(distance(chain.after(500, state, 0.1L), Vector(52)), 10 * size);
+  }
+}
+
+// The midpoint rule turns (omega q, p) by theta = 2 atan(h omega/2) exactly: with x = h omega/2,
+//   cos theta = (1 - x^2)/(1 + x^2),  sin theta = 2 x/(1 + x^2).
 TEST(StiffAndLong, LinearModesTurnByTheExactAngleEvenAtAMillionRadiansAStep) {
   const Emitted oscillator = Emitted::shipped("harmonic", {});
   double worst = 0.0;  // in ulp
