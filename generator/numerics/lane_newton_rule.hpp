@@ -43,7 +43,7 @@ struct NewtonRule : Iteration {
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations,
                   const Real& uneven = Real(0)) {
-    const Real round_off = epsilon * scale + tiny;
+    const Real round_off = epsilon * scale;
     const Real parts = size * uneven;
     const bool first = iterations == 1 && !checks;
     const Mask alone = first ? is_lost(size, round_off) & is_even(parts, false) : Mask(false);
@@ -76,14 +76,14 @@ struct NewtonRule : Iteration {
   // Lanes that make no progress any more.
   Mask learn(const Real& size, const Real& round_off) {
     const Real seen = select(size < round_off, round_off, size) / power(previous);
-    const Mask measured = open & (power(previous) > 0);
     // It may rise at once but falls slowly: one small increment may be luck.
     const Mask rises = (contraction >= largest) | ((size > 64 * round_off) & (seen > contraction));
-    const Mask falls = measured & !rises & (seen < contraction);
+    const Mask falls = open & !rises & (seen < contraction);
     const Real lower = select(4 * seen < contraction, contraction / 4, seen);
-    contraction = select(measured & rises, seen, select(falls, lower, contraction));
-    grown = select(measured, select(size < previous, Real(0), grown + 1), grown);
-    return measured & (grown >= 2) & (size <= 4096 * round_off);
+    contraction = select(open & rises, select(seen < largest, seen, Real(largest)),
+                         select(falls, lower, contraction));
+    grown = select(open, select(size < previous, Real(0), grown + 1), grown);
+    return (grown >= 2) & (size <= 4096 * round_off);
   }
   // Would the next increment be?
   Mask is_next_lost(const Real& size, const Real& round_off) const {

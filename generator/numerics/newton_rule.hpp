@@ -48,7 +48,7 @@ struct NewtonRule {
   bool predicted = false;
   Motion motion;
 
-  static constexpr Real tiny = 64 * epsilon / largest;  // of which a rounding may be lost
+  static constexpr Real tiny = 64 * epsilon / largest;
   static Real power(Real size) { return Power == 2 ? size * size : size; }
   // From a prediction, or else from the state itself.
   void begin(bool from_prediction) {
@@ -62,20 +62,18 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // What an increment is of what its unknown is rounded with.
-  static Real relative(Real moved, Real length) {
-    return moved > tiny ? moved / length : Real(0);
-  }
+  // Of what its unknown is rounded with.
+  static Real relative(Real moved, Real length) { return moved > tiny ? moved / length : Real(0); }
   // Sums over the unknowns, of their increments and of their values; uneven: where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
-    const Real round_off = epsilon * scale + tiny;
-    if (power(previous) > 0) {
+    const Real round_off = epsilon * scale;
+    if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
       const bool first = contraction >= largest;
       if (first || (size > 64 * round_off && seen > contraction)) {
-        contraction = seen;
+        contraction = seen < largest ? seen : largest;
       } else if (seen < contraction) {
         contraction = 4 * seen < contraction ? contraction / 4 : seen;
       }
