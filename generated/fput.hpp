@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_6f111b39::float64 {
+namespace hamgen_21e489b3::float64 {
 using Real = double;
 
-#ifndef HAMGEN_6F111B39_FLOAT64_STEP_REPORT
-#define HAMGEN_6F111B39_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_21E489B3_FLOAT64_STEP_REPORT
+#define HAMGEN_21E489B3_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_VOCABULARY
-#define HAMGEN_6F111B39_FLOAT64_VOCABULARY
+#ifndef HAMGEN_21E489B3_FLOAT64_VOCABULARY
+#define HAMGEN_21E489B3_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_TWO_SUM
-#define HAMGEN_6F111B39_FLOAT64_TWO_SUM
+#ifndef HAMGEN_21E489B3_FLOAT64_TWO_SUM
+#define HAMGEN_21E489B3_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_SUM_WITH_REST
-#define HAMGEN_6F111B39_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_21E489B3_FLOAT64_SUM_WITH_REST
+#define HAMGEN_21E489B3_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_SUMS
-#define HAMGEN_6F111B39_FLOAT64_SUMS
+#ifndef HAMGEN_21E489B3_FLOAT64_SUMS
+#define HAMGEN_21E489B3_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -223,8 +223,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_BAND_MATRIX
-#define HAMGEN_6F111B39_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_21E489B3_FLOAT64_BAND_MATRIX
+#define HAMGEN_21E489B3_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -289,14 +289,14 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_VERDICT
-#define HAMGEN_6F111B39_FLOAT64_VERDICT
+#ifndef HAMGEN_21E489B3_FLOAT64_VERDICT
+#define HAMGEN_21E489B3_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_NEWTON_RULE
-#define HAMGEN_6F111B39_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_21E489B3_FLOAT64_NEWTON_RULE
+#define HAMGEN_21E489B3_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -347,7 +347,7 @@ struct NewtonRule {
   bool predicted = false;
   Motion motion;
 
-  static constexpr Real tiny = 64 * epsilon / largest;
+  static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
   static Real power(Real size) { return Power == 2 ? size * size : size; }
   // From a prediction, or else from the state itself.
   void begin(bool from_prediction) {
@@ -361,9 +361,10 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // Of what its unknown is rounded with.
+  // An increment as a part of what its unknown is rounded with; nothing at the smallest numbers.
   static Real relative(Real moved, Real length) { return moved > tiny ? moved / length : Real(0); }
-  // Sums over the unknowns, of their increments and of their values; uneven: where each counts.
+  // size, scale: sums over the unknowns of their increments and of their values; uneven: of the
+  // increments as parts of their unknowns, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;
@@ -414,8 +415,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_6F111B39_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_21E489B3_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_21E489B3_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -437,8 +438,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_6F111B39_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_21E489B3_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_21E489B3_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -517,8 +518,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_6F111B39_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_21E489B3_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_21E489B3_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -606,8 +607,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_REFINEMENT
-#define HAMGEN_6F111B39_FLOAT64_REFINEMENT
+#ifndef HAMGEN_21E489B3_FLOAT64_REFINEMENT
+#define HAMGEN_21E489B3_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -705,8 +706,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_HISTORY
-#define HAMGEN_6F111B39_FLOAT64_HISTORY
+#ifndef HAMGEN_21E489B3_FLOAT64_HISTORY
+#define HAMGEN_21E489B3_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -798,8 +799,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_6F111B39_FLOAT64_FORGET
-#define HAMGEN_6F111B39_FLOAT64_FORGET
+#ifndef HAMGEN_21E489B3_FLOAT64_FORGET
+#define HAMGEN_21E489B3_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -809,17 +810,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_6f111b39::float64
+}  // namespace hamgen_21e489b3::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x9d3fbf0d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x4a89370b
 namespace fput::implicit_midpoint {
-inline namespace emitted_9d3fbf0d {
+inline namespace emitted_4a89370b {
 
-namespace numerics = ::hamgen_6f111b39::float64;
+namespace numerics = ::hamgen_21e489b3::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
     numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
@@ -1120,9 +1121,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_9d3fbf0d
+}  // namespace emitted_4a89370b
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x9d3fbf0d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4a89370b
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -72,26 +72,7 @@ std::vector<Expression> substitute(std::span<const Expression> values,
       operands.push_back(self(self, operand));
       changed = changed || operands.back().identity() != operand.identity();
     }
-    Expression result = node;
-    if (changed) {
-      switch (node.kind()) {
-        case Kind::sum:
-          result = Expression::sum(std::move(operands));
-          break;
-        case Kind::product:
-          result = Expression::product(std::move(operands));
-          break;
-        case Kind::power:
-          result = Expression::power(operands[0], operands[1]);
-          break;
-        case Kind::function:
-          result = Expression::apply(node.name(), std::move(operands));
-          break;
-        case Kind::number:
-        case Kind::symbol:
-          break;
-      }
-    }
+    const Expression result = changed ? with_operands(node, std::move(operands)) : node;
     done.emplace(node.identity(), result);
     return result;
   };

@@ -75,14 +75,7 @@ class FormBuilder {
       if (!inner) return std::nullopt;
       operands.push_back(*inner);
     }
-    switch (e.kind()) {
-      case Kind::product:
-        return Expression::product(std::move(operands));
-      case Kind::power:
-        return Expression::power(operands[0], operands[1]);
-      default:
-        return Expression::apply(e.name(), std::move(operands));
-    }
+    return with_operands(e, std::move(operands));
   }
 
   // factor * (the form z^T n z), as a multiple of a form that is known from now on.

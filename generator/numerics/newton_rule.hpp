@@ -48,7 +48,7 @@ struct NewtonRule {
   bool predicted = false;
   Motion motion;
 
-  static constexpr Real tiny = 64 * epsilon / largest;
+  static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
   static Real power(Real size) { return Power == 2 ? size * size : size; }
   // From a prediction, or else from the state itself.
   void begin(bool from_prediction) {
@@ -62,9 +62,10 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // Of what its unknown is rounded with.
+  // An increment as a part of what its unknown is rounded with; nothing at the smallest numbers.
   static Real relative(Real moved, Real length) { return moved > tiny ? moved / length : Real(0); }
-  // Sums over the unknowns, of their increments and of their values; uneven: where each counts.
+  // size, scale: sums over the unknowns of their increments and of their values; uneven: of the
+  // increments as parts of their unknowns, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
     if (!(size <= largest)) return Verdict::failed;
     const Real round_off = epsilon * scale;

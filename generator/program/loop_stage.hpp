@@ -51,6 +51,13 @@ class LoopStage {
   // solved once more for it, with the same matrix.
   [[nodiscard]] bool is_linear() const { return newton() && is_quadratic_; }
   [[nodiscard]] bool both() const { return arrays_.method == ArrayMethod::both; }
+  [[nodiscard]] bool is_explicit() const {
+    return arrays_.method == ArrayMethod::explicit_a || arrays_.method == ArrayMethod::explicit_b;
+  }
+  // Is there a rest beside dz?
+  [[nodiscard]] bool has_rest() const { return iterates(arrays_) || is_explicit(); }
+  // Does Newton's matrix change with the stage?
+  [[nodiscard]] bool is_sharp() const { return (newton() && !is_linear()) || both(); }
   // The size of all increments together then falls from one iteration to the next: q does not wait
   // for p.
   [[nodiscard]] bool settles() const {
@@ -89,6 +96,9 @@ class LoopStage {
   [[nodiscard]] Routine differentiate() const;
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
   void add_stage(RoutineBuilder& b, Body& each) const;
+  // dz, and rest where there is one, by the gradient at the stage: by Refinement's where the
+  // unknowns were refined.
+  void add_result(RoutineBuilder& b, bool refined) const;
   // What the equations lack at the stage, where the gradient is this.
   [[nodiscard]] Body lacks(RoutineBuilder& b, const Gradient& at) const;
 
@@ -102,6 +112,13 @@ class LoopStage {
   std::optional<LocalVelocity> velocity_;  // of torn momenta
   bool has_coefficients_ = false;
   bool is_quadratic_;  // is H, with a constant matrix?
+
+ private:
+  // Is it known what the torn momenta lose in rounding?
+  [[nodiscard]] bool knows_momentum_error() const;
+  Expression lost_of_momentum(RoutineBuilder& b, Body& each) const;
+  // What H'' times the last increment adds to dz.
+  [[nodiscard]] Expression change_of_flow(RoutineBuilder& b, bool is_p) const;
 };
 
 }  // namespace hamgen

@@ -96,21 +96,8 @@ Expression meaning(const Arithmetic& a) {
 Expression without_ranks(const Expression& e) {
   std::vector<Expression> operands;
   for (const Expression& operand : e.operands()) operands.push_back(without_ranks(operand));
-  switch (e.kind()) {
-    case Kind::number:
-      return e;
-    case Kind::symbol:
-      return Expression::symbol(e.name());
-    case Kind::power:
-      return Expression::power(operands[0], operands[1]);
-    case Kind::function:
-      return Expression::apply(e.name(), std::move(operands));
-    case Kind::product:
-      return Expression::product(std::move(operands));
-    case Kind::sum:
-      return Expression::sum(std::move(operands));
-  }
-  internal_error("unknown kind");
+  if (e.kind() == Kind::symbol) return Expression::symbol(e.name());
+  return with_operands(e, std::move(operands));
 }
 
 }  // namespace

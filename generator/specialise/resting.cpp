@@ -35,23 +35,12 @@ std::optional<Expression> where_zero(const Expression& e, const Substitution& ze
     if (!value) return std::nullopt;
     operands.push_back(std::move(*value));
   }
-  switch (e.kind()) {
-    case Kind::sum:
-      return Expression::sum(std::move(operands));
-    case Kind::product:
-      return Expression::product(std::move(operands));
-    case Kind::power:
-      if (!is_natural(operands[1]) && vanishes(operands[0])) return std::nullopt;
-      return Expression::power(operands[0], operands[1]);
-    case Kind::function:
-      if (!is_analytic_at_zero(e.name()) && std::ranges::any_of(operands, vanishes))
-        return std::nullopt;
-      return Expression::apply(e.name(), std::move(operands));
-    case Kind::number:
-    case Kind::symbol:
-      break;
-  }
-  return e;
+  const bool has_pole =
+      e.kind() == Kind::power && !is_natural(operands[1]) && vanishes(operands[0]);
+  const bool has_corner = e.kind() == Kind::function && !is_analytic_at_zero(e.name()) &&
+                          std::ranges::any_of(operands, vanishes);
+  if (has_pole || has_corner) return std::nullopt;
+  return with_operands(e, std::move(operands));
 }
 
 bool vanishes_where_zero(const Expression& e, const Substitution& zeros) {

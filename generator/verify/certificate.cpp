@@ -61,20 +61,7 @@ class Exponentials {
   [[nodiscard]] Expression unified(const Expression& e) const {
     std::vector<Expression> operands;
     for (const Expression& operand : e.operands()) operands.push_back(unified(operand));
-    switch (e.kind()) {
-      case Kind::number:
-      case Kind::symbol:
-        return e;
-      case Kind::power:
-        return Expression::power(operands[0], operands[1]);
-      case Kind::product:
-        return Expression::product(std::move(operands));
-      case Kind::sum:
-        return Expression::sum(std::move(operands));
-      case Kind::function:
-        break;
-    }
-    if (!is_exponential(e)) return Expression::apply(e.name(), std::move(operands));
+    if (!is_exponential(e)) return with_operands(e, std::move(operands));
     const auto [factor, rest] = e.operands()[0].split_coefficient();
     const Rational unit = units_.at(rest);
     const Expression argument = unified(Expression(unit) * rest);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "generator/verify/local_sums.hpp"
 #include "generator/verify/rooms.hpp"
 
 namespace hamgen {
@@ -80,12 +81,6 @@ class Locality {
   [[nodiscard]] bool in_growing() const { return growing_loops() > 0; }
   [[nodiscard]] bool in_pairs() const { return growing_loops() == 2; }
 
-  [[nodiscard]] bool is_function(const std::string& routine) const {
-    return functions_.contains(routine);
-  }
-  [[nodiscard]] bool is_opaque(const std::string& called) const {
-    return is_function(called) && !is_function(routine_);
-  }
   // How often the loops around it run what stands here.
   [[nodiscard]] long times() const {
     long product = 1;
@@ -101,8 +96,7 @@ class Locality {
       case Event::routine:
         // The sums and locals of another are others.
         check_sums();
-        local_sums_.clear();
-        declared_in_.clear();
+        local_sums_.begin_routine();
         summed_over_pairs_.clear();
         passes_on_ = false;
         routine_ = of.text;
@@ -118,7 +112,7 @@ class Locality {
         return end();
       case Event::local:
         if (in_growing()) inner_locals_[of.text] = growing_loops();
-        declared_in_[of.text] = std::ssize(loops_);
+        local_sums_.declare(of.text, std::ssize(loops_));
         return;
       case Event::index:
         return index();
@@ -136,16 +130,17 @@ class Locality {
   }
 
   void check_sums() {
-    for (const std::string& name : sums_) {
-      if (read_.contains(name)) throw NotLonger{"a sum over all elements enters a loop"};
-    }
+    const auto is_read = [&](const std::string& name) { return read_.contains(name); };
+    if (std::ranges::any_of(sums_, is_read))
+      throw NotLonger{"a sum over all elements enters a loop"};
   }
 
   void call(const std::string& called) {
     if (in_growing()) throw NotLonger{"a routine is called for every element"};
-    if (is_opaque(called)) return;
+    const bool in_function = functions_.contains(routine_);
+    if (functions_.contains(called) && !in_function) return;
     if (with_pairs_.contains(called) && called != "differentiate") {
-      if (!is_function(routine_)) throw NotLonger{"a sum over pairs is looked into"};
+      if (!in_function) throw NotLonger{"a sum over pairs is looked into"};
       with_pairs_.insert(routine_);
       passes_on_ = true;
     }
@@ -196,8 +191,7 @@ class Locality {
     written_.clear();
     gets_.clear();
     inner_locals_.clear();
-    read_here_.clear();
-    for (auto& each : local_sums_) each.second.grows = false;
+    local_sums_.begin_nest();
   }
   // Is what an instance writes and reads of an array its own?  It is if the place is the same, and
   // if the places are the same in several blocks of it that do not meet.
@@ -309,7 +303,8 @@ class Locality {
     }
     if (of.kind == Event::get) {
       read_.insert(of.text);
-      if (is_local(of.text)) read_sum(of.text);
+      if (of.text.starts_with("local") && local_sums_.read(of.text, in_growing()))
+        readers_.insert(routine_);
       if (in_growing() && !indices.empty()) gets_[of.text].insert({block, offsets});
       return get(of.text, alone);
     }
@@ -325,33 +320,11 @@ class Locality {
     }
     if (of.kind != Event::add || !offsets.empty()) throw NotLonger{"all elements meet in one"};
     if (in_pairs()) with_pairs_.insert(routine_);
-    if (is_local(of.text)) return add_to_sum(of.text);
+    const long inside = std::ssize(loops_) - growing_loops();
+    if (of.text.starts_with("local")) return local_sums_.add(of.text, in_pairs(), inside);
     sums_.insert(of.text);
   }
 
-  static bool is_local(const std::string& name) { return name.starts_with("local"); }
-  // A sum over all elements is read when it is whole, and is one number for all that read it.
-  void add_to_sum(const std::string& name) {
-    LocalSum& sum = local_sums_[name];
-    if (sum.is_read || read_here_.contains(name))
-      throw NotLonger{"a sum over all elements grows after it was read"};
-    sum.grows = true;
-    sum.of_pairs = sum.of_pairs || in_pairs();
-    // In a loop that does not grow it would go on with what is there of the time before.
-    const long inside = std::ssize(loops_) - growing_loops();
-    sum.goes_on = sum.goes_on || !declared_in_.contains(name) || declared_in_[name] != inside;
-  }
-  void read_sum(const std::string& name) {
-    if (in_growing()) read_here_.insert(name);
-    const auto found = local_sums_.find(name);
-    if (found == local_sums_.end()) return;
-    LocalSum& sum = found->second;
-    if (sum.grows) throw NotLonger{"an instance of a loop reads what another one writes"};
-    if (sum.of_pairs) throw NotLonger{"a sum over pairs is looked into"};
-    if (sum.goes_on) throw NotLonger{"a sum over all elements goes on from loop to loop"};
-    sum.is_read = true;
-    readers_.insert(routine_);
-  }
   // A value that is a sum over pairs may be added to another one, and enter nothing else.  What a
   // routine has from another one may be turned.
   void get(const std::string& name, bool alone) {
@@ -391,14 +364,7 @@ class Locality {
   std::optional<long> covers_;                // of a nest of one loop, in multiples of the size
   std::map<std::string, Places> written_, gets_;
   std::set<std::string> sums_, read_;
-  std::set<std::string> read_here_;  // locals, in the nest
-  // Of the routine: its sums over all elements, and in how many loops locals are declared.
-  struct LocalSum {
-    bool grows = false;  // in the nest
-    bool is_read = false, of_pairs = false, goes_on = false;
-  };
-  std::map<std::string, LocalSum> local_sums_;
-  std::map<std::string, long> declared_in_;
+  LocalSums local_sums_;
   std::set<std::string> readers_;
   // Of the routine: arrays and locals that are sums over the other one of a pair.
   std::set<std::string> summed_over_pairs_;
@@ -425,9 +391,8 @@ std::set<std::string> readers_of_sums(const std::array<SizedOutline, 3>& sizes) 
 std::optional<std::string> why_not_longer(const std::array<SizedOutline, 3>& sizes) {
   try {
     const Reach reach = Locality(affine_events(sizes)).reach();
-    if (reach.least_size() > sizes[0].size)
-      return fmt::format("its loops reach {} elements far", reach.elements);
-    return {};
+    if (reach.least_size() <= sizes[0].size) return {};
+    return fmt::format("its loops reach {} elements far", reach.elements);
   } catch (const NotLonger& not_longer) {
     return not_longer.why;
   }

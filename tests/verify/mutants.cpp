@@ -83,21 +83,6 @@ namespace {
 // An expression with one node changed: all ways of a kind.
 using Change = std::function<std::vector<Expression>(const Expression&)>;
 
-Expression rebuilt(const Expression& e, std::vector<Expression> operands) {
-  switch (e.kind()) {
-    case Kind::sum:
-      return Expression::sum(std::move(operands));
-    case Kind::product:
-      return Expression::product(std::move(operands));
-    case Kind::power:
-      return Expression::power(operands[0], operands[1]);
-    case Kind::function:
-      return Expression::apply(e.name(), std::move(operands));
-    default:
-      return e;
-  }
-}
-
 std::vector<Expression> changed_somewhere(const Expression& e, const Change& change) {
   std::vector<Expression> result = change(e);
   std::vector<Expression> operands(e.operands().begin(), e.operands().end());
@@ -105,7 +90,7 @@ std::vector<Expression> changed_somewhere(const Expression& e, const Change& cha
     const Expression kept = operands[i];
     for (const Expression& other : changed_somewhere(kept, change)) {
       operands[i] = other;
-      result.push_back(rebuilt(e, operands));
+      result.push_back(with_operands(e, operands));
     }
     operands[i] = kept;
   }
@@ -149,7 +134,7 @@ std::vector<Mutation> mutations(const std::set<std::string>& known) {
          for (std::size_t i = 0; i < e.operands().size(); ++i) {
            List rest(e.operands().begin(), e.operands().end());
            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-           result.push_back(rebuilt(e, rest));
+           result.push_back(with_operands(e, rest));
          }
          return result;
        }},

@@ -36,7 +36,7 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
     // It may rise at once but falls slowly: one small increment may be luck.
     const bool first = rule->contraction >= largest;
     if (first || (size > 64 * round_off && seen > rule->contraction)) {
-      rule->contraction = seen;
+      rule->contraction = seen < largest ? seen : largest;
     } else if (seen < rule->contraction) {
       rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
     }

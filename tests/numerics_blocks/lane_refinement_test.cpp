@@ -1,0 +1,139 @@
+// The end of a fixed point of a batch: in each lane as of one trajectory alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "tests/numerics_blocks/lane_rules.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+// Of x = a + b f(x) from near its solution, with a contraction b that differs from lane to lane:
+// what refinement finds, and how often it looks.
+template <class Number, class Refine, class Map>
+int refined(const Refine& refine, const Map& map, Number (&x)[2]) {
+  int looks = 0;
+  for (bool more = true; more; ++looks) {
+    const Number next[2] = {map(x[1], 0), map(x[0], 1)};
+    const Number lack[2] = {next[0] - x[0], next[1] - x[1]};
+    const Number slope[2] = {next[0] * x[1], next[1] * next[1]};
+    more = refine(x, lack, slope);
+  }
+  return looks;
+}
+
+TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
+  const double contractions[kCount] = {0x1p-20, -0x1p-22, 0, 0.5, 0x1p-4, -0.3, 0x1p-40, -0.5};
+  lanes::Real contraction = 0;
+  for (int lane = 0; lane < kCount; ++lane) contraction.set(lane, contractions[lane]);
+  for (const bool ruled : {false, true}) {
+    lanes::Refinement<2, 2> together;
+    lanes::ContractionRule rule;
+    lanes::Real x[2] = {};
+    lanes::Turn turn = turn_of_all();
+    const auto points = [&](int lane, double(&point)[2]) {
+      const double b = contractions[lane];
+      for (int i = 0; i < 400; ++i) {
+        const double old = point[0];
+        point[0] = 1.0 / 3 + b * point[1];
+        point[1] = 0.7 + b * old * old;
+      }
+      point[0] += lane * 0x1p-53;
+    };
+    const auto known = [&](int lane) { return std::fabs(contractions[lane]) + 0x1p-60; };
+    lanes::Real given = 0;
+    for (int lane = 0; lane < kCount; ++lane) {
+      double point[2] = {0, 0};
+      points(lane, point);
+      for (int j = 0; j < 2; ++j) x[j].set(lane, point[j]);
+      given.set(lane, known(lane));
+    }
+    // Lane 6 has no part in it.
+    lanes::Real turns = 1;
+    turns.set(6, 0);
+    turn.begin(turns > 0);
+    rule.learn(true, given);
+    rule.begin(turn, 0);
+    rule(moved_by(lanes::Real(16 * 0x1p-52)), 1);
+    const auto map = [&](const lanes::Real& other, int j) {
+      return j == 0 ? lanes::Real(1.0 / 3) + contraction * other
+                    : lanes::Real(0.7) + contraction * other * other;
+    };
+    refined(
+        [&](auto& point, const auto& lack, const auto& slope) {
+          return ruled ? together(turn, rule, point, lack, slope)
+                       : together(turn, point, lack, slope);
+        },
+        map, x);
+    bool settled = false;
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::Refinement<2, 2> alone;
+      of_double::ContractionRule other;
+      other.learn(known(lane));
+      other.begin(0);
+      other(moved_by(16 * 0x1p-52), 1);
+      double y[2] = {0, 0};
+      points(lane, y);
+      const double b = contractions[lane];
+      refined(
+          [&](auto& point, const auto& lack, const auto& slope) {
+            return ruled ? alone(other, point, lack, slope) : alone(point, lack, slope);
+          },
+          [&](double z, int j) { return j == 0 ? 1.0 / 3 + b * z : 0.7 + b * z * z; }, y);
+      for (int j = 0; j < 2; ++j) {
+        EXPECT_EQ(x[j][lane], y[j]) << lane;
+        EXPECT_EQ(together.slope[j][lane], lane == 6 ? 0 : alone.slope[j]) << lane;
+        EXPECT_EQ(together.change[j][lane], lane == 6 ? 0 : alone.change[j]) << lane;
+      }
+      if (lane != 6 && ruled) {
+        EXPECT_EQ(rule.contraction[lane], other.contraction) << lane;
+      }
+      settled = settled || (ruled && other.settled);
+    }
+    EXPECT_EQ(settled, ruled);
+    EXPECT_EQ(together.rounds, 0);
+  }
+}
+
+TEST(LaneRefinement, WhatIsLostIsNotWaitedForInEachLaneAsAlone) {
+  const double sizes[kCount] = {0, 0x1p-170, 0x1p-156, 0x1p-140, 0x1p-100, 0x1p-60, 1, 0x1p-157};
+  lanes::Real size = 0;
+  for (int lane = 0; lane < kCount; ++lane) size.set(lane, sizes[lane]);
+  const lanes::Real zero = 0;
+  const lanes::Real one = 1;
+  lanes::Distance together;
+  lanes::Distance of_array;
+  together.add(size, zero);
+  together.add(zero, one);
+  of_array.add(&size, &zero, &zero, 1);
+  of_array.add(&zero, &one, &zero, 1);
+  lanes::Refinement<2, 2> refinement;
+  const auto refine = [](auto& x, const auto& last, const auto& look) {
+    for (bool more = true; more;) {
+      const std::remove_cvref_t<decltype(last)> lack[2] = {0x1p-53 - (x[0] - 1) * 0.75,
+                                                           (last - x[1]) * 0x1p-5};
+      more = look(x, lack);
+    }
+  };
+  lanes::Real x[2] = {1, 0};
+  refine(x, size, [&](auto& point, const auto& lack) {
+    return refinement(turn_of_all(), point, lack, point);
+  });
+  for (int lane = 0; lane < kCount; ++lane) {
+    of_double::Distance alone;
+    alone.add(sizes[lane], 0);
+    alone.add(0, 1);
+    EXPECT_EQ(together.close()[lane], alone.close()) << lane;
+    EXPECT_EQ(of_array.close()[lane], alone.close()) << lane;
+    EXPECT_EQ(alone.close(), sizes[lane] <= 0x1p-156) << lane;
+    of_double::Refinement<2, 2> other;
+    double y[2] = {1, 0};
+    refine(y, sizes[lane],
+           [&](auto& point, const auto& lack) { return other(point, lack, point); });
+    EXPECT_EQ(refinement.change[1][lane], other.change[1]) << lane;
+  }
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
