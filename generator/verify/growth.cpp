@@ -243,8 +243,7 @@ class Locality {
   std::pair<std::string, long> element(const GrowingEvent& event, long room) {
     const long near = event.numbers.back().near;
     std::pair<std::string, long> result{"", near};
-    long low = near;
-    long high = near;
+    long low = near, high = near;
     long stride = 0;
     for (std::size_t i = 0; i < event.of.names.size(); ++i) {
       const std::string& name = event.of.names[i];
