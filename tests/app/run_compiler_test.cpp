@@ -112,21 +112,26 @@ TEST(Run, CompilesMatricesForProcessorsWithLongRegisters) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
   const Scratch scratch;
   const std::string model = scratch.write(
-      "bodies.ham",
-      "system bodies\nsize N = 13\ncoordinate q[1..N]\nmomentum p[1..N]\n"
-      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, j = 1..i-1, sqrt(1 + (q[i] - q[j])^2))\n"
-      "scene ring {\n  q[i] = sin(i)\n  h = 0.1\n  steps = 10\n}\n");
-  for (const char* scheme : {"implicit-midpoint", "gauss-6"}) {
-    const auto states = [&](const std::string& option) {
-      const Result result = hamgen({"run", model, "--scheme", scheme, "--solver", "newton",
-                                    "--quiet", "-o", "-", "--every", "1", option});
-      EXPECT_EQ(result.status, 0) << result.err;
-      return result.out.substr(std::min(result.out.size(), result.out.find("\nstep,")));
-    };
-    const std::string portable = states("--portable");
-    EXPECT_GT(portable.size(), 1000u);
-    EXPECT_EQ(portable, states("--flags=-march=skylake-avx512"));
-  }
+      "chain.ham",
+      "system chain\nsize N = 25\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, cosh(q[i+1] - q[i]))\n"
+      "scene wave {\n  q[i] = sin(i)\n  h = 0.1\n  steps = 10\n}\n");
+  // A weight of each coordinate: written out, with a matrix that Eigen eliminates.
+  std::string weights = "--alpha=[1/2";
+  for (int i = 1; i < 25; ++i) weights += ", 1/2";
+  weights += "]";
+  const std::string header = scratch.path("chain.hpp");
+  ASSERT_EQ(hamgen({"generate", model, weights, "-o", header}).status, 0);
+  ASSERT_TRUE(contains(read(header), "#include <Eigen/"));
+  const auto states = [&](const std::string& option) {
+    const Result result =
+        hamgen({"run", model, weights, "--quiet", "-o", "-", "--every", "1", option});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out.substr(std::min(result.out.size(), result.out.find("\nstep,")));
+  };
+  const std::string interpreted = states("--interpret");
+  EXPECT_GT(interpreted.size(), 1000u);
+  EXPECT_EQ(interpreted, states("--flags=-march=skylake-avx512"));
 }
 #endif
 
