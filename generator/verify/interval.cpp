@@ -82,6 +82,34 @@ std::optional<Interval> power_of(const Interval& base, const Expression& exponen
   return outwards(std::min(ends.low, ends.high), std::max(ends.low, ends.high), kUnitsOfFunctions);
 }
 
+// Of no number: what the intervals of its operands make of it.
+std::optional<Interval> value_of(const Expression& e, const std::vector<std::size_t>& operands,
+                                 const std::vector<Interval>& values,
+                                 const std::map<std::string, Interval>& symbols) {
+  switch (e.kind()) {
+    case Kind::symbol: {
+      if (e.name() == "pi") return outwards(std::numbers::pi, std::numbers::pi);
+      const auto value = symbols.find(e.name());
+      return value == symbols.end() ? std::nullopt : std::optional(value->second);
+    }
+    case Kind::power:
+      return power_of(values[operands.front()], e.operands()[1]);
+    case Kind::function:
+      return operands.size() == 1 ? function_of(e.name(), values[operands.front()]) : std::nullopt;
+    case Kind::sum:
+    case Kind::product: {
+      Interval result = values[operands.front()];
+      for (std::size_t i = 1; i < operands.size(); ++i) {
+        const Interval& next = values[operands[i]];
+        result = e.kind() == Kind::sum ? result + next : result * next;
+      }
+      return result;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Interval operator+(const Interval& a, const Interval& b) {
@@ -117,27 +145,44 @@ Interval enclosing(const Rational& value) {
   return from_double(near) == value ? Interval(near) : outwards(near, near);
 }
 
+Enclosures::Enclosures(const std::vector<Expression>& of) {
+  ExpressionMap<std::size_t> known;
+  for (const Expression& e : of) results_.push_back(add(e, known));
+}
+
+std::size_t Enclosures::add(const Expression& e, ExpressionMap<std::size_t>& known) {
+  if (const auto place = known.find(e); place != known.end()) return place->second;
+  Part part{.of = e, .operands = {}, .value = {}};
+  if (e.is_number()) {
+    part.value = enclosing(e.number());
+  } else if (e.kind() == Kind::power) {
+    part.operands.push_back(add(e.operands().front(), known));
+  } else if (e.kind() != Kind::symbol) {
+    for (const Expression& operand : e.operands()) part.operands.push_back(add(operand, known));
+  }
+  parts_.push_back(std::move(part));
+  return known[e] = parts_.size() - 1;
+}
+
+std::optional<std::vector<Interval>> Enclosures::at(
+    const std::map<std::string, Interval>& symbols) const {
+  std::vector<Interval> values;
+  values.reserve(parts_.size());
+  for (const Part& part : parts_) {
+    const std::optional<Interval> value =
+        part.of.is_number() ? part.value : value_of(part.of, part.operands, values, symbols);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  std::vector<Interval> result;
+  for (const std::size_t place : results_) result.push_back(values[place]);
+  return result;
+}
+
 std::optional<Interval> enclosure(const Expression& e,
                                   const std::map<std::string, Interval>& symbols) {
-  if (e.is_number()) return enclosing(e.number());
-  if (e.kind() == Kind::symbol) {
-    if (e.name() == "pi") return outwards(std::numbers::pi, std::numbers::pi);
-    const auto value = symbols.find(e.name());
-    return value == symbols.end() ? std::nullopt : std::optional(value->second);
-  }
-  std::optional<Interval> result;
-  for (const Expression& operand : e.operands()) {
-    const auto next = enclosure(operand, symbols);
-    if (!next) return std::nullopt;
-    if (!result) {
-      result = next;
-      if (e.kind() == Kind::power) return power_of(*next, e.operands()[1]);
-    } else {
-      result = e.kind() == Kind::sum ? *result + *next : *result * *next;
-    }
-  }
-  if (e.kind() != Kind::function) return result;
-  return e.operands().size() == 1 ? function_of(e.name(), *result) : std::nullopt;
+  const auto values = Enclosures({e}).at(symbols);
+  return values ? std::optional(values->front()) : std::nullopt;
 }
 
 }  // namespace hamgen

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "generator/algebra/expression.hpp"
 
@@ -30,8 +31,28 @@ struct Interval {
 // Around the rational number.
 [[nodiscard]] Interval enclosing(const Rational& value);
 
-// The values of an expression where its symbols are in these intervals; empty where it is not
-// defined everywhere there, or a function of it has no enclosure here.
+// Expressions of which the values are enclosed over and over: what they share is so once each time,
+// and their numbers beforehand.
+class Enclosures {
+ public:
+  explicit Enclosures(const std::vector<Expression>& of);
+  // The values of each where the symbols are in these intervals; empty where one is not defined
+  // everywhere there, or a function in it has no enclosure here.
+  [[nodiscard]] std::optional<std::vector<Interval>> at(
+      const std::map<std::string, Interval>& symbols) const;
+
+ private:
+  struct Part {
+    Expression of;
+    std::vector<std::size_t> operands;  // a power's base alone; none of numbers and symbols
+    Interval value;                     // of a number
+  };
+  std::size_t add(const Expression& e, ExpressionMap<std::size_t>& known);
+  std::vector<Part> parts_;  // operands before what is made of them
+  std::vector<std::size_t> results_;
+};
+
+// Of one expression, once.
 [[nodiscard]] std::optional<Interval> enclosure(const Expression& e,
                                                 const std::map<std::string, Interval>& symbols);
 

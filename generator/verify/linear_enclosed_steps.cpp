@@ -78,13 +78,22 @@ std::optional<IntervalMatrix> interval_solved(IntervalMatrix a, IntervalMatrix b
   return b;
 }
 
+std::vector<Expression> entries_of(const Member& member) {
+  std::vector<Expression> entries;
+  for (const auto& [place, entry] : member.c) entries.push_back(entry);
+  return entries;
+}
+
 enum class Cell { bounded, unbounded, open };
 
 class EnclosedStep {
  public:
   EnclosedStep(const Scheme& scheme, const std::map<std::string, Rational>& values,
                const ExactMatrix& s, int free_motions)
-      : member_(scheme.member()), free_motions_(free_motions) {
+      : entries_(entries_of(scheme.member())), free_motions_(free_motions) {
+    for (const auto& [place, entry] : scheme.member().c)
+      places_.emplace_back(static_cast<std::size_t>(place.first),
+                           static_cast<std::size_t>(place.second));
     for (const auto& [name, value] : values) symbols_[name] = enclosing(value);
     if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
       for (const Expression& e : composition->substeps)
@@ -118,12 +127,11 @@ class EnclosedStep {
     const std::size_t size = flow_.size();
     IntervalMatrix weight = interval_identity(size);
     for (std::size_t i = 0; i < size; ++i) weight[i][i] = 0.5;
-    for (const auto& [place, entry] : member_.c) {
-      const auto value = enclosure(entry, symbols);
-      if (!value) return std::nullopt;
-      Interval& target =
-          weight[static_cast<std::size_t>(place.first)][static_cast<std::size_t>(place.second)];
-      target = target + *value;
+    const auto values = entries_.at(symbols);
+    if (!values) return std::nullopt;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      Interval& target = weight[places_[k].first][places_[k].second];
+      target = target + (*values)[k];
     }
     IntervalMatrix x = flow_;
     for (auto& row : x) {
@@ -207,7 +215,8 @@ class EnclosedStep {
            Interval(18.0) * b * c * d;
   }
 
-  const Member& member_;
+  Enclosures entries_;  // of C
+  std::vector<std::pair<std::size_t, std::size_t>> places_;
   int free_motions_;
   std::map<std::string, Interval> symbols_;
   std::vector<Interval> substeps_;
