@@ -19,6 +19,15 @@ std::string chain(int n) {
       n);
 }
 
+// In a constant force: its gradient is no linear function.  The midpoint rule keeps H.
+std::string pushed_chain(int n) {
+  return fmt::format(
+      "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
+      "momentum p[1..N]\nparameter k = 1.3\nparameter f = 0.02\n"
+      "H = sum(i = 1..N, p[i]^2/2 - f*q[i]) + sum(i = 0..N, k*(q[i+1] - q[i])^2/2)\n",
+      n);
+}
+
 std::string soft_chain(int n, const std::string& k) {
   return fmt::format(
       "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
@@ -212,6 +221,16 @@ std::vector<Row> all_rows() {
   const Problem band_at_half{.name = "chain of 25, loops, h = 0.7", .model = chain(25), .h = 0.7};
   add(rows, band_at_half, "symplectic-euler-a", {.scheme = "symplectic-euler-a"});
   add(rows, band_at_half, "stormer-verlet", {.scheme = "stormer-verlet"});
+  for (const auto& [h, text] : {std::pair(0.3, "0.3"), std::pair(1.0, "1")}) {
+    for (const int n : {6, 25}) {
+      const Problem pushed{.name = fmt::format("pushed chain of {}, h = {}", n, text),
+                           .model = pushed_chain(n),
+                           .conserved = Conserved::energy,
+                           .h = h};
+      add(rows, pushed, "midpoint", {});
+      if (n == 25 && h < 1.0) add(rows, pushed, "midpoint, fixed point", {.solver = "fixed-point"});
+    }
+  }
   const Problem pairs_at_one{
       .name = "all pairs of 30, loops, h = 1", .model = all_pairs(30), .h = 1};
   add(rows, pairs_at_one, "midpoint", {});
