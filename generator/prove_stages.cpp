@@ -56,61 +56,56 @@ SizedSystem sized_system(const SourceText& source, Request request, const Size& 
           std::move(around)};
 }
 
-// The least size that is not written out, without its sums being asked for.
-long least_size_in_loops(const SourceText& source, Request request, const std::string& constant) {
-  long least = 2;
-  const auto is_written_out = [&](long size) {
-    request.sizes[constant] = size;
-    return degrees_of_freedom(read_model(source, request.sizes)) <= kMostWrittenOut;
-  };
-  while (least <= kMostWrittenOut && is_written_out(least)) ++least;
-  return least;
-}
+// Elements that are enough for neighbours of neighbours; what reaches farther asks for more.
+constexpr long kFewElements = 8;
+// So many at most, and some more of those for which a few are planned otherwise.
+constexpr long kManyElements = 100;
 
-// How much longer than they could be the smaller systems are made for what the loops reach.
-constexpr long kMostTimesLonger = 4;
-
-// Of a large system in loops: its largest size as small as loops are made of, and the next ones.
-// Empty where the model has no such sizes: a list of values fits one of them only.
+// Of a large system in loops: a size at which the loops' ends do not meet, and the next ones, in
+// loops too.  Empty where the model has no such sizes: a list of values fits one of them only.
 std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
                                               const Stages& stages) {
-  if (!stages.system.mechanics.keeps_sums() ||
-      stages.system.mechanics.degrees_of_freedom <= kMostLookedAt)
-    return {};
+  const Mechanics& mechanics = stages.system.mechanics;
+  if (!mechanics.keeps_sums() || mechanics.degrees_of_freedom <= kMostLookedAt) return {};
   const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
   if (largest == stages.model.sizes.end()) return {};
-  const auto made_by = [&](const Request& wish, long size) {
+  Request wish = request;
+  wish.in_loops = true;
+  const auto made = [&](long size) {
     SmallerSystems smaller{largest->name, largest->value,
                            sized_system(source, wish, *largest, size),
                            sized_system(source, wish, *largest, size + 1)};
-    if (sums_over_pairs(stages.system.mechanics))
+    if (sums_over_pairs(mechanics))
       smaller.third = sized_system(source, wish, *largest, size + 2, false);
     return smaller;
   };
-  try {
-    const long size = std::max(least_size_in_loops(source, request, largest->name),
-                               least_size_of_order(stages.equations));
-    if (largest->value <= size + 2) return {};
-    Request wish = request;
-    SmallerSystems smaller = made_by(wish, size);
-    // Where Newton's matrix is too large the larger system is left without it.
-    if (request.solver.empty() &&
-        smaller.first.program.routines.size() > stages.program.routines.size()) {
-      wish.solver = "fixed-point";
-      smaller = made_by(wish, size);
+  const auto is_inherited = [&](const SmallerSystems& smaller) {
+    return !why_not_inherited(mechanics, stages.plan, stages.program, smaller);
+  };
+  std::optional<SmallerSystems> smaller;
+  for (const long few : {kFewElements, long{kMostWrittenOut} + 1}) {
+    const long size = std::max(few, least_size_of_order(stages.equations));
+    if (largest->value <= size + 2) break;
+    try {
+      smaller = made(size);
+      // Where Newton's matrix is too large the larger system is left without it.
+      if (request.solver.empty() &&
+          smaller->first.program.routines.size() > stages.program.routines.size()) {
+        wish.solver = "fixed-point";
+        smaller = made(size);
+      }
+      const long reached = least_size_of_loops(mechanics, stages.plan, stages.program, *smaller);
+      if (reached > size && reached <= kManyElements && reached + 2 < largest->value)
+        smaller = made(reached);
+      if (is_inherited(*smaller)) break;
+    } catch (const ModelError&) {
+      smaller.reset();
+    } catch (const UsageError&) {
+      smaller.reset();
     }
-    const long reached =
-        least_size_of_loops(stages.system.mechanics, stages.plan, stages.program, smaller);
-    if (reached > size && reached <= kMostTimesLonger * size && reached + 2 < largest->value)
-      smaller = made_by(wish, reached);
-    const bool in_loops =
-        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
-    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
-  } catch (const ModelError&) {
-    return {};
-  } catch (const UsageError&) {
-    return {};
+    wish.solver = request.solver;
   }
+  return smaller;
 }
 
 // Of a model that is a longer one of those that were read.

@@ -60,6 +60,7 @@ struct Request {
   std::map<std::string, long> sizes;  // other integer constants than the file's
   // What one of them is where it is a number of a formula, unless it is itself.
   std::map<std::string, long> numbers_of_sizes = {};
+  bool in_loops = false;  // sums of H stay loops however few elements there are
   // Terms of the modified Hamiltonian, as many for a symmetric step are even powers of h: emitted
   // as functions of h, which a plugin adds to its invariants at this step.
   int watch_modified = 0;

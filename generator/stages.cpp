@@ -74,6 +74,8 @@ Specialised choose_variables(const Model& model, const std::optional<SceneFacts>
 // A system that may be written out stays loops where these are quicker.
 Specialised choose_sums(const Model& model, const std::optional<SceneFacts>& scene,
                         const Request& request) {
+  if (request.in_loops)
+    return make_system(model, scene, request, may_keep_sums(request), Variables::as_they_are, 0);
   Specialised system = choose_variables(model, scene, request);
   const bool has_choice = !system.mechanics.keeps_sums() && may_keep_sums(request) &&
                           has_sums(model) && !asks_for_expressions(request, system.scheme);
