@@ -62,6 +62,29 @@ TEST(LargeSystems, WithFarNeighboursAreProvedAtLargerSizes) {
   expect_proved(far, "20000", "implicit-midpoint");
 }
 
+// A few elements show what there is to see, but for those that the model names.
+TEST(LargeSystems, AreLookedAtWithTheFewestElementsThatShowAll) {
+  const Scratch scratch;
+  const auto program = [&](const std::string& model) {
+    const std::string out = hamgen({"verify", scratch.write("model.ham", model)}).out;
+    const std::size_t place = std::min(out.find("\nprogram "), out.size());
+    return out.substr(place, out.find('\n', place + 1) - place);
+  };
+  const std::string head = "system m\nsize N = 60\ncoordinate q[1..N]\nmomentum p[1..N]\n";
+  const std::string pairs =
+      program(head + "H = sum(i = 1..N, p[i]^2/2) - sum(i = 1..N, j = 1..i-1, cos(q[i] - q[j]))\n");
+  EXPECT_TRUE(contains(pairs, "proved")) << pairs;
+  EXPECT_TRUE(contains(pairs, "at N = 8, N = 9 and N = 10;")) << pairs;
+  const std::string kinetic = head + "H = sum(i = 1..N, p[i]^2/2 + q[i]^4) ";
+  const std::string named = program(kinetic + "+ q[17]^6\n");
+  EXPECT_TRUE(contains(named, "proved")) << named;
+  EXPECT_TRUE(contains(named, "at N = ")) << named;
+  EXPECT_FALSE(contains(named, "at N = 8")) << named;
+  // There is no end that all the longer ones have.
+  const std::string last = program(kinetic + "+ q[60]^6\n");
+  EXPECT_FALSE(contains(last, "proved")) << last;
+}
+
 // What takes too long is not decided, and the rest is said.
 TEST(LargeSystems, OfManyBodiesHaveNoLinearPart) {
   const Scratch scratch;
