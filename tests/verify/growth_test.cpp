@@ -83,8 +83,8 @@ TEST(Growth, DoesNotReachBeyondNeighbours) {
 // The large system has the claims of the small ones; a mutant of it is not what they continue.
 TEST(Growth, ProvesTheLongChainAndNoMutantOfIt) {
   for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-4", "rk4"}) {
-    const SizedSystem a = system_of(kGrowingChain, 25, scheme);
-    const SizedSystem b = system_of(kGrowingChain, 26, scheme);
+    const SizedSystem a = system_of(kGrowingChain, 9, scheme);
+    const SizedSystem b = system_of(kGrowingChain, 10, scheme);
     const SizedSystem c = system_of(kGrowingChain, 60, scheme);
     const Finding finding = prove_emitted(c.mechanics, c.scheme, c.plan, c.program, c.hamiltonian,
                                           {}, {}, SmallerSystems{"N", 60, a, b});
@@ -122,9 +122,9 @@ TEST(Growth, ProvesARingOfAnglesByAlgebra) {
 // So have bodies that all know each other: three sizes, as constants may grow with their pairs.
 TEST(Growth, ProvesManyBodiesAndNoMutantOfThem) {
   for (const std::string scheme : {"implicit-midpoint", "stormer-verlet", "gauss-2"}) {
-    const SizedSystem a = system_of(kBodies, 13, scheme);
-    const SizedSystem b = system_of(kBodies, 14, scheme);
-    const SizedSystem c = system_of(kBodies, 15, scheme);
+    const SizedSystem a = system_of(kBodies, 8, scheme);
+    const SizedSystem b = system_of(kBodies, 9, scheme);
+    const SizedSystem c = system_of(kBodies, 10, scheme);
     const SizedSystem large = system_of(kBodies, 40, scheme);
     const auto proved_by = [&](const SmallerSystems& smaller) {
       return prove_emitted(large.mechanics, large.scheme, large.plan, large.program, {}, {}, {},
@@ -158,7 +158,7 @@ TEST(Growth, ProvesNewtonOfManyBodies) {
       kVariables + kKinetic + "sum(i = 1..N, j = i+1..N, (q[i] - q[j])^2)/2\n";
   for (const auto& [text, verdict] :
        {std::pair(kBodies, Verdict::proved), std::pair(linear, Verdict::tested)}) {
-    const long size = verdict == Verdict::proved ? 13 : 25;
+    const long size = verdict == Verdict::proved ? 8 : 25;
     const auto sized = [&](long elements) {
       return system_of(text, elements, "implicit-midpoint", 2, "newton");
     };
@@ -208,12 +208,12 @@ TEST(Growth, AMistakeOfAllSizesIsRefuted) {
     return system;
   };
   const SizedSystem large = system_of(kGrowingChain, 60, "implicit-midpoint");
-  const SmallerSystems smaller{"N", 60, wrong(system_of(kGrowingChain, 25, "implicit-midpoint")),
-                               wrong(system_of(kGrowingChain, 26, "implicit-midpoint"))};
+  const SmallerSystems smaller{"N", 60, wrong(system_of(kGrowingChain, 9, "implicit-midpoint")),
+                               wrong(system_of(kGrowingChain, 10, "implicit-midpoint"))};
   const Finding finding = prove_emitted(large.mechanics, large.scheme, large.plan, large.program,
                                         large.hamiltonian, {}, {}, smaller);
   EXPECT_EQ(finding.verdict, Verdict::refuted);
-  EXPECT_NE(finding.detail.find("at N = 25: "), std::string::npos) << finding.detail;
+  EXPECT_NE(finding.detail.find("at N = 9: "), std::string::npos) << finding.detail;
 }
 
 // K at 2 h is a function whose step is symplectic too, and of no order but that of H.

@@ -20,7 +20,7 @@ inline SizedSystem system_of(const std::string& text, long size, const std::stri
                              int order = 2, const std::string& solver = "fixed-point") {
   const Model model = read_model(
       make_source("chain.ham", fmt::format("system chain\nsize N = {}\n{}", size, text)));
-  Mechanics mechanics = derive(model);
+  Mechanics mechanics = derive(model, true, 0);  // in loops at any size
   EXPECT_TRUE(mechanics.keeps_sums()) << text;
   Scheme scheme = for_system(*find_scheme(scheme_name), mechanics);
   if (order > 2) scheme = raise_order(std::move(scheme), order);
