@@ -56,56 +56,71 @@ SizedSystem sized_system(const SourceText& source, Request request, const Size& 
           std::move(around)};
 }
 
-// Elements that are enough for neighbours of neighbours; what reaches farther asks for more.
+// So few elements are enough for neighbours of neighbours; what reaches farther asks for more.
 constexpr long kFewElements = 8;
-// So many at most, and some more of those for which a few are planned otherwise.
-constexpr long kManyElements = 100;
+// How much longer the smaller systems are made for what the loops reach than loops are unasked.
+constexpr long kMostTimesLonger = 4;
 
-// Of a large system in loops: a size at which the loops' ends do not meet, and the next ones, in
-// loops too.  Empty where the model has no such sizes: a list of values fits one of them only.
+// The least size at which a system stays loops without being asked to.
+long least_size_in_loops(const Mechanics& large, long size) {
+  return kMostWrittenOut * size / large.degrees_of_freedom + 1;
+}
+
+// Of a large system in loops: its largest size made so small, or what the loops reach if that is
+// more, and the next sizes, in loops too.  Empty where the model has no such sizes: a list of
+// values fits one of them only.
+std::optional<SmallerSystems> systems_of_size(const SourceText& source, Request request,
+                                              const Stages& stages, const Size& largest,
+                                              long size) {
+  const Mechanics& mechanics = stages.system.mechanics;
+  const long most = kMostTimesLonger * least_size_in_loops(mechanics, largest.value);
+  const bool may_choose = request.solver.empty();
+  request.in_loops = true;
+  const auto made = [&](long elements) {
+    SmallerSystems smaller{largest.name, largest.value,
+                           sized_system(source, request, largest, elements),
+                           sized_system(source, request, largest, elements + 1)};
+    if (sums_over_pairs(mechanics))
+      smaller.third = sized_system(source, request, largest, elements + 2, false);
+    return smaller;
+  };
+  if (largest.value <= size + 2) return {};
+  try {
+    SmallerSystems smaller = made(size);
+    // Where Newton's matrix is too large the larger system is left without it.
+    if (may_choose && smaller.first.program.routines.size() > stages.program.routines.size()) {
+      request.solver = "fixed-point";
+      smaller = made(size);
+    }
+    const long reached = least_size_of_loops(mechanics, stages.plan, stages.program, smaller);
+    if (reached > size && reached <= most && reached + 2 < largest.value) smaller = made(reached);
+    const bool in_loops =
+        smaller.first.mechanics.keeps_sums() && smaller.second.mechanics.keeps_sums();
+    return in_loops ? std::optional(std::move(smaller)) : std::nullopt;
+  } catch (const ModelError&) {
+    return {};
+  } catch (const UsageError&) {
+    return {};
+  }
+}
+
+// Those that the large system is a longer one of, as few elements as show it; else those at the
+// least size at which it stays loops, for fewer elements may be planned otherwise.
 std::optional<SmallerSystems> smaller_systems(const SourceText& source, const Request& request,
                                               const Stages& stages) {
   const Mechanics& mechanics = stages.system.mechanics;
   if (!mechanics.keeps_sums() || mechanics.degrees_of_freedom <= kMostLookedAt) return {};
   const auto largest = std::ranges::max_element(stages.model.sizes, {}, &Size::value);
   if (largest == stages.model.sizes.end()) return {};
-  Request wish = request;
-  wish.in_loops = true;
-  const auto made = [&](long size) {
-    SmallerSystems smaller{largest->name, largest->value,
-                           sized_system(source, wish, *largest, size),
-                           sized_system(source, wish, *largest, size + 1)};
-    if (sums_over_pairs(mechanics))
-      smaller.third = sized_system(source, wish, *largest, size + 2, false);
-    return smaller;
-  };
-  const auto is_inherited = [&](const SmallerSystems& smaller) {
-    return !why_not_inherited(mechanics, stages.plan, stages.program, smaller);
-  };
-  std::optional<SmallerSystems> smaller;
-  for (const long few : {kFewElements, long{kMostWrittenOut} + 1}) {
+  std::optional<SmallerSystems> found;
+  for (const long few : {kFewElements, least_size_in_loops(mechanics, largest->value)}) {
     const long size = std::max(few, least_size_of_order(stages.equations));
-    if (largest->value <= size + 2) break;
-    try {
-      smaller = made(size);
-      // Where Newton's matrix is too large the larger system is left without it.
-      if (request.solver.empty() &&
-          smaller->first.program.routines.size() > stages.program.routines.size()) {
-        wish.solver = "fixed-point";
-        smaller = made(size);
-      }
-      const long reached = least_size_of_loops(mechanics, stages.plan, stages.program, *smaller);
-      if (reached > size && reached <= kManyElements && reached + 2 < largest->value)
-        smaller = made(reached);
-      if (is_inherited(*smaller)) break;
-    } catch (const ModelError&) {
-      smaller.reset();
-    } catch (const UsageError&) {
-      smaller.reset();
-    }
-    wish.solver = request.solver;
+    auto next = systems_of_size(source, request, stages, *largest, size);
+    if (!next) continue;
+    found = std::move(next);
+    if (!why_not_inherited(mechanics, stages.plan, stages.program, *found)) break;
   }
-  return smaller;
+  return found;
 }
 
 // Of a model that is a longer one of those that were read.

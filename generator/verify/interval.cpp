@@ -179,10 +179,4 @@ std::optional<std::vector<Interval>> Enclosures::at(
   return result;
 }
 
-std::optional<Interval> enclosure(const Expression& e,
-                                  const std::map<std::string, Interval>& symbols) {
-  const auto values = Enclosures({e}).at(symbols);
-  return values ? std::optional(values->front()) : std::nullopt;
-}
-
 }  // namespace hamgen

@@ -52,8 +52,4 @@ class Enclosures {
   std::vector<std::size_t> results_;
 };
 
-// Of one expression, once.
-[[nodiscard]] std::optional<Interval> enclosure(const Expression& e,
-                                                const std::map<std::string, Interval>& symbols);
-
 }  // namespace hamgen

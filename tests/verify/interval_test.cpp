@@ -10,6 +10,13 @@
 namespace hamgen {
 namespace {
 
+// Of one expression, which shares nothing with others.
+std::optional<Interval> enclosure(const Expression& e,
+                                  const std::map<std::string, Interval>& symbols) {
+  const auto values = Enclosures({e}).at(symbols);
+  return values ? std::optional(values->at(0)) : std::nullopt;
+}
+
 TEST(Enclosures, HoldTheValuesOfEveryPointInside) {
   const Expression x = Expression::symbol("x");
   const auto f = [&](const char* name) { return Expression::apply(name, {x}); };
@@ -50,6 +57,34 @@ TEST(Enclosures, HoldTheValuesOfEveryPointInside) {
   EXPECT_FALSE(enclosure(f("log"), {{"x", {-1.0, 1.0}}}));
   EXPECT_FALSE(enclosure(Expression::symbol("y"), {{"x", {-1.0, 1.0}}}));
   EXPECT_FALSE(std::isfinite(enclosure(Expression(1) / x, {{"x", {-1.0, 1.0}}})->high));
+}
+
+// What they share is looked at once, and is what each has by itself; one that is not defined
+// everywhere leaves none.
+TEST(Enclosures, OfSeveralAreThoseOfEach) {
+  const Expression x = Expression::symbol("x");
+  const Expression y = Expression::symbol("y");
+  const Expression part = Expression::apply("exp", {x * x - y});
+  const std::vector<Expression> expressions = {part, part * part + Expression(Rational(1, 3)),
+                                               Expression::apply("sin", {part}) - x, y,
+                                               Expression(2)};
+  const Enclosures together(expressions);
+  for (const double low : {-3.0, 0.0, 0.5}) {
+    const std::map<std::string, Interval> box = {{"x", {low, low + 0.25}}, {"y", {-1.0, 2.0}}};
+    const auto values = together.at(box);
+    ASSERT_TRUE(values);
+    ASSERT_EQ(values->size(), expressions.size());
+    for (std::size_t i = 0; i < expressions.size(); ++i) {
+      const auto alone = enclosure(expressions[i], box);
+      ASSERT_TRUE(alone) << i;
+      EXPECT_EQ((*values)[i].low, alone->low) << i;
+      EXPECT_EQ((*values)[i].high, alone->high) << i;
+    }
+  }
+  const Enclosures undefined({x, Expression::apply("log", {x})});
+  EXPECT_TRUE(undefined.at({{"x", {1.0, 2.0}}}));
+  EXPECT_FALSE(undefined.at({{"x", {-1.0, 2.0}}}));
+  EXPECT_FALSE(together.at({{"x", {0.0, 1.0}}}));
 }
 
 }  // namespace
