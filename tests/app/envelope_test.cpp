@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "app/output/trajectory_plot.hpp"
 
@@ -15,15 +16,13 @@ using app::PlotPoint;
 using app::PlotSeries;
 using app::PlotStyle;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // A swing of one degree of freedom of size 1 + t/4, t from 0 to 1.
 PlotPanel momenta_of(long rows, double rows_in_a_turn) {
   NumberTable table;
   table.columns = {"step", "t", "q", "p", "H"};
   for (long i = 0; i <= rows; ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(rows);
-    const double angle = 2.0 * kPi * static_cast<double>(i) / rows_in_a_turn;
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / rows_in_a_turn;
     const double size = 1.0 + t / 4.0;
     table.add({static_cast<double>(i), t, size * std::cos(angle), size * std::sin(angle), 0.5});
   }
@@ -41,7 +40,8 @@ TEST(Envelope, IsOfAllRowsAndNotOfThoseThatAreKept) {
     // A span is no more than 1/20 of the whole wide, where the size changes by 1/80; a turn of few
     // rows misses its own greatest value by 1 - cos(pi/7).
     for (const PlotPoint& point : panel.series[0].points) {
-      EXPECT_NEAR(point.y, 1.0 + point.x / 4.0, 1.25 * (1.0 - std::cos(kPi / 7.0)) + 1.0 / 80);
+      EXPECT_NEAR(point.y, 1.0 + point.x / 4.0,
+                  1.25 * (1.0 - std::cos(std::numbers::pi / 7.0)) + 1.0 / 80);
       EXPECT_NEAR(point.low, -point.y, 0.05) << point.x;
     }
     const auto [upper, lower] = std::pair{panel.series[1], panel.series[2]};
@@ -74,14 +74,14 @@ TEST(Envelope, IsNoWiderThanItsRipple) {
   for (long i = 0; i < 100'000; ++i) {
     const double t = 1e-5 * static_cast<double>(i);
     table.add({static_cast<double>(i), t,
-               std::sin(2.0 * kPi * t) + 0.15 * std::sin(static_cast<double>(i))});
+               std::sin(2.0 * std::numbers::pi * t) + 0.15 * std::sin(static_cast<double>(i))});
   }
   const std::vector<PlotSeries> series = app::trajectory_plot(table, "x", "").panels[0].series;
   ASSERT_EQ(series.size(), 3U);
   // The ripple is 0.3 from crest to trough; the course changes by 2 pi/400 in a span of which
   // there are three.
   for (const PlotPoint& point : series[0].points)
-    EXPECT_LT(point.y - point.low, 0.3 + 4.0 * 2.0 * kPi / 400);
+    EXPECT_LT(point.y - point.low, 0.3 + 4.0 * 2.0 * std::numbers::pi / 400);
 }
 
 // Of several only the edges: an area would hide those behind it.

@@ -20,8 +20,6 @@ constexpr const char* kTurns =
     "event left = q - line falling  # of the line\nevent through = q\nevent never = q - 3\n"
     "scene unit { q = 1; h = 0.1; steps = 100 }\n";
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(Events, AreFoundInTheirOrderWithTimesAndStates) {
   const Scratch scratch;
   const std::string model = scratch.write("turns.ham", kTurns);
@@ -34,7 +32,7 @@ TEST(Events, AreFoundInTheirOrderWithTimesAndStates) {
   ASSERT_EQ(result.status, 0) << result.err;
   const json events = json::parse(result.out)["events"];
   EXPECT_EQ(events["left"]["count"], 2);
-  EXPECT_NEAR(events["left"]["first"], kPi / 3, 1e-13);
+  EXPECT_NEAR(events["left"]["first"], std::numbers::pi / 3, 1e-13);
   EXPECT_EQ(events["through"]["count"], 3);
   EXPECT_EQ(events["never"]["count"], 0);
   EXPECT_TRUE(events["never"]["first"].is_null());
@@ -47,7 +45,8 @@ TEST(Events, AreFoundInTheirOrderWithTimesAndStates) {
   }
   ASSERT_EQ(rows.size(), 6U);
   EXPECT_EQ(rows[0], "event,t,steps,fraction,q,p");
-  const double times[] = {kPi / 3, kPi / 2, 1.5 * kPi, kPi / 3 + 2 * kPi, 2.5 * kPi};
+  const double times[] = {std::numbers::pi / 3, std::numbers::pi / 2, 1.5 * std::numbers::pi,
+                          std::numbers::pi / 3 + 2 * std::numbers::pi, 2.5 * std::numbers::pi};
   const char* names[] = {"left", "through", "through", "left", "through"};
   for (std::size_t i = 0; i < 5; ++i) {
     const std::string& row = rows[i + 1];

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/app/hamgen_command.hpp"
 
@@ -15,14 +16,12 @@ using app::Plot;
 using app::PlotPanel;
 using app::PlotStyle;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // A circle in x, y, flattened to z.
 NumberTable circle() {
   NumberTable table;
   table.columns = {"step", "t", "x", "y", "z", "u", "v", "w", "H"};
   for (int i = 0; i <= 100; ++i) {
-    const double t = 2.0 * kPi * i / 100.0;
+    const double t = 2.0 * std::numbers::pi * i / 100.0;
     table.add({static_cast<double>(i), t, std::cos(t), std::sin(t), 0.01 * std::sin(2.0 * t),
                -std::sin(t), std::cos(t), 0.02 * std::cos(2.0 * t), 0.5});
   }
@@ -59,7 +58,8 @@ TEST(TrajectoryPlot, JoinsTheRowsThatAreKeptOverTime) {
   NumberTable table;
   table.columns = {"step", "t", "a"};
   for (int i = 0; i < 2100; ++i)  // 45 turns, every second row kept
-    table.add({static_cast<double>(i), 1.0 * i, std::sin(2.0 * kPi * i * 45.0 / 2100.0)});
+    table.add(
+        {static_cast<double>(i), 1.0 * i, std::sin(2.0 * std::numbers::pi * i * 45.0 / 2100.0)});
   ASSERT_GT(table.each, 1);
   const PlotPanel panel = app::trajectory_plot(table, "a", "").panels[0];
   ASSERT_EQ(panel.series.size(), 1U);
