@@ -1,7 +1,6 @@
 #include "generator/base/fixed_blocks.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace hamgen {
 
@@ -114,10 +113,23 @@ std::span<const FixedBlock> c_blocks() { return kCBlocks; }
 
 namespace {
 
+// Whether one of the words of the list is what the predicate asks for.
+template <class Predicate>
+bool any_word(std::string_view list, Predicate is_wanted) {
+  while (!list.empty()) {
+    const std::string_view word = list.substr(0, list.find(' '));
+    if (!word.empty() && is_wanted(word)) return true;
+    list.remove_prefix(std::min(word.size() + 1, list.size()));
+  }
+  return false;
+}
+
 std::vector<std::string> words_in(std::string_view list) {
-  std::istringstream text{std::string(list)};
   std::vector<std::string> names;
-  for (std::string name; text >> name;) names.push_back(name);
+  any_word(list, [&](std::string_view word) {
+    names.emplace_back(word);
+    return false;
+  });
   return names;
 }
 
@@ -127,8 +139,7 @@ std::vector<std::string> names_of(const FixedBlock& block) { return words_in(blo
 std::vector<std::string> helpers_of(const FixedBlock& block) { return words_in(block.helpers); }
 
 bool defines(const FixedBlock& block, std::string_view word) {
-  const std::vector<std::string> names = names_of(block);
-  return std::ranges::find(names, word) != names.end();
+  return any_word(block.defines, [&](std::string_view each) { return each == word; });
 }
 
 bool is_defined(std::span<const FixedBlock> blocks, std::string_view word) {

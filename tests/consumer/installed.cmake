@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.22)
 
 file(GLOB_RECURSE found RELATIVE ${PREFIX} ${PREFIX}/*)
-list(FILTER found EXCLUDE REGEX "^bin/hamgen-mpi$")  # where MPI is
+list(FILTER found EXCLUDE REGEX "^bin/hamgen-(mpi|whole)$")  # where MPI, Arb or HDF5 is
 set(expected bin/hamgen
   include/hamgen/cache.hpp include/hamgen/compile.hpp include/hamgen/compiler.hpp
   include/hamgen/event.hpp include/hamgen/event_observer.hpp include/hamgen/integrator.hpp

@@ -17,9 +17,11 @@ execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK} --target hamgen RESULT_
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "building: ${result}\n${built}")
 endif()
-if(EXISTS ${WORK}/bin/hamgen-mpi)
-  message(FATAL_ERROR "hamgen-mpi is there without MPI")
-endif()
+foreach(program hamgen-mpi hamgen-whole)
+  if(EXISTS ${WORK}/bin/${program})
+    message(FATAL_ERROR "${program} is there without its libraries")
+  endif()
+endforeach()
 
 # The command with these words ends with this status and says what matches.
 function(expect status text)
