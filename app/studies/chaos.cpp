@@ -1,11 +1,13 @@
 #include "app/studies/chaos.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 #include <stdexcept>
+
+#include "generator/verify/linear_eigenvalues.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -76,13 +78,12 @@ class Deviations {
     const double time = std::abs(this->time());
     const Eigen::VectorXd sum = columns_.col(0) + columns_.col(1);
     const Eigen::VectorXd difference = columns_.col(0) - columns_.col(1);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> singular(columns_);
     return {.time = this->time(),
             .lyapunov = length_ / time,
             .megno = megno_mean_,
             .fli = longest_,
             .sali = std::min(sum.norm(), difference.norm()),
-            .gali = singular.singularValues().prod()};
+            .gali = singular_values(columns_).prod()};
   }
   [[nodiscard]] int count() const { return static_cast<int>(columns_.cols()); }
 

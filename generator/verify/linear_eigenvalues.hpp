@@ -1,4 +1,5 @@
-// Eigenvalues of a real matrix in doubles, and how far those of a step are from leaving the circle.
+// Eigenvalues and singular values of a real matrix in doubles, and how far a step's eigenvalues are
+// from leaving the circle.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,9 @@
 namespace hamgen {
 
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
-// The largest of their absolute values.
+// From the largest on.
+[[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
+// The largest of the eigenvalues' absolute values.
 [[nodiscard]] double spectral_radius(const Eigen::MatrixXd& matrix);
 
 // Below zero, or not finite, where the powers of a 2 x 2 matrix are unbounded.

@@ -1,7 +1,6 @@
 #include "generator/verify/linear_modes.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +64,7 @@ bool has_jordan_block(const MatrixXd& a, const std::vector<double>& frequencies)
     const auto count = static_cast<Eigen::Index>(2 * (last - first));
     if (count > 2) {
       const MatrixXd square = a * a + w * w * MatrixXd::Identity(a.rows(), a.cols());
-      const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(square).singularValues();
+      const VectorXd singular = singular_values(square);
       const double zero = 10 * kSame * std::max(singular[0], w * w);
       if ((singular.array() <= zero).count() < count) return true;
     }
