@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
