@@ -161,7 +161,7 @@ enum class Known { named_command, all_commands };
 // To know the options of all commands takes a fifth of a short run, and where the command line is
 // right none but those of the command that it names are looked at.  What is said of a wrong one,
 // and help, need all.
-int dispatch_to(const std::vector<std::string>& words, Crew& crew, Known known) {
+int run_subcommand(const std::vector<std::string>& words, Crew& crew, Known known) {
   CLI::App app("Turns a Hamiltonian, written in a small text file, into a symplectic integrator.",
                "hamgen");
   const std::vector<NamedCommand> all = all_commands(crew);
@@ -188,7 +188,7 @@ int dispatch_to(const std::vector<std::string>& words, Crew& crew, Known known) 
     print(std::string(version.what()) + "\n");
     return done;
   } catch (const CLI::ParseError& error) {
-    if (only_named) return dispatch_to(words, crew, Known::all_commands);
+    if (only_named) return run_subcommand(words, crew, Known::all_commands);
     if (dynamic_cast<const CLI::CallForHelp*>(&error) != nullptr) {
       print(app.help());
       return done;
@@ -223,7 +223,7 @@ int usage_failure(const char* what) {
 int dispatch(const std::vector<std::string>& words, Crew& crew) {
   report_full_files();
   try {
-    return dispatch_to(words, crew, Known::named_command);
+    return run_subcommand(words, crew, Known::named_command);
   } catch (const ModelError& error) {
     if (are_of_options(error)) return usage_failure(error.what());
     print_error(error.what());

@@ -72,8 +72,13 @@ class LoopHessianClaims {
 
   std::vector<Identities> run() {
     if (!has("differentiate")) return {};
-    if (has("gradient_error")) return {matrix_identities()};
-    return {matrix_identities(), curvature_identities()};
+    std::vector<Identities> found = {matrix_identities()};
+    if (has("gradient_error")) return found;
+    // A step may have that of V'' and its tangent that of H''.
+    if (has("potential_curvature"))
+      found.push_back(curvature_identities("potential_curvature", n_));
+    if (has("curvature")) found.push_back(curvature_identities("curvature", 2 * n_));
+    return found;
   }
 
  private:
@@ -137,38 +142,38 @@ class LoopHessianClaims {
     return std::move(identities_);
   }
 
-  // H'' u, with V'' for H'' where the momenta are torn out: linear in u, so that every entry is a
-  // claim.
-  Identities curvature_identities() {
+  // H'' u, or V'' u, of so many elements: linear in u, so that every entry is a claim.
+  Identities curvature_identities(const char* routine, int size) {
     SymbolicMachine machine = step_.machine();
     VectorEntries entries;
-    for (int i = 0; i < size_; ++i) {
+    for (int i = 0; i < size; ++i) {
       const long place = i < n_ ? i : i - n_;
       machine.set({i < n_ ? "q" : "p", "", {{place, {}}}}, step_.mechanics.variable(i));
       const Expression u = Expression::symbol("u(" + step_.name(i) + ")");
       machine.set({"u", "", {{i, {}}}}, u);
       entries.known[u.name()].of[i] = Expression(1);
     }
-    machine.run(reduced_ ? "potential_curvature" : "curvature");
+    machine.run(routine);
     identities_ = {.emitted = machine.definitions()};
     for (const Statement& s : identities_.emitted) {
       Linear value = entries.taken_apart(s.value);
       if (!value.of.empty()) entries.known[s.name] = std::move(value);
     }
-    std::vector<std::set<int>> partners(at(size_));
+    std::vector<std::set<int>> partners(at(size));
     for (const auto& [place, value] : derivatives_.hessian()) {
-      if (place.second >= size_) continue;
+      if (place.second >= size) continue;
       partners[at(place.first)].insert(place.second);
       partners[at(place.second)].insert(place.first);
     }
-    for (int k = 0; k < size_; ++k) {
+    for (int k = 0; k < size; ++k) {
       Linear product = entries.taken_apart(machine.value({"y", "", {{k, {}}}}));
       for (const int j : partners[at(k)]) product.of[j];
       for (const auto& [j, entry] : product.of) {
-        claim(fmt::format("entry {}, {} of H'' times a vector", k + 1, j + 1), entry,
+        claim(fmt::format("entry {}, {} of {}", k + 1, j + 1, routine), entry,
               derivatives_.second(k, j));
       }
-      claim(fmt::format("element {} of H'' times nothing", k + 1), product.rest, Expression(0));
+      claim(fmt::format("element {} of {} of nothing", k + 1, routine), product.rest,
+            Expression(0));
     }
     return std::move(identities_);
   }
@@ -178,7 +183,7 @@ class LoopHessianClaims {
   const FamilyParameters member_;
   int n_;
   bool reduced_;  // the momenta are torn out
-  int size_;      // of the matrix and of the vector
+  int size_;      // of the matrix
   Identities identities_;
 };
 

@@ -138,13 +138,14 @@ TEST(Drift, WhatAProductLostComesBeforeIt) {
                          {.steps = 50'000});
 }
 
-// What a sum of h slope and the carry loses is a pattern where h is a simple fraction.
+// What a sum of h slope and the carry loses is a pattern where h is a simple fraction: seven tenths
+// shows it, three tenths no more.
 TEST(Drift, WhatNewtonFindsInLoopsHasTheCarryBesideIt) {
   expect_drift_only_with({{"dz.q[i] = h *", "dz.q[i] = carry.q[i] + h *"},
                           {"rest.q[i] = carry.q[i]", "rest.q[i] = 0"},
                           {"dz.p[i] = -h *", "dz.p[i] = carry.p[i] - h *"},
                           {"rest.p[i] = carry.p[i]", "rest.p[i] = 0"}},
-                         {.model = soft_chain(25), .request = {.solver = "newton"}, .h = 0.3});
+                         {.model = soft_chain(25), .request = {.solver = "newton"}, .h = 0.7});
 }
 
 // At the rounded solution what rounding takes from a gradient is not independent of the state.

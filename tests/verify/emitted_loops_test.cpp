@@ -162,6 +162,56 @@ TEST(EmittedLoops, LinearEquationsAreTheMathematicsAndNoMutantIs) {
   EXPECT_GE(mutants, 20);
 }
 
+// Its products with H'' or V'': one of so many of their instructions left out, and then a term
+// added that is free of the vector.
+void expect_products_have_every_term_and_no_other(const std::string& text, const char* solver,
+                                                  std::size_t every, bool tangent = false) {
+  const auto [mechanics, hamiltonian] = loops_of(text);
+  const Scheme scheme = uniform(mechanics.degrees_of_freedom, Expression(Rational(1, 2)),
+                                Expression(0), Expression(0));
+  LoweredStep lowered = lowered_of(mechanics, scheme, solver);
+  if (tangent) lowered = with_tangent(std::move(lowered));
+  const Program code = build_program(lowered);
+  const auto verdict = [&, &mechanics = mechanics, &hamiltonian = hamiltonian](const Program& c) {
+    return prove_emitted(mechanics, scheme, lowered.plan, c, hamiltonian).verdict;
+  };
+  ASSERT_EQ(verdict(code), Verdict::proved);
+  const std::set<std::string> products = {"curvature", "potential_curvature"};
+  int mutants = 0;
+  for (const verify_test::Mutant& mutant : mutants_of_structure(code, {every, 0}, products)) {
+    if (computes_the_same(code, mutant.code)) continue;
+    EXPECT_EQ(verdict(mutant.code), Verdict::refuted) << mutant.kind << ": " << mutant.description;
+    ++mutants;
+  }
+  EXPECT_GE(mutants, 2);
+
+  Program moved = code;
+  const auto product = std::ranges::find_if(
+      moved.routines, [&](const Routine& routine) { return products.contains(routine.name); });
+  ASSERT_NE(product, moved.routines.end());
+  Program alone = code;
+  alone.routines = {*product};
+  int terms = 0;
+  verify_test::for_each_expression(alone, [&](Expression& e) {
+    const bool has_vector = to_text(e).find("at u[") != std::string::npos;
+    if (has_vector && terms++ == 0) e = e + Expression(1);
+  });
+  ASSERT_GT(terms, 0);
+  *product = alone.routines[0];
+  EXPECT_EQ(verdict(moved), Verdict::refuted);
+}
+
+TEST(EmittedLoops, ProductsWithTheHessianHaveEveryTermAndNoOther) {
+  for (const std::string& text : {kSprings, kTurningSprings, kCoupledRing, kChain})
+    expect_products_have_every_term_and_no_other(text, "newton", 4);
+}
+
+// The step has none of its own, or that of V''; the tangent map has that of H''.
+TEST(EmittedLoops, ProductsOfTheTangentMapHaveEveryTermAndNoOther) {
+  for (const char* solver : {"fixed-point", "newton"})
+    expect_products_have_every_term_and_no_other(kChain, solver, 12, true);
+}
+
 // Of the K that stands in for H, too.
 TEST(EmittedLoops, OfARaisedMemberAreTheMathematicsAndNoMutantIs) {
   const auto [mechanics, hamiltonian] = loops_of(

@@ -225,15 +225,21 @@ bool computes(const Instruction& instruction) {
 
 }  // namespace
 
-std::vector<Mutant> mutants_of_structure(const Program& original, Some some) {
+std::vector<Mutant> mutants_of_structure(const Program& original, Some some,
+                                         const std::set<std::string>& routines) {
   std::vector<Mutant> mutants;
+  const auto for_each_chosen = [&](Program& code, const auto& use) {
+    for_each_body(code, [&](const Routine& routine, Body& body) {
+      if (routines.empty() || routines.contains(routine.name)) use(routine, body);
+    });
+  };
   const auto change = [&](const std::string& kind, const auto& alter) {
     if (some.first++ % some.every != 0) return;
     Program mutant = original;
     const std::string what = alter(mutant);
     if (!what.empty()) mutants.push_back({kind, what, std::move(mutant)});
   };
-  const std::size_t substeps = original.substeps.size();
+  const std::size_t substeps = routines.empty() ? original.substeps.size() : 0;
   for (std::size_t i = 0; substeps > 1 && i < substeps; ++i) {
     change("substep left out", [i](Program& code) {
       code.substeps.erase(code.substeps.begin() + static_cast<std::ptrdiff_t>(i));
@@ -246,13 +252,14 @@ std::vector<Mutant> mutants_of_structure(const Program& original, Some some) {
   }
   std::size_t bodies = 0;
   Program copy = original;
-  for_each_body(copy, [&](const Routine&, Body& body) { bodies += body.size(); });
-  for (std::size_t place = 0; place < bodies; place += 1 + bodies / 24) {
+  for_each_chosen(copy, [&](const Routine&, Body& body) { bodies += body.size(); });
+  const std::size_t stride = routines.empty() ? 1 + bodies / 24 : 1;
+  for (std::size_t place = 0; place < bodies; place += stride) {
     const auto at_place = [&](const std::string& kind, const auto& alter) {
       change(kind, [&](Program& code) {
         std::size_t now = 0;
         std::string what;
-        for_each_body(code, [&](const Routine& routine, Body& body) {
+        for_each_chosen(code, [&](const Routine& routine, Body& body) {
           const std::size_t first = now;
           now += body.size();
           if (place < first || place >= now || !what.empty()) return;

@@ -35,7 +35,9 @@ struct Some {
 // that are spread over the routines, or over those of these names.
 [[nodiscard]] std::vector<Mutant> mutants_of(const Program& original, Some some = {},
                                              const std::set<std::string>& routines = {});
-// Substeps exchanged and left out; instructions left out, loops that run too far or not far enough.
-[[nodiscard]] std::vector<Mutant> mutants_of_structure(const Program& original, Some some = {});
+// Substeps exchanged and left out; instructions left out, loops that run too far or not far enough;
+// or only instructions and loops of routines of these names, each of them.
+[[nodiscard]] std::vector<Mutant> mutants_of_structure(const Program& original, Some some = {},
+                                                       const std::set<std::string>& routines = {});
 
 }  // namespace hamgen::verify_test
