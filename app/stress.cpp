@@ -91,6 +91,7 @@ int run_stress(const StressOptions& options) {
   const OutputKind kind = output_kind(options.output);
   require_one_document(options.json, kind);
   request.on_progress = progress_bars(options.quiet);
+  request.with_bound = !options.plot.empty() || kind == OutputKind::directory;
   request.axes = read_axes(options.vary);
   const SceneOptions scene = with_length(options.scene, request.axes);
   request.setting = read_setting(with_run_time_members(options.method, request.axes), scene);

@@ -62,7 +62,7 @@ struct StressMap {
   std::string model, scene, method;
   std::vector<StressAxis> axes;                     // one or two
   std::vector<StressCell> cells;                    // the first axis runs fastest
-  std::vector<std::array<double, 2>> linear_bound;  // points of its border in the plane of the axes
+  std::vector<std::array<double, 2>> linear_bound;  // points of its border in the axes' plane
   long steps = 0;
   std::string references;  // how the states for the state errors were found
   std::string compiler;    // its identity and flags
@@ -81,6 +81,7 @@ struct StressRequest {
   Setting setting;               // alpha, beta, gamma are the axes' names where these vary them
   std::vector<StressAxis> axes;  // one or two
   StressLimits limits;
+  bool with_bound = false;  // what only a picture shows takes its time: StressMap::linear_bound
   ProgressSink on_progress;
 };
 

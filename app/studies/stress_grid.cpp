@@ -77,9 +77,11 @@ runtime::InitialValues StressGrid::start_at(const std::vector<double>& at) const
 }
 
 std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double>& at) {
+  SceneValues scene;
   std::optional<runtime::InitialValues> start;
   try {
-    start = start_at(at);
+    scene = scene_at(at);
+    start = initial_values(plugin_, scene, *loaded_.library);
   } catch (const ModelError&) {
     return std::nullopt;
   } catch (const UsageError&) {
@@ -106,7 +108,6 @@ std::optional<StressGrid::Linear> StressGrid::linear_at(const std::vector<double
   const bool is_member =
       method.scheme.empty() || alpha != 0.5 || method.scheme == "implicit-midpoint";
   if (!is_member) return std::nullopt;
-  const SceneValues scene = scene_at(at);
   std::vector<std::string> names = element_names(plugin_.model.parameters);
   std::map<std::string, Rational> values;
   for (std::size_t i = 0; i < names.size(); ++i) values[names[i]] = scene.parameters[i];
@@ -139,29 +140,30 @@ std::vector<std::array<double, 2>> StressGrid::linear_bound() {
     return linear ? std::optional(linear->margin) : std::nullopt;
   };
   std::vector<std::array<double, 2>> points;
-  const auto search = [&](bool along_y, double fixed, double from, double to) {
+  const auto search = [&](bool along_y, double fixed) {
     const auto at = [&](double t) { return along_y ? margin(fixed, t) : margin(t, fixed); };
-    const auto left = at(from);
-    const auto right = at(to);
-    if (!left || !right || (*left > 0.0) == (*right > 0.0)) return;
-    for (int halving = 0; halving < 12; ++halving) {
-      const double middle = 0.5 * (from + to);
-      const auto there = at(middle);
-      if (!there) return;
-      ((*there > 0.0) == (*left > 0.0) ? from : to) = middle;
+    // Between two values of t whose margins are of two signs.
+    const auto between = [&](double from, double to, bool is_bounded_from) {
+      for (int halving = 0; halving < 12; ++halving) {
+        const double middle = 0.5 * (from + to);
+        const auto there = at(middle);
+        if (!there) return;
+        ((*there > 0.0) == is_bounded_from ? from : to) = middle;
+      }
+      points.push_back(
+          {value(axes_[0], along_y ? fixed : from), value(axes_[1], along_y ? from : fixed)});
+    };
+    auto left = at(0.0);
+    for (int i = 0; i < up; ++i) {
+      const double from = static_cast<double>(i) / up;
+      const double to = static_cast<double>(i + 1) / up;
+      const auto right = at(to);
+      if (left && right && (*left > 0.0) != (*right > 0.0)) between(from, to, *left > 0.0);
+      left = right;
     }
-    points.push_back(
-        {value(axes_[0], along_y ? fixed : from), value(axes_[1], along_y ? from : fixed)});
   };
-  for (int i = 0; i <= across; ++i) {
-    for (int j = 0; j < up; ++j)
-      search(true, static_cast<double>(i) / across, static_cast<double>(j) / up,
-             static_cast<double>(j + 1) / up);
-  }
-  for (int j = 0; j <= across; ++j) {
-    for (int i = 0; i < up; ++i)
-      search(false, static_cast<double>(j) / across, static_cast<double>(i) / up,
-             static_cast<double>(i + 1) / up);
+  for (const bool along_y : {true, false}) {
+    for (int i = 0; i <= across; ++i) search(along_y, static_cast<double>(i) / across);
   }
   return points;
 }

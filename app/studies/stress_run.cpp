@@ -103,7 +103,7 @@ StressMap stress_map(const StressRequest& request) {
   StressLimits limits = request.limits;
   StressMap map = empty_map(grid, limits);
   run_cells(grid, limits, request, map);
-  if (!is_stopped(limits.stop)) map.linear_bound = grid.linear_bound();
+  if (request.with_bound && !is_stopped(limits.stop)) map.linear_bound = grid.linear_bound();
   return map;
 }
 
