@@ -71,9 +71,8 @@ class LoopHessianClaims {
         size_(reduced_ ? n_ : 2 * n_) {}
 
   std::vector<Identities> run() {
-    if (!has("differentiate")) return {};
-    std::vector<Identities> found = {matrix_identities()};
-    if (has("gradient_error")) return found;
+    std::vector<Identities> found;
+    if (has("differentiate")) found.push_back(matrix_identities());
     // A step may have that of V'' and its tangent that of H''.
     if (has("potential_curvature"))
       found.push_back(curvature_identities("potential_curvature", n_));

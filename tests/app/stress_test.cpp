@@ -178,6 +178,35 @@ TEST(Stress, AnUnknownCellIsDrawnUnlikeAnyOther) {
   EXPECT_EQ(hatched, 1);
 }
 
+// Symplectic Euler is bounded on H = (p^2 + w^2 q^2)/2 where h w < 2; what stands in the script is
+// found by halving an 80th of an axis, 2 long, twelve times, and has nine digits.
+TEST(Stress, APictureHasTheBorderOfTheLinearBound) {
+  const Scratch scratch;
+  const std::string path =
+      scratch.write("oscillator.ham",
+                    "system oscillator\ncoordinate q\nmomentum p\nparameter w = 1\n"
+                    "H = (p^2 + w^2*q^2)/2\n"
+                    "scene s {\n  q = 1\n  h = 1\n  steps = 10\n}\n");
+  const Result result =
+      stress({path, "--vary", "h=0.5:2.5:2", "--vary", "w=0.5:2.5:2", "--scheme",
+              "symplectic-euler-a", "--reference-seconds", "0", "--plot", scratch.path("m.svg")});
+  EXPECT_EQ(result.status, 0) << result.err;
+  std::istringstream script(read(scratch.path("m.gp")));
+  std::string line;
+  while (std::getline(script, line) && line != "$bound << EOD") continue;
+  int points = 0;
+  while (std::getline(script, line) && line != "EOD") {
+    std::istringstream numbers(line);
+    double h = 0;
+    double w = 0;
+    numbers >> h >> w;
+    EXPECT_NEAR(h * w, 2, 2.5 * 2 / 80 / 4096 + 1e-8) << line;
+    ++points;
+  }
+  // A line across in each direction for every 160th of an axis from 2/2.5 on.
+  EXPECT_GT(points, 200);
+}
+
 // Half a picture, as on a full disk, of which gnuplot says nothing.
 TEST(Stress, APictureAppearsWholeOrNotAtAll) {
   const Scratch scratch;

@@ -165,10 +165,11 @@ TEST(EmittedLoops, LinearEquationsAreTheMathematicsAndNoMutantIs) {
 // Its products with H'' or V'': one of so many of their instructions left out, and then a term
 // added that is free of the vector.
 void expect_products_have_every_term_and_no_other(const std::string& text, const char* solver,
-                                                  std::size_t every, bool tangent = false) {
+                                                  std::size_t every, bool tangent = false,
+                                                  const Rational& alpha = Rational(1, 2)) {
   const auto [mechanics, hamiltonian] = loops_of(text);
-  const Scheme scheme = uniform(mechanics.degrees_of_freedom, Expression(Rational(1, 2)),
-                                Expression(0), Expression(0));
+  const Scheme scheme =
+      uniform(mechanics.degrees_of_freedom, Expression(alpha), Expression(0), Expression(0));
   LoweredStep lowered = lowered_of(mechanics, scheme, solver);
   if (tangent) lowered = with_tangent(std::move(lowered));
   const Program code = build_program(lowered);
@@ -210,6 +211,7 @@ TEST(EmittedLoops, ProductsWithTheHessianHaveEveryTermAndNoOther) {
 TEST(EmittedLoops, ProductsOfTheTangentMapHaveEveryTermAndNoOther) {
   for (const char* solver : {"fixed-point", "newton"})
     expect_products_have_every_term_and_no_other(kChain, solver, 24, true);
+  expect_products_have_every_term_and_no_other(kChain, "", 24, true, 0);  // explicit
 }
 
 // Of the K that stands in for H, too.
