@@ -235,6 +235,10 @@ int verify(const VerifyOptions& options) {
   std::string text = to_text(proof);
   if (!options.terms.empty()) {
     const ModifiedEnergy modified = modified_energy(setting, options);
+    if (interrupt_flag()) {
+      print_error("hamgen: stopped; nothing is printed\n");
+      return interrupted;
+    }
     rows.push_back(modified_json(modified, options.latex));
     text += modified_text(modified, options.latex);
   }

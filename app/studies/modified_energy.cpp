@@ -4,6 +4,7 @@
 
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/stop.hpp"
 #include "generator/verify/modified_energy.hpp"
 
 namespace hamgen::app {
@@ -51,11 +52,18 @@ WatchedOrbit watch_orbit(const SourceText& source, Request request, const SceneV
   };
   add();
   const long distance = std::max(1L, *scene.steps / samples);
+  // So many quad steps take less than a second.
+  constexpr long at_once = 4096;
+  const auto advance = [&] {
+    for (long left = distance; left > 0; left -= at_once) {
+      if (is_stopped(stop)) return false;
+      const auto status = integrator.advance(std::min(left, at_once), false).status;
+      if (status != runtime::Status::done) return false;
+    }
+    return true;
+  };
   long done = 0;
-  for (; done < *scene.steps; done += distance) {
-    if (integrator.advance(distance, false).status != runtime::Status::done) break;
-    add();
-  }
+  for (; done < *scene.steps && advance(); done += distance) add();
   return {.scene = scene.name,
           .h = to_double(*scene.h),
           .steps = done,

@@ -76,6 +76,16 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       return true;
     };
   }
+  Step operator()(const CollectStages& sum) {
+    const Address target = address(sum.symbol);
+    const Address lost = address(sum.lost);
+    return [this, target, lost, slopes = address(sum.slopes()), changes = address(sum.changes()),
+            sum] {
+      NumericsOf<Real>::collect_stages(m_.frame.at(target), m_.frame.at(lost), sum.lanes,
+                                       &m_.frame.at(slopes), &m_.frame.at(changes), sum.count);
+      return true;
+    };
+  }
   Step operator()(const Array& array) {
     const Address target{index_of(array.name), 0, {}};
     std::vector<CompiledExpression<Real>> values;

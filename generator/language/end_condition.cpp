@@ -71,7 +71,15 @@ EndCondition read_end_condition(const Model& model, const std::string& option,
     const auto* name = std::get_if<NameNode>(&syntax.crossing.value->value);
     if (name != nullptr && !syntax.right && !name->subscript) {
       const auto event = std::ranges::find(model.events, name->name, &ModelEvent::name);
-      if (event != model.events.end()) return {.event = *event};
+      if (event != model.events.end()) {
+        result.event = *event;
+        // One direction that is asked for is that, whatever the event's own.
+        if (syntax.crossing.rising != syntax.crossing.falling) {
+          result.event.rising = syntax.crossing.rising;
+          result.event.falling = syntax.crossing.falling;
+        }
+        return result;
+      }
     }
     result = syntax.right ? comparison(syntax, symbols) : EndCondition{.event = syntax.crossing};
     result.event.text = one_line(source, {0, source.text.size()});

@@ -1,5 +1,5 @@
 // x * y less its rounded value, by Dekker's product of halves: exact without a fused multiply-add,
-// unless 2^27 x overflows.
+// unless `splitter` times one of them overflows.
 inline Real product_error(const Real& x, const Real& y) {
   constexpr double splitter = 0x1p27 + 1;
   const Real large_x = splitter * x;

@@ -1,5 +1,5 @@
 // x * y less its rounded value, by Dekker's product of halves: exact without a fused multiply-add,
-// unless 2^27 x overflows.
+// unless `splitter` times one of them overflows.
 inline Real product_error(Real x, Real y) {
   constexpr auto find_splitter = [] {
     Real power = 1;

@@ -48,6 +48,10 @@ struct Reader {
     found.written.insert({sum.symbol, sum.lost});
     mention(sum.value, found);
   }
+  void operator()(const CollectStages& sum) const {
+    found.written.insert({sum.symbol, sum.lost});
+    found.objects.insert(sum.refinement.object);
+  }
   void operator()(const Accumulate& sum) const {
     found.written.insert(sum.symbol);
     mention(sum.value, found);

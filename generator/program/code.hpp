@@ -87,6 +87,23 @@ struct Collect {
   std::string symbol, lost;
   Expression value;
 };
+// symbol = the sum of as many slopes of a refinement as a component has, from one of them on, so
+// many lanes at once; what rounding loses of it, and their changes, are added to `lost`.
+struct CollectStages {
+  std::string symbol, lost;
+  Place refinement;
+  AffineIndex first;
+  int count = 0;
+  int lanes = 0;
+
+  [[nodiscard]] Place slopes() const { return array("slope"); }
+  [[nodiscard]] Place changes() const { return array("change"); }
+
+ private:
+  [[nodiscard]] Place array(const char* name) const {
+    return {refinement.object, refinement.field + "." + name, {first}};
+  }
+};
 // symbol += value
 struct Accumulate {
   std::string symbol;
@@ -302,10 +319,10 @@ struct Origin {
 };
 
 struct Instruction {
-  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, Clear, Put, SetFlag, For,
-               Scope, If, Call, Alternate, Factorise, SolveFactorised, Invert, Iterate,
-               IterateArray, Refine, RefineArray, Sweep, Use, Declare, Note, Count, Ask, Forget,
-               Repeat, Break, RequireFinite, Return>
+  std::variant<Let, Array, Matrix, Copy, Assign, Accumulate, Collect, CollectStages, Clear, Put,
+               SetFlag, For, Scope, If, Call, Alternate, Factorise, SolveFactorised, Invert,
+               Iterate, IterateArray, Refine, RefineArray, Sweep, Use, Declare, Note, Count, Ask,
+               Forget, Repeat, Break, RequireFinite, Return>
       value;
   std::vector<std::string> remark = {};  // lines of a comment above it
   Origin origin = {};

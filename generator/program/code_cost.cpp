@@ -46,6 +46,7 @@ class CodeCost {
     add(sum.value);
     add(sums(7));
   }
+  void of(const CollectStages& sum) { add(sums(8L * sum.count)); }
   void of(const Put& put) {
     add(put.value);
     add(sums(1));

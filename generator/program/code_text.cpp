@@ -71,6 +71,10 @@ class Printer {
   void operator()(const Collect& sum) {
     line(fmt::format("{}, {} += {}", sum.symbol, sum.lost, to_text(sum.value)));
   }
+  void operator()(const CollectStages& sum) {
+    line(fmt::format("{}, {} <- sum of {} from {} and {} on, {} at once", sum.symbol, sum.lost,
+                     sum.count, to_text(sum.slopes()), to_text(sum.changes()), sum.lanes));
+  }
   void operator()(const Accumulate& sum) {
     line(fmt::format("{} += {}", sum.symbol, to_text(sum.value)));
   }

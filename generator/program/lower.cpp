@@ -160,13 +160,24 @@ Expression Lowering::rewrite_operands(const Expression& e, int section) {
     for (const Expression& operand : operands) groups[place(operand, section)].push_back(operand);
     operands.clear();
     std::vector<Expression> carried;  // numbers join the first group that is more than a number
+    const auto combine = [&](const std::vector<Expression>& members) {
+      return e.kind() == Kind::sum ? Expression::sum(members) : Expression::product(members);
+    };
     for (auto& [where, group] : groups) {
+      // What has a name has it by the values that it had before they were rewritten.
+      std::vector<Expression> whole = group;
+      whole.insert(whole.end(), carried.begin(), carried.end());
+      const auto known = named_.find(combine(whole));
+      if (known != named_.end() && where != groups.rbegin()->first) {
+        operands.push_back(known->second);
+        carried.clear();
+        continue;
+      }
       std::vector<Expression> members;
       for (const Expression& member : group) members.push_back(rewrite(member, where));
       members.insert(members.end(), carried.begin(), carried.end());
       carried.clear();
-      Expression combined =
-          e.kind() == Kind::sum ? Expression::sum(members) : Expression::product(members);
+      Expression combined = combine(members);
       const bool last = where == groups.rbegin()->first;
       if (!last && combined.is_number()) {
         carried.push_back(combined);
@@ -190,8 +201,7 @@ Expression Lowering::rewrite_operands(const Expression& e, int section) {
         }
       }
     }
-    return e.kind() == Kind::sum ? Expression::sum(std::move(operands))
-                                 : Expression::product(std::move(operands));
+    return combine(operands);
   }
   for (Expression& operand : operands) operand = rewrite(operand, section);
   if (e.kind() == Kind::power) return Expression::power(operands[0], operands[1]);

@@ -59,6 +59,7 @@ constexpr std::string_view kOurs[] = {"std",
                                       "two_sum",
                                       "add",
                                       "collect",
+                                      "collect_stages",
                                       "product_error",
                                       "difference_error",
                                       "squares_of",
@@ -206,7 +207,8 @@ const std::string& Names::local(const std::string& symbol) {
   const bool element = source.find('[') != std::string::npos;  // "q[2*i+1]": q_2_times_i_plus_1
   for (const char c : source) {
     if (element && (c == '+' || c == '-' || c == '*')) {
-      text += c == '+' ? "_plus" : c == '-' ? "_minus" : "_times";
+      if (!text.ends_with('_')) text += '_';  // two of them are the language's own
+      text += c == '+' ? "plus" : c == '-' ? "minus" : "times";
     }
     const bool letter = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     if (letter) {

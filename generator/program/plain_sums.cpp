@@ -57,7 +57,8 @@ class PlainSums {
     }
     if (const auto* assign = std::get_if<Assign>(&instruction.value)) {
       const auto place = routine_.places.find(assign->symbol);
-      return place != routine_.places.end() && is_carry(place->second);
+      if (place == routine_.places.end()) return false;
+      return is_carry(place->second) || (place->second.object == "rest" && assign->value.is_zero());
     }
     if (const auto* loop = std::get_if<For>(&instruction.value)) return loop->body.empty();
     if (auto* copy = std::get_if<Copy>(&instruction.value)) {
@@ -75,7 +76,21 @@ class PlainSums {
     if (auto* refine = std::get_if<Refine>(&instruction.value)) forget(refine->kept);
     if (const auto* sum = std::get_if<Collect>(&instruction.value))
       instruction.value = Accumulate{sum->symbol, sum->value};
+    if (const auto* sum = std::get_if<CollectStages>(&instruction.value)) {
+      const Expression values = sum_from(sum->slopes(), sum->count);
+      instruction.value = Assign{sum->symbol, values + sum_from(sum->changes(), sum->count)};
+    }
     return false;
+  }
+
+  Expression sum_from(Place place, int count) {
+    Expression sum(0);
+    for (int i = 0; i < count; ++i, ++place.indices.back().constant) {
+      const std::string symbol = to_text(place);
+      routine_.places.insert_or_assign(symbol, place);
+      sum += Expression::symbol(symbol, kRankOfVariable + static_cast<int>(routine_.places.size()));
+    }
+    return sum;
   }
 
   static void drop_arguments(Call& call) {

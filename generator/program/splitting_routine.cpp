@@ -142,7 +142,9 @@ class SplittingRoutine {
   void add_places(Body& body) {
     if (!begins_in_loops()) {
       body.push_back({Copy{"State", "now", "z", true}});
-      if (!reversible_) {  // else each component begins where it is changed
+      if (reversible_) {  // each component begins where it is changed
+        add_carries_of_constants(body);
+      } else {
         body.push_back({Copy{"State", "dz", "carry"}});
         body.push_back({Copy{"State", "rest", ""}});
       }
@@ -246,6 +248,20 @@ class SplittingRoutine {
   // Who looks at what a substep has changed: the rest of the step at the state, the velocity in the
   // same loop, or nobody.
   enum class Look { state, velocity, nobody };
+
+  // What nothing changes keeps its carry.
+  void add_carries_of_constants(Body& body) {
+    if (arrays_) return;
+    for (const bool momentum : {false, true}) {
+      const std::vector<AffineIndex> changed = components(momentum);
+      for (int i = 0; i < n_; ++i) {
+        const AffineIndex index{i, {}};
+        if (std::ranges::find(changed, index) != changed.end()) continue;
+        const Expression rest = component("rest", momentum, index);
+        body.push_back({Assign{rest.name(), component("carry", momentum, index)}});
+      }
+    }
+  }
 
   // dz -= kick dV/dq or dz += drift dT/dp, and what somebody looks at.
   // `begins`: the sums, too.

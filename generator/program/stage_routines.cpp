@@ -332,6 +332,19 @@ class StageRoutines : StageParts {
       };
       const std::string dz = component("dz").name();
       const std::string rest = component("rest").name();
+      // Without room for stages that are none.
+      if (layout_.packs() > 0 && layout_.room() == stages_) {
+        each.push_back({Assign{rest, component("carry")}});
+        each.push_back({CollectStages{.symbol = dz,
+                                      .lost = rest,
+                                      .refinement = {"start", "refinement"},
+                                      .first = index(0),
+                                      .count = layout_.room(),
+                                      .lanes = layout_.packs()}});
+        end.finite.push_back(dz);
+        end.finite.push_back(rest);
+        continue;
+      }
       Expression changes = component("carry");
       for (int m = 0; m < stages_; ++m) changes += of_start(b, "refinement.change", index(m));
       each.push_back({Assign{dz, of_start(b, "refinement.slope", index(0))}});

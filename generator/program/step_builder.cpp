@@ -168,9 +168,9 @@ Expression StepBuilder::name_once(const std::string& name, const Expression& val
 
 void StepBuilder::define_gradient(int k, int section) {
   known_gradient_[index(k)] = true;
-  lowering_.define(gradient_[index(k)].name(), at_stage(equations_.stage_gradient(k)), section,
+  lowering_.define(gradient_[index(k)].name(), value_of_gradient(k), section,
                    keeps_gradients_ ? Lowering::Keep::yes : Lowering::Keep::no);
-  if (solves_constants_ && keeps_losses_) find_lost_of_gradient(k, section);
+  find_lost_of_gradient(k, section);
 }
 
 void StepBuilder::define(const Expression& symbol, const Expression& value, int section) {
@@ -300,6 +300,7 @@ void StepBuilder::add_fixed_point(const Block& block) {
     pending.solve.changes.push_back(change.name());
     pending.gradient.push_back(lowering_.want(gradient_[index(k)], where));
     correction_[index(k)] = {gradient_[index(k)], change};
+    change_of_gradient_.emplace(k, change);
   }
   sums_exactly_ = true;
   solves_.push_back(std::move(pending));

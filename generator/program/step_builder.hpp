@@ -117,6 +117,13 @@ class StepBuilder {
   std::pair<Expression, Expression> flow_of(int k, const Expression& gradient, int section);
   std::string short_name(const std::string& text, const std::string& place);
   // What rounding took from dH/dz_k itself.
+  struct ConstantFactors {
+    std::vector<std::pair<int, Expression>> factors;
+    Expression at_zero;  // where the stage is
+  };
+  [[nodiscard]] std::optional<ConstantFactors> constant_factors(int k) const;
+  Expression constant(const Expression& factor);
+  Expression value_of_gradient(int k);
   void find_lost_of_gradient(int k, int section);
   // Does dH/dz_k depend on the stage?
   [[nodiscard]] bool is_of_state(int k) const;
@@ -190,6 +197,7 @@ class StepBuilder {
   // A gradient component as the last iteration evaluated it, and what its increment adds.
   std::vector<std::pair<Expression, Expression>> correction_;
   std::map<std::string, Expression> lost_of_gradient_;  // by its name
+  std::map<int, Expression> change_of_gradient_;        // of a fixed point that is solved
   // zbar_t - z_t by the rows torn out, see Note [momenta before they are rounded].
   std::map<int, Expression> torn_change_;
   std::map<std::string, std::string> short_names_;  // of products, by their texts

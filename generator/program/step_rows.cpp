@@ -71,9 +71,13 @@ Expression StepBuilder::lacking(int i, const Expression& value, int section) {
 std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Expression& gradient,
                                                          int section) {
   const Expression entry = equations_.stage_matrix.at({i, k});
-  if (!keeps_gradients_) return {weight(i, k) * gradient, Expression(0)};
+  // Of an iteration before this one, from its rounded end to the solution.
+  const auto change = change_of_gradient_.find(k);
+  const Expression later = change == change_of_gradient_.end() ? Expression(0) : change->second;
+  if (!keeps_gradients_) return {weight(i, k) * gradient, weight(i, k) * later};
   const std::string& of = gradient.name();
-  const auto [flow, flow_lost] = flow_of(k, gradient, section);
+  const auto [flow, lost_of_flow] = flow_of(k, gradient, section);
+  const Expression flow_lost = lost_of_flow + step_size() * later;
   if (multiplies_exactly(entry)) return {entry * flow, entry * flow_lost};
   // The larger of two weights that sum to one is multiplied, the smaller is what is left.
   const Expression sign(i < n_ ? 1 : -1);
@@ -117,29 +121,54 @@ std::pair<Expression, Expression> StepBuilder::flow_of(int k, const Expression& 
   return {flow, lost};
 }
 
-// Where its factors are constant it is the sum of their products with the stage: what is left of it
-// when they are subtracted, and what products and differences lose.
-void StepBuilder::find_lost_of_gradient(int k, int section) {
-  if (!equations_.has_exact_hessian()) return;
-  const Expression gradient = gradient_[index(k)];
+// Where its factors are constant: the components of the stage that it is a sum of products with.
+std::optional<StepBuilder::ConstantFactors> StepBuilder::constant_factors(int k) const {
+  if (!solves_constants_ || !keeps_losses_ || !equations_.has_exact_hessian()) return {};
+  ConstantFactors result;
+  for (int v = 0; v < 2 * n_; ++v) {
+    if (!equations_.is_polynomial(k, v)) return {};
+    const Expression factor = equations_.stage_hessian(k, v);
+    if (depends_on_state(factor)) return {};
+    if (!factor.is_zero()) result.factors.emplace_back(v, factor);
+  }
   Substitution zero;
   for (int v = 0; v < 2 * n_; ++v) zero.emplace(equations_.stage(v).name(), Expression(0));
+  result.at_zero = substitute(equations_.stage_gradient(k), zero);
+  return result;
+}
+
+Expression StepBuilder::constant(const Expression& factor) {
+  if (factor.is_number()) return factor;
+  return name_once("(" + to_text(factor) + ")", factor, kCoefficients);
+}
+
+// One product is the very one whose loss is told: the same constant, made of the parameters in
+// another way, may be rounded otherwise.
+Expression StepBuilder::value_of_gradient(int k) {
+  const std::optional<ConstantFactors> sum = constant_factors(k);
+  if (!sum || sum->factors.size() != 1 || !sum->at_zero.is_zero())
+    return at_stage(equations_.stage_gradient(k));
+  const auto& [v, factor] = sum->factors.front();
+  return constant(factor) * stage_value_[index(v)];
+}
+
+// It is the sum of the products of constants with the stage: what is left of it when they are
+// subtracted, and what products and differences lose.
+void StepBuilder::find_lost_of_gradient(int k, int section) {
+  const std::optional<ConstantFactors> sum = constant_factors(k);
+  if (!sum) return;
+  const Expression gradient = gradient_[index(k)];
   std::vector<Expression> parts;
   std::vector<Expression> small;
-  if (const Expression at_zero = substitute(equations_.stage_gradient(k), zero);
-      !at_zero.is_zero()) {
-    parts.push_back(name_once("(" + to_text(at_zero) + ")", at_zero, kCoefficients));
+  if (!sum->at_zero.is_zero()) {
+    const std::string name = "(" + to_text(sum->at_zero) + ")";
+    parts.push_back(name_once(name, sum->at_zero, kCoefficients));
   }
-  for (int v = 0; v < 2 * n_; ++v) {
-    if (!equations_.is_polynomial(k, v)) return;
-    const Expression factor = equations_.stage_hessian(k, v);
-    if (factor.is_zero()) continue;
-    if (depends_on_state(factor)) return;
+  for (const auto& [v, factor] : sum->factors) {
     const Expression& value = stage_value_[index(v)];
     const std::string text =
         short_name(to_text(factor) + "*" + value.name(), gradient.name() + " " + value.name());
-    const Expression number =
-        factor.is_number() ? factor : name_once("(" + to_text(factor) + ")", factor, kCoefficients);
+    const Expression number = constant(factor);
     parts.push_back(
         name_once("part(" + text + ")", number * value, section, Lowering::Keep::apart));
     if (!multiplies_exactly(factor)) {

@@ -8,6 +8,8 @@ std::optional<std::string> without_tangent(const SolvePlan& plan) {
   if (!plan.equations.has_exact_hessian()) {
     return "the Hessian of the K that stands in for H is too long";
   }
+  if (plan.sweeps && plan.equations.function)
+    return "sweeps with a K that stands in for H have none";
   if (!plan.equations.mechanics.sums.empty())
     return "H is a function of sums over all elements, whose second derivatives are not made";
   // The matrix, and that of the stages, are on the stack.

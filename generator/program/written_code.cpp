@@ -70,6 +70,13 @@ class RoutineWriter : public RunWriter {
     collect.changed = 2;
     add(Do{std::move(collect)});
   }
+  void operator()(const CollectStages& sum) {
+    Value collect =
+        call("collect_stages", {symbol(sum.symbol), symbol(sum.lost), object(sum.refinement),
+                                index(sum.first), integer(sum.count)});
+    collect.changed = 2;
+    add(Do{std::move(collect)});
+  }
   void operator()(const Accumulate& sum) {
     if (!put_lanes("Lanes::add", sum.symbol, sum.value)) increase(sum.symbol, formula(sum.value));
   }

@@ -141,9 +141,9 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   if (component.size() == 1 && !depends(component[0], component[0])) {
     return {.kind = BlockKind::assign, .unknowns = component};
   }
-  if (!fixed_point && !equations.has_exact_hessian()) {
-    return plan_simplified_newton(equations, component);
-  }
+  // The Hessian of a shorter K says nothing of where the equations are linear.
+  const bool exact = equations.has_exact_hessian();
+  if (!fixed_point && !exact) return plan_simplified_newton(equations, component);
   // Tearing saves a fixed-point iteration little, and takes long to plan for a large block.
   constexpr std::size_t kLargeBlock = 64;
   if (fixed_point && component.size() > kLargeBlock) {
@@ -165,8 +165,8 @@ Block plan_block(const StepEquations& equations, const std::vector<int>& compone
   for (const int i : component) {
     if (std::ranges::find(torn, i) == torn.end()) block.unknowns.push_back(i);
   }
-  block.constant_matrix = has_constant_matrix(equations, component);
-  if (is_affine(equations, component)) {
+  block.constant_matrix = exact && has_constant_matrix(equations, component);
+  if (exact && is_affine(equations, component)) {
     block.kind = BlockKind::linear;
     // Written out, an oscillator's 2 x 2 system costs what its torn one does, and keeps what the
     // torn momentum p - h/2 omega^2 qbar loses by cancellation: h omega units of rounding.

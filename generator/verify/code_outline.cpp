@@ -74,6 +74,13 @@ class Outline {
     use(Event::add, sum.symbol);
     use(Event::add, sum.lost);
   }
+  void operator()(const CollectStages& sum) {
+    word("stages", {sum.count, sum.lanes});
+    use(Event::get, sum.slopes());
+    use(Event::get, sum.changes());
+    use(Event::set, sum.symbol);
+    use(Event::add, sum.lost);
+  }
   void operator()(const Put& put) {
     read(put.value);
     Place place = put.matrix;

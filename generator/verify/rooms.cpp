@@ -127,9 +127,11 @@ class Relations {
     } else if (of.text.starts_with("copy")) {
       beside_.push_back({routine_, of.names[0] + ".", routine_, of.names[1] + "."});
     } else if (of.text == "solve") {
+      end_list();  // of the one before
       list_ = of.names;
       square_.emplace_back(routine_, of.names.front());
     } else if (of.text == "refinement") {
+      end_list();
       list_ = {with_field(of.names.front(), "slope"), with_field(of.names.front(), "change")};
     } else if (of.text == "for" || of.text == "at" || of.text == "lack" || of.text == "gradient") {
       list_.push_back(of.names.front());

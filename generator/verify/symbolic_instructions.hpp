@@ -31,6 +31,17 @@ struct SymbolicMachine::Run {
   }
   // What rounding moves from one to the other changes nothing in their sum.
   void operator()(const Collect& sum) const { (*this)(Accumulate{sum.symbol, sum.value}); }
+  void operator()(const CollectStages& sum) const {
+    m.assign(frame, sum.symbol, sum_from(sum.slopes(), sum.count));
+    const Expression lost = m.number(frame, sum.lost) + sum_from(sum.changes(), sum.count);
+    m.assign(frame, sum.lost, lost, false);
+  }
+  [[nodiscard]] Expression sum_from(Place place, int count) const {
+    Expression sum(0);
+    for (int i = 0; i < count; ++i, ++place.indices.back().constant)
+      sum += m.read(cell(m.reference(frame, place)));
+    return sum;
+  }
   void operator()(const Array& array) const {
     const std::string root = frame.prefix + array.name;
     frame.objects[array.name] = {.root = root, .sizes = array.sizes};

@@ -107,16 +107,41 @@ Expression SymbolicMachine::without_rounding(const std::string& name, const Expr
   const Expression exact = error.name() == kProductError ? x * y : x - y;
   if (is_trivial(exact)) return Expression(0);
   const auto known = lost_.find(exact);
-  for (std::size_t i = definitions_.size(); i-- > 0;) {
-    if (definitions_[i].value != exact) continue;
+  if (const std::optional<std::size_t> i = computed_as(exact)) {
     // What is computed twice by different names is rounded alike.
     const Expression lost = known == lost_.end() ? free_symbol(name) : known->second;
-    definitions_[i].value = exact - lost;
+    definitions_[*i].value = definitions_[*i].value - lost;
     lost_.emplace(exact, lost);
     return lost;
   }
   // Of what nobody has computed, or of one that has been told already.
   return known == lost_.end() ? free_symbol(name) : known->second;
+}
+
+// The last definition with this value; or of numbers that have the same values, or these with the
+// other sign, by other names: what is rounded of them is the same.
+std::optional<std::size_t> SymbolicMachine::computed_as(const Expression& exact) const {
+  for (std::size_t i = definitions_.size(); i-- > 0;) {
+    if (definitions_[i].value == exact) return i;
+  }
+  std::map<Expression, Expression> first;
+  Substitution same;
+  std::vector<Expression> values;
+  for (const auto& [name, value] : definitions_) {
+    values.push_back(substitute(value, same));
+    const Expression symbol = Expression::symbol(name, kRankOfTemporary);
+    const auto [it, is_new] = first.try_emplace(values.back(), symbol);
+    if (!is_new) {
+      same.emplace(name, it->second);
+    } else if (const auto negated = first.find(-values.back()); negated != first.end()) {
+      same.emplace(name, -negated->second);
+    }
+  }
+  const Expression wanted = substitute(exact, same);
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (values[i] == wanted) return i;
+  }
+  return {};
 }
 
 Expression SymbolicMachine::set_free(Frame& frame, const Expression& value, std::size_t first) {

@@ -119,6 +119,7 @@ class SymbolicMachine {
   void run(Frame& frame, const Body& body);
   Expression define(const std::string& name, const Expression& value);
   Expression without_rounding(const std::string& name, const Expression& error);
+  [[nodiscard]] std::optional<std::size_t> computed_as(const Expression& exact) const;
   Expression free_symbol(const std::string& name);
   // What follows knows a value that was defined since `first` as a free symbol.
   Expression set_free(Frame& frame, const Expression& value, std::size_t first);

@@ -66,7 +66,8 @@ TEST(Report, IsOnePageWithItsPicturesAndScripts) {
   for (const char* part : {"http://", "https://", "<script", "<link", "@import"})
     EXPECT_FALSE(contains(page, part)) << part;
   // It is for others too: no folder of this machine.
-  for (const char* part : {"/tmp/", HAMGEN_SOURCE_DIR, scratch.path("").c_str()})
+  for (const std::string& part :
+       std::vector<std::string>{"/tmp/", HAMGEN_SOURCE_DIR, scratch.path("")})
     EXPECT_FALSE(contains(page, part)) << part;
   // Every picture has a form for dark paper, and every script draws into the folder it is in.
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {

@@ -68,6 +68,25 @@ TEST(Until, KnowsDirectionsParametersAndTheFirstOfSeveral) {
   EXPECT_NEAR(first.report["ended"]["t"], std::numbers::pi / 6, 1e-13);
 }
 
+// A direction that is asked for counts, whatever that of the event; else its own does.
+TEST(Until, TakesTheDirectionThatIsAskedForOfAnEvent) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("circle.ham", std::string(kCircle) + "event both = q\nevent up = q rising\n");
+  const auto time_of = [&](const char* condition) {
+    const Result result = hamgen({"run", model, "--json", "--quiet", "--interpret", "--scheme",
+                                  "gauss-8", "--until", condition});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return json::parse(result.out)["ended"]["t"].get<double>();
+  };
+  constexpr double falling = 0.5 * std::numbers::pi;
+  constexpr double rising = 1.5 * std::numbers::pi;
+  EXPECT_NEAR(time_of("both"), falling, 1e-12);
+  EXPECT_NEAR(time_of("both rising"), rising, 1e-12);
+  EXPECT_NEAR(time_of("up"), rising, 1e-12);
+  EXPECT_NEAR(time_of("up falling"), falling, 1e-12);
+}
+
 TEST(Until, EndsAfterTheFirstStepWhereAConditionHolds) {
   const Ended below = run_until({"--until", "q^2 < p^2"});  // from t = pi/4 on
   ASSERT_EQ(below.status, 0) << below.err;

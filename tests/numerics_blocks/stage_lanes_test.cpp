@@ -10,6 +10,7 @@ namespace stage_packs {
 #include "generator/interpreter/lanes.inc"
 #include "generator/numerics/lane_distance.hpp"
 #include "generator/numerics/lane_refinement.hpp"
+#include "generator/numerics/lane_stages.hpp"
 }  // namespace stage_packs
 
 namespace {
@@ -109,6 +110,54 @@ TEST(StageLanes, GoInAndOutOfArraysInTheirOrder) {
   Lanes<16>::put(to, Lanes<16>::at(from));
   Lanes<8>::add(to + 8, Lanes<8>::at(from));
   for (int j = 0; j < 16; ++j) EXPECT_EQ(to[j], j < 8 ? j : 2 * j - 8);
+}
+
+// Of this many packs, whatever the registers: what the sum loses is in the other number.
+template <int W, int Count>
+void expect_the_sum_of_stages() {
+  Numbers numbers;
+  double lost_before = 0;
+  for (int k = 0; k < 20; ++k) {
+    stage_packs::RefinementInLanes<Lanes<W>, of_double::Refinement<2 * Count, 2 * Count>> refined;
+    __float128 exact = 0.25;
+    for (int j = 0; j < 2 * Count; ++j) {
+      refined.slope[j] = numbers.next() * (j % 3 == 0 ? 0x1p-20 : 1);
+      refined.change[j] = numbers.next() * 0x1p-54;
+      if (j >= Count) exact += __float128(refined.slope[j]) + refined.change[j];
+    }
+    double value = numbers.next();  // is set
+    double lost = 0.25;             // is added to
+    stage_packs::collect_stages(value, lost, refined, Count, Count);
+    EXPECT_LE(std::abs(double(exact - value - lost)), 0x1p-53);
+    const double rounded = double(exact - 0.25);
+    EXPECT_NEAR(value, rounded, 4 * Count * 0x1p-53);
+    lost_before += std::abs(lost - 0.25);
+
+    // Pack after pack, then half after half, one number after the other.
+    double* const sum = refined.slope + Count;
+    double* const rest = refined.change + Count;
+    const auto add = [&](int to, int from) {
+      double error = 0;
+      of_double::two_sum(sum[to], error, sum[from]);
+      rest[to] = (rest[to] + rest[from]) + error;
+    };
+    for (int j = W; j < Count; ++j) add(j % W, j);
+    for (int half = W / 2; half > 0; half /= 2) {
+      for (int j = 0; j < half; ++j) add(j, j + half);
+    }
+    EXPECT_EQ(value, sum[0]);
+    EXPECT_EQ(lost, 0.25 + rest[0]);
+  }
+  EXPECT_GT(lost_before, 0x1p-53);
+}
+
+TEST(StageLanes, AreCollectedWithoutALoss) {
+  expect_the_sum_of_stages<2, 2>();
+  expect_the_sum_of_stages<4, 4>();
+  expect_the_sum_of_stages<8, 8>();
+  expect_the_sum_of_stages<2, 6>();
+  expect_the_sum_of_stages<4, 12>();
+  expect_the_sum_of_stages<8, 16>();
 }
 
 }  // namespace

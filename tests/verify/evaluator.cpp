@@ -133,6 +133,15 @@ class Evaluator {
     number(f, a.symbol) += x;
   }
   void run(Frame& f, const Collect& c) { run(f, Accumulate{c.symbol, c.value}); }
+  void run(Frame& f, const CollectStages& c) {
+    number(f, c.symbol) = sum_from(f, c.slopes(), c.count);
+    number(f, c.lost) += sum_from(f, c.changes(), c.count);
+  }
+  double sum_from(Frame& f, Place place, int count) {
+    double sum = 0;
+    for (int i = 0; i < count; ++i, ++place.indices.back().constant) sum += cell(name(f, place));
+    return sum;
+  }
   void run(Frame& f, const Array& array) {
     const std::string root = std::to_string(++objects_) + array.name;
     f.objects[array.name] = {.root = root, .sizes = array.sizes};

@@ -218,9 +218,9 @@ void for_each_body(Program& code, const std::function<void(const Routine&, Body&
 bool computes(const Instruction& instruction) {
   const auto& node = instruction.value;
   return std::holds_alternative<Assign>(node) || std::holds_alternative<Accumulate>(node) ||
-         std::holds_alternative<Collect>(node) || std::holds_alternative<Put>(node) ||
-         std::holds_alternative<For>(node) || std::holds_alternative<Call>(node) ||
-         std::holds_alternative<Clear>(node);
+         std::holds_alternative<Collect>(node) || std::holds_alternative<CollectStages>(node) ||
+         std::holds_alternative<Put>(node) || std::holds_alternative<For>(node) ||
+         std::holds_alternative<Call>(node) || std::holds_alternative<Clear>(node);
 }
 
 }  // namespace

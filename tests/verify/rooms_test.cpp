@@ -41,7 +41,9 @@ class Lines {
   struct At {
     std::string array;
     std::vector<std::string> indices;
-    std::vector<long> factors;  // and the constant
+    std::vector<long> factors;      // and the constant
+    long further = 0;               // so many times the size
+    std::vector<long> column = {};  // of a matrix: the factors and the constant there
   };
   Lines& set(const At& a, const At& b) {
     add(Event::get, b);
@@ -58,12 +60,16 @@ class Lines {
     events_.push_back({.text = "for", .names = {vector}});
     return *this;
   }
+  [[nodiscard]] long size() const { return size_; }
   [[nodiscard]] SizedOutline take() const { return {size_, events_}; }
 
  private:
   void add(Event kind, const At& at) {
     events_.push_back({.kind = kind, .text = at.array});
     events_.push_back({.kind = Event::element, .names = at.indices, .numbers = at.factors});
+    events_.back().numbers.back() += at.further * size_;
+    if (!at.column.empty())
+      events_.push_back({.kind = Event::element, .names = at.indices, .numbers = at.column});
   }
   long size_;
   std::vector<CodeEvent> events_;
@@ -159,6 +165,44 @@ TEST(Rooms, OfAMatrixAreThoseOfItsVector) {
   EXPECT_EQ(of(1, 1), kNoNeighbours);
 }
 
+// Rows and columns of a matrix are of the same elements.
+TEST(Rooms, OfRowsAreThoseOfColumns) {
+  const auto of = [&](long column) {
+    return why_not([&](Lines& lines) {
+      lines.routine("solve").solve("matrix.", "lack.").loop("j");
+      lines.set({"matrix.", {"j"}, {2, 0}, 0, {column, 1}}, {"z.", {"j"}, {1, 0}}).end();
+    });
+  };
+  EXPECT_EQ(of(2), "");
+  EXPECT_EQ(of(1), kNoNeighbours);
+}
+
+// Of vectors that one matrix is solved for, too, whose entries no line of its own names.
+TEST(Rooms, OfVectorsOfOneMatrixAreTheSame) {
+  const auto of = [&](long change) {
+    return why_not([&](Lines& lines) {
+      lines.routine("solve").solve("matrix.", "lack.").solve("matrix.", "change.");
+      lines.loop("j").set({"lack.", {"j"}, {2, 0}}, {"z.", {"j"}, {1, 0}}).end();
+      lines.loop("j").set({"change.", {"j"}, {change, 0}}, {"z.", {"j"}, {1, 0}}).end();
+    });
+  };
+  EXPECT_EQ(of(2), "");
+  EXPECT_EQ(of(1), kNoNeighbours);
+}
+
+// From the last element to the first, or as far apart as the system is long.
+TEST(Rooms, AreNoneWhereElementsGoBackOrApart) {
+  const auto of = [&](const auto& factor) {
+    return why_not([&](Lines& lines) {
+      lines.routine("solve").loop("j");
+      lines.set({"a.", {"j"}, {factor(lines.size()), 0}}, {"b.", {"j"}, {1, 0}}).end();
+    });
+  };
+  EXPECT_EQ(of([](long) { return 1L; }), "");
+  EXPECT_EQ(of([](long) { return -1L; }), kNoNeighbours);
+  EXPECT_EQ(of([](long size) { return size; }), kNoNeighbours);
+}
+
 TEST(Rooms, HoldThePlacesOfOneElement) {
   const auto of = [&](long first, long stages, long beyond) {
     return why_not([&](Lines& lines) {
@@ -177,16 +221,31 @@ TEST(Rooms, HoldThePlacesOfOneElement) {
 
 // Each round of a loop outside takes a value a place on, those at once take it once.
 TEST(Rooms, StagesAtOnceGoOneWay) {
-  const auto of = [&](int lanes) {
+  const auto of = [&](long stages, int lanes) {
     return why_not([&](Lines& lines) {
-      lines.routine("solve").stages("i", 8, lanes).loop("j");
-      lines.set({"a.", {"i", "j"}, {1, 8, 0}}, {"b.", {"i", "j"}, {1, 8, 16}}).end().end();
-      lines.stages("i", 8, lanes).loop("j");
-      lines.set({"b.", {"i", "j"}, {1, 8, 0}}, {"a.", {"i", "j"}, {1, 8, 0}}).end().end();
+      lines.routine("solve").stages("i", stages, lanes).loop("j");
+      lines.set({"a.", {"i", "j"}, {1, stages, 0}}, {"b.", {"i", "j"}, {1, stages, 2 * stages}});
+      lines.end().end().stages("i", stages, lanes).loop("j");
+      lines.set({"b.", {"i", "j"}, {1, stages, 0}}, {"a.", {"i", "j"}, {1, stages, 0}});
+      lines.end().end();
     });
   };
-  EXPECT_EQ(of(8), "");
-  EXPECT_EQ(of(0), "its loops reach 17 elements far");
+  EXPECT_EQ(of(8, 8), "");
+  EXPECT_EQ(of(8, 0), "its loops reach 17 elements far");
+  EXPECT_EQ(of(16, 2), "its loops reach 17 elements far");
+}
+
+// What is written and what is read in one loop are apart if they are as far as the loop goes, in
+// places of the array.
+TEST(Rooms, BlocksAreAsLongAsTheirPlaces) {
+  const auto of = [&](long places) {
+    return why_not([&](Lines& lines) {
+      lines.routine("solve").loop("j");
+      lines.set({"a.", {"j"}, {2, 0}}, {"a.", {"j"}, {2, 0}, places}).end();
+    });
+  };
+  EXPECT_EQ(of(2), "");
+  EXPECT_EQ(of(1), "an instance of a loop reads what another one writes");
 }
 
 }  // namespace
