@@ -55,6 +55,7 @@ int bench(const BenchCommand& options) {
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   const OutputKind kind = output_kind(options.output);
   require_one_document(options.json, kind);
+  require_writable({options.output, options.csv, options.plot});
   const Bench result = run_bench(read_bench(options.bench));
   if (result.is_stopped && result.rows.empty()) {
     print_error("hamgen: stopped; nothing was measured yet\n");

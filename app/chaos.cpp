@@ -174,6 +174,7 @@ int run_chaos(const ChaosOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   require_one_document(options.json, table_kind(options.output));
+  require_writable({options.output, options.plot});
   Setting setting = read_setting(options.method, options.scene);
   const std::set<std::string> names = varied_names(setting.model);
   std::vector<ChaosAxis> axes;
@@ -182,6 +183,8 @@ int run_chaos(const ChaosOptions& options) {
       axes.push_back(read_axis(std::string(piece), names));
   }
   if (axes.size() > 2) throw UsageError("--over: two axes at most");
+  if (axes.size() == 2 && axes[0].name == axes[1].name)
+    throw UsageError(fmt::format("--over: both axes are {}", axes[0].name));
   constexpr std::size_t most = 1'000'000;
   if (axes.size() == 2 && axes[0].values.size() * axes[1].values.size() > most)
     throw UsageError(

@@ -124,10 +124,11 @@ _hamgen() {{
   if [ -n "$words" ]; then
     COMPREPLY=($(compgen -W "$words" -- "$current"))
   else
+    compopt -o filenames 2>/dev/null  # a folder makes a path of no other word
     COMPREPLY=($(compgen -f -X "!$model" -- "$current") $(compgen -d -S / -- "$current"))
   fi
 }}
-complete -o nospace -o filenames -F _hamgen hamgen
+complete -o nospace -F _hamgen hamgen
 )",
                      commands, values, options_with_paths(app), options, first);
 }

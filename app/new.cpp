@@ -44,9 +44,11 @@ scene slow {{             # where a run begins, its step and its length
 }}
 )";
 
-// The name of a system: letters, digits, underscores, no digit first.
+// The name of a system: letters, digits, underscores, a letter first.
 void require_name(const std::string& name) {
-  bool good = !name.empty() && (name[0] < '0' || name[0] > '9');
+  constexpr std::size_t longest = 64;
+  bool good =
+      !name.empty() && name.size() <= longest && name[0] != '_' && (name[0] < '0' || name[0] > '9');
   for (const char c : name) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
     good = good && (letter || (c >= '0' && c <= '9') || c == '_');
@@ -54,7 +56,7 @@ void require_name(const std::string& name) {
   if (!good) {
     throw UsageError(
         fmt::format("new {}: no name of a system\nhelp: letters, digits and underscores, "
-                    "a letter first: hamgen new my_system",
+                    "a letter first, at most 64: hamgen new my_system",
                     visible_text(name)));
   }
 }

@@ -188,6 +188,7 @@ void draw(const RunOptions& options, const NumberTable& rows, const RunReport& r
 
 int run(const RunOptions& options) {
   require_run_files(options);
+  require_writable({options.output, options.plot, options.watch.events});
   Setting setting = read_setting(options.method, options.scene);
   const SourceText& source = setting.source;
   const Model& model = setting.model;

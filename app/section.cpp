@@ -176,6 +176,7 @@ bool has_failed(const SectionOrbit& orbit) {
 int run_section(const SectionOptions& options) {
   if (!options.plot.empty()) require_picture_name("--plot", options.plot);
   require_one_document(options.json, table_kind(options.output));
+  require_writable({options.output, options.plot});
   const runtime::Direction direction = read_direction(options.direction);
   SceneOptions scene_options = options.scene;
   if (!scene_options.steps && !scene_options.time) scene_options.steps = "1e6";

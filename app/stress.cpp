@@ -90,6 +90,7 @@ int run_stress(const StressOptions& options) {
   StressRequest request;
   const OutputKind kind = output_kind(options.output);
   require_one_document(options.json, kind);
+  require_writable({options.output, options.csv, options.plot});
   request.on_progress = progress_bars(options.quiet);
   request.with_bound = !options.plot.empty() || kind == OutputKind::directory;
   request.axes = read_axes(options.vary);

@@ -160,6 +160,7 @@ int run_tune(const TuneOptions& options) {
   const TuneRequest request = tune_request(options);
   if (!options.map.empty() && request.shape.form != GaugeForm::scalar && request.shape.n > 1)
     throw UsageError("--map draws one beta and one gamma: --gauge-form scalar");
+  require_writable({options.map});
   Tuner tuner(request);
   const TuneReport report = tuner.run();
   if (!report.orbit_failure.empty())

@@ -188,6 +188,8 @@ bool is_refuted(const Finding& finding) { return finding.verdict == Verdict::ref
 
 int verify(const VerifyOptions& options) {
   const Requirements required = Requirements::read(options.required);
+  if (options.latex && options.terms.empty())
+    throw UsageError("--latex prints the terms of the modified Hamiltonian: add --terms K");
   if (!options.certificate.empty() && options.emitted.empty())
     throw UsageError(
         "--certificate: it has the digest of a header\nhelp: write one with `hamgen generate -o "

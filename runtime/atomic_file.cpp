@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstddef>
 #include <cstdio>
-#include <span>
+#include <optional>
+#include <string_view>
 
 #include "runtime/crc64.hpp"
 #include "runtime/kill_point.hpp"
@@ -55,9 +57,29 @@ bool begins_with(const fs::path& path, const AtomicFile::Part& part) {
   return file.is_open() && checksum == part.checksum;
 }
 
+// Of what is open already, as "/dev/stdout": whatever it is, a file too, is written on from there.
+std::optional<int> own_descriptor(const fs::path& target) {
+  const std::string text = target.string();
+  if (text == "/dev/stdout") return STDOUT_FILENO;
+  if (text == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!text.starts_with(folder)) continue;
+    int number = -1;
+    const char* const end = text.data() + text.size();
+    const auto [rest, failed] = std::from_chars(text.data() + folder.size(), end, number);
+    if (failed == std::errc() && rest == end && number >= 0) return number;
+  }
+  return {};
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
+  if (const std::optional<int> own = own_descriptor(target)) {
+    file_ = FileDescriptor(::fcntl(*own, F_DUPFD_CLOEXEC, 0));
+    if (!file_.is_open()) throw file_error("write", target_, errno);
+    return;
+  }
   std::error_code failed;
   final_ = fs::weakly_canonical(target, failed);
   if (failed || final_.empty()) final_ = target;
@@ -96,6 +118,16 @@ AtomicFile::AtomicFile(const fs::path& target, const Part& from)
 }
 
 AtomicFile::~AtomicFile() { discard(); }
+
+void require_writable(const fs::path& target) {
+  struct stat info {};
+  const bool exists = ::stat(target.c_str(), &info) == 0;
+  const bool is_device = exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+  std::error_code failed;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (is_device || own_descriptor(target) || !fs::exists(folder, failed)) return;
+  const AtomicFile probe(target);  // which leaves nothing behind
+}
 
 void AtomicFile::discard() {
   file_.close();

@@ -53,6 +53,10 @@ class AtomicFile {
   Part written_;  // if it is kept
 };
 
+// Throws ToolError where the file could not be written, before something takes long for it.  A
+// folder that is missing will be made.
+void require_writable(const std::filesystem::path& target);
+
 // Makes a file hold exactly the text; creates missing directories.  An equal file is not touched,
 // so that nothing that depends on it is rebuilt.  Returns whether the file changed.  Throws
 // ToolError.

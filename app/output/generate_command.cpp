@@ -13,7 +13,9 @@ namespace {
 
 class Words {
  public:
-  Words(const std::string& command, const std::string& model) : words_{"hamgen", command, model} {}
+  // A model that came from standard input comes from there again.
+  Words(const std::string& command, const std::string& model)
+      : words_{"hamgen", command, model == "stdin" ? "-" : model} {}
 
   // A value that begins with '-' would read as an option after a blank.
   void add(const std::string& option, const std::string& value) {

@@ -7,6 +7,7 @@
 
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "runtime/atomic_file.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -69,6 +70,14 @@ void require_directory(const std::string& option, const std::string& name) {
 
 void make_directories_above(std::initializer_list<std::string> names, bool quiet) {
   for (const std::string& name : names) make_directory_above(name, quiet);
+}
+
+void require_writable(std::initializer_list<std::string> names) {
+  for (const std::string& name : names) {
+    const std::filesystem::path path = name;
+    if (path.has_extension() && !std::filesystem::is_directory(path))
+      runtime::require_writable(path);
+  }
 }
 
 void require_one_document(bool json, OutputKind kind) {

@@ -19,6 +19,9 @@ void require_directory(const std::string& option, const std::string& name);
 // Makes the directories above files or directories of these names, and says so unless quiet: it may
 // be a slip of the pen.
 void make_directories_above(std::initializer_list<std::string> names, bool quiet);
+// Throws ToolError where a file of one of these names could not be written: before something takes
+// long for it.  Directories and standard output are left out.
+void require_writable(std::initializer_list<std::string> names);
 // Throws UsageError if both are documents on standard output.
 void require_one_document(bool json, OutputKind kind);
 

@@ -86,7 +86,9 @@ class Parser {
     std::string help =
         "a statement begins with " + fmt::format("{}", fmt::join(statement_words(), ", "));
     if (is_symbol(in_.peek(), "=")) {
-      help = fmt::format("write 'let {0} = ...' or 'parameter {0} = ...'", word.text);
+      help = word.text == "h"
+                 ? "the energy is H = ...; h is the step, which a scene gives"
+                 : fmt::format("write 'let {0} = ...' or 'parameter {0} = ...'", word.text);
     } else if (!near.empty()) {
       help = fmt::format("did you mean '{}'?", near);
     }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "generator/language/check_names.hpp"
@@ -151,7 +153,8 @@ class SceneReader {
       throw OptionError(error);
     }
     const Symbol* symbol = symbols_.find(setting.name);
-    if (symbol == nullptr && (setting.name == "h" || setting.name == "steps")) {
+    constexpr std::array<std::string_view, 4> of_runs = {"h", "steps", "every", "observe"};
+    if (symbol == nullptr && std::ranges::find(of_runs, setting.name) != of_runs.end()) {
       throw UsageError(
           fmt::format("{0} {1}={2}: {1} is no variable\nhelp: `hamgen run` takes --{1} {2}", option,
                       name, value));

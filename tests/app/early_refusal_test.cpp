@@ -1,0 +1,96 @@
+// What can be known before anything takes long is said then; and what is open already is written
+// on.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/app/hamgen_command.hpp"
+
+namespace hamgen::app_test {
+namespace {
+
+const std::string kModel =
+    "coordinate q1, q2\nmomentum p1, p2\nH = (p1^2 + p2^2)/2 + (q1^2 + q2^2)/2 + q1^2*q2 - "
+    "q2^3/3\nscene s { q1 = 0.1; p2 = 0.2; h = 0.1; steps = 20 }\n";
+
+// Nothing has been compiled, let alone run, when a file turns out to be no place to write to.
+TEST(EarlyRefusal, OfAFileThatCannotBeWritten) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const std::string no_table = "/dev/null/x.csv";
+  const std::string no_picture = "/dev/null/x.png";
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"run", model, "-o", no_table},
+           {"run", model, "--plot", no_picture},
+           {"stress", model, "--vary", "h=0.1:0.2:2", "-o", no_table},
+           {"stress", model, "--vary", "h=0.1:0.2:2", "--plot", no_picture},
+           {"chaos", model, "-o", no_table},
+           {"chaos", model, "--plot", no_picture},
+           {"bench", model, "--csv", no_table},
+           {"section", model, "--surface", "q1 = 0", "--axes", "q2,p2", "-o", no_table}}) {
+    const std::string cache = scratch.path("cache");
+    const Result result = hamgen(words, {"HAMGEN_CACHE=" + cache});
+    EXPECT_EQ(result.status, 4) << words[0] << words.back();
+    EXPECT_NE(result.err.find("cannot write '/dev/null/x."), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(cache)) << words[0] << " " << words.back();
+  }
+}
+
+// A check leaves nothing behind, not even an empty file.
+TEST(EarlyRefusal, LeavesNoFileOfOneThatCouldBeWritten) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const Result result = hamgen({"chaos", model, "--over", "q2=0:1:2,q2=0:1:2", "-o",
+                                scratch.path("x.csv"), "--plot", scratch.path("x.png")});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("both axes are q2"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("x.csv")));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path("x.png")));
+}
+
+TEST(StandardOutput, IsWrittenOnWhereItIsAFileThatIsThere) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const std::string log = scratch.path("log");
+  const Result result =
+      shell("echo before > '" + log + "'; { hamgen run '" + model +
+            "' --quiet --interpret -o /dev/stdout; echo after; } >> '" + log + "'");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string text = read(log);
+  EXPECT_TRUE(text.starts_with("before\n# made by"));
+  EXPECT_TRUE(text.ends_with("\nafter\n"));
+}
+
+TEST(Messages, ProposeWhatHelps) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  for (const char* name : {"h", "steps", "every", "observe"}) {
+    const Result result = hamgen({"run", model, "--set", std::string(name) + "=10"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find(std::string("--") + name + " 10"), std::string::npos) << result.err;
+  }
+  const Result energy =
+      hamgen({"check", scratch.write("e.ham", "coordinate q\nmomentum p\nh = p^2/2 + q^2/2\n")});
+  EXPECT_EQ(energy.status, 3);
+  EXPECT_NE(energy.err.find("the energy is H ="), std::string::npos) << energy.err;
+  // No name that a system cannot have.
+  for (const std::string& name : {std::string("_x"), std::string(65, 'x')})
+    EXPECT_EQ(hamgen({"new", name}, {}, scratch.path("")).status, 2) << name;
+  EXPECT_EQ(hamgen({"new", std::string(64, 'x')}, {}, scratch.path("")).status, 0);
+}
+
+// Commands that are printed for a model from standard input read it from there.
+TEST(Messages, NameStandardInputAsTheCommandDoes) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const Result result = shell(
+      "hamgen bench - --schemes rk4,implicit-midpoint --rounds 1 --h 0.1 "
+      "--time 2 --quiet < '" +
+      model + "'");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("hamgen run - --"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("run stdin"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hamgen::app_test
