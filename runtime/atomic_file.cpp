@@ -119,14 +119,21 @@ AtomicFile::AtomicFile(const fs::path& target, const Part& from)
 
 AtomicFile::~AtomicFile() { discard(); }
 
+// Asks and writes nothing: a file that is made and removed again others would see.
 void require_writable(const fs::path& target) {
-  struct stat info {};
-  const bool exists = ::stat(target.c_str(), &info) == 0;
-  const bool is_device = exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
   std::error_code failed;
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (is_device || own_descriptor(target) || !fs::exists(folder, failed)) return;
-  const AtomicFile probe(target);  // which leaves nothing behind
+  fs::path path = fs::weakly_canonical(target, failed);
+  if (failed || path.empty()) path = fs::absolute(target);
+  struct stat info {};
+  const bool exists = ::stat(path.c_str(), &info) == 0;
+  if (own_descriptor(target) || (exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
+    return;
+  if (exists && S_ISDIR(info.st_mode)) throw file_error("write", target, EISDIR);
+  if (exists && ::access(path.c_str(), W_OK) != 0) throw file_error("write", target, errno);
+  fs::path folder = path.parent_path();
+  while (!fs::exists(folder, failed) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, failed)) throw file_error("write", target, ENOTDIR);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw file_error("write", target, errno);
 }
 
 void AtomicFile::discard() {

@@ -182,6 +182,9 @@ void StepBuilder::renew(Expression& value, const std::string& name, const Expres
   if (renewed == value) return;
   const Expression symbol = Expression::symbol(name + "*", kRankOfTemporary);
   define(symbol, renewed, section);
+  // What a gradient has lost is missing from it still.
+  if (const auto lost = lost_of_gradient_.find(value.name()); lost != lost_of_gradient_.end())
+    lost_of_gradient_.emplace(symbol.name(), lost->second);
   value = symbol;
 }
 

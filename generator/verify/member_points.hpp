@@ -301,6 +301,17 @@ class MemberPoints {
     return sum;
   }
 
+  // What dH/dz_k changes by from the rounded end of a fixed point to the solution, as its
+  // refinement says; claim_increment has where that looks.
+  [[nodiscard]] Expression left_by_fixed_point(int k) const {
+    for (const IterationTrace& trace : machine_.iterations) {
+      const auto it =
+          std::ranges::find(trace.changes, "change(H(" + name(k) + "))", &Expression::name);
+      if (it != trace.changes.end()) return *it;
+    }
+    return Expression(0);
+  }
+
   [[nodiscard]] Expression carry(int i) const {
     return derivatives_.first(i < n_ ? i + n_ : i - n_).is_zero() ? Expression(0) : step_.carry(i);
   }
@@ -314,7 +325,7 @@ class MemberPoints {
     const Expression plain = gradient(k);
     const int where = iteration_of(k);
     if (where < 0 || where == b) return plain;
-    const Expression more = change(k);
+    const Expression more = change(k) + left_by_fixed_point(k);
     if (more.is_zero()) return plain;
     if (!corrected_.contains(k)) corrected_[k] = define("H(" + name(k) + ")*", plain + more);
     return corrected_.at(k);

@@ -104,6 +104,22 @@ TEST(Forms, OfALinearBlockBehindAFixedPointAreRight) {
   }
 }
 
+// A momentum that follows from a fixed point by itself has what that lacks, too.
+TEST(Forms, OfAMomentumBehindAFixedPointAreRight) {
+  expect_right(kOne, {"p^2/2 + x^3/3", "a*p^2/2 + b*x^4/4", "p^2/2 + b*cos(x)"},
+               {{.alpha = "0", .gamma = "-h/5", .solver = "fixed-point"},
+                {.alpha = "1", .beta = "h/5", .solver = "fixed-point"}});
+}
+
+// The gradient that a Newton step has renewed has lost what the one before it had.
+TEST(Forms, OfRenewedGradientsAreRight) {
+  expect_right(kOne, {"3*p^2/2 + a*x^2/2", "(a+b)*p^2/2 + x^2/2", "exp(a)*p^2/4 + x^4/4"},
+               {{.alpha = "1", .beta = "h/10"},
+                {.alpha = "0", .beta = "h/10", .gamma = "h/6"},
+                {.alpha = "1", .beta = "h/7", .gamma = "-h/5"}},
+               Verdict::tested);
+}
+
 // With K of order 3 in place of H the Hessian is that of a shorter K, and does not say that the
 // equations are linear.
 TEST(Forms, OfALongKAreNotLinear) {
