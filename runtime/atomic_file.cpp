@@ -122,7 +122,7 @@ AtomicFile::~AtomicFile() { discard(); }
 // Asks and writes nothing: a file that is made and removed again others would see.
 void require_writable(const fs::path& target) {
   std::error_code failed;
-  fs::path path = fs::weakly_canonical(target, failed);
+  fs::path path = fs::weakly_canonical(fs::absolute(target), failed);
   if (failed || path.empty()) path = fs::absolute(target);
   struct stat info {};
   const bool exists = ::stat(path.c_str(), &info) == 0;
