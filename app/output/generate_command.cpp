@@ -5,6 +5,7 @@
 #include <charconv>
 #include <vector>
 
+#include "generator/base/source_text.hpp"
 #include "runtime/tool_error.hpp"
 
 namespace hamgen::app {
@@ -15,7 +16,7 @@ class Words {
  public:
   // A model that came from standard input comes from there again.
   Words(const std::string& command, const std::string& model)
-      : words_{"hamgen", command, model == "stdin" ? "-" : model} {}
+      : words_{"hamgen", command, model == kStandardInput ? "-" : model} {}
 
   // A value that begins with '-' would read as an option after a blank.
   void add(const std::string& option, const std::string& value) {

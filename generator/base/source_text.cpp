@@ -57,7 +57,8 @@ SourceText read_source(const std::string& name) {
           fmt::format("cannot read '{}': it is larger than 16 MB", visible_text(path)));
     }
   }
-  return make_source(name == "-" ? "stdin" : path, std::move(text));
+  if (name == "-") return make_source(kStandardInput, std::move(text));
+  return make_source(name == kStandardInput ? "./" + name : path, std::move(text));
 }
 
 Position position(const SourceText& source, std::size_t offset) {

@@ -28,6 +28,8 @@ struct SourceText {
 };
 
 [[nodiscard]] SourceText make_source(std::string path, std::string text);
+// The path of what came from standard input; a file of this name is "./stdin".
+inline constexpr const char* kStandardInput = "stdin";
 // Reads a file, or standard input for "-"; throws UsageError if it cannot be read, is a directory
 // or is larger than 16 MB.
 [[nodiscard]] SourceText read_source(const std::string& path);

@@ -79,8 +79,8 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
   Step operator()(const CollectStages& sum) {
     const Address target = address(sum.symbol);
     const Address lost = address(sum.lost);
-    return [this, target, lost, slopes = address(sum.slopes()), changes = address(sum.changes()),
-            sum] {
+    return [this, target, lost, slopes = address(sum.in("slope")),
+            changes = address(sum.in("change")), sum] {
       NumericsOf<Real>::collect_stages(m_.frame.at(target), m_.frame.at(lost), sum.lanes,
                                        &m_.frame.at(slopes), &m_.frame.at(changes), sum.count);
       return true;

@@ -18,36 +18,9 @@
 
 #include "generator/algebra/expression.hpp"
 #include "generator/mechanics/kernel.hpp"
+#include "generator/program/place.hpp"
 
 namespace hamgen {
-
-// A member of a record: a number, an array of numbers, a flag, or a block of numerics/.
-struct Field {
-  std::string name;
-  std::vector<int> sizes = {};  // of an array
-  std::string remark = {};
-  std::vector<Rational> values = {};  // to begin with; empty: zeros
-  std::string type = "Real";          // or "bool", "Matrix", "NewtonRule<2>"
-  bool operator==(const Field&) const = default;
-};
-
-struct Record {
-  std::string name;  // "State"
-  std::vector<Field> fields;
-  std::vector<std::string> remark = {};
-  bool extends = false;  // has it what the system's record of this name has, too?
-  bool operator==(const Record&) const = default;
-};
-
-// An object of a routine, a field of it, or an element: z.q[i - 1], matrix[0][1].  Without object
-// the index itself is the number.  What a run keeps from step to step are numbers of the object
-// "self", and records "self.start", "self.start[i]" of substep i; "new State" is one as it begins.
-struct Place {
-  std::string object;
-  std::string field = {};
-  std::vector<AffineIndex> indices = {};
-  bool operator==(const Place&) const = default;
-};
 
 struct Instruction;
 using Body = std::vector<Instruction>;
@@ -93,15 +66,11 @@ struct CollectStages {
   std::string symbol, lost;
   Place refinement;
   AffineIndex first;
-  int count = 0;
-  int lanes = 0;
+  int count = 0, lanes = 0;
 
-  [[nodiscard]] Place slopes() const { return array("slope"); }
-  [[nodiscard]] Place changes() const { return array("change"); }
-
- private:
-  [[nodiscard]] Place array(const char* name) const {
-    return {refinement.object, refinement.field + "." + name, {first}};
+  // Where they begin in its array of this name, "slope" or "change".
+  [[nodiscard]] Place in(const std::string& array) const {
+    return {refinement.object, refinement.field + "." + array, {first}};
   }
 };
 // symbol += value
@@ -399,9 +368,6 @@ void collect_symbols(const Body& body, std::set<std::string>& names);
 // Does the routine read or change the object: at a place, or in what it calls?
 [[nodiscard]] bool uses_object(const Routine& routine, const std::string& object);
 
-// "z.q[i - 1]"
-[[nodiscard]] std::string to_text(const Place& place);
-[[nodiscard]] std::string to_text(const Record& record);
 [[nodiscard]] std::string to_text(const Routine& routine);
 // The same with the origin of each line before it.
 [[nodiscard]] std::string text_with_origins(const Routine& routine);

@@ -73,7 +73,7 @@ class Printer {
   }
   void operator()(const CollectStages& sum) {
     line(fmt::format("{}, {} <- sum of {} from {} and {} on, {} at once", sum.symbol, sum.lost,
-                     sum.count, to_text(sum.slopes()), to_text(sum.changes()), sum.lanes));
+                     sum.count, to_text(sum.in("slope")), to_text(sum.in("change")), sum.lanes));
   }
   void operator()(const Accumulate& sum) {
     line(fmt::format("{} += {}", sum.symbol, to_text(sum.value)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen {
 
@@ -77,8 +78,8 @@ class PlainSums {
     if (const auto* sum = std::get_if<Collect>(&instruction.value))
       instruction.value = Accumulate{sum->symbol, sum->value};
     if (const auto* sum = std::get_if<CollectStages>(&instruction.value)) {
-      const Expression values = sum_from(sum->slopes(), sum->count);
-      instruction.value = Assign{sum->symbol, values + sum_from(sum->changes(), sum->count)};
+      const Expression values = sum_from(sum->in("slope"), sum->count);
+      instruction.value = Assign{sum->symbol, values + sum_from(sum->in("change"), sum->count)};
     }
     return false;
   }

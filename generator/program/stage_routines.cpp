@@ -332,17 +332,12 @@ class StageRoutines : StageParts {
       };
       const std::string dz = component("dz").name();
       const std::string rest = component("rest").name();
+      end.finite.insert(end.finite.end(), {dz, rest});
       // Without room for stages that are none.
       if (layout_.packs() > 0 && layout_.room() == stages_) {
         each.push_back({Assign{rest, component("carry")}});
-        each.push_back({CollectStages{.symbol = dz,
-                                      .lost = rest,
-                                      .refinement = {"start", "refinement"},
-                                      .first = index(0),
-                                      .count = layout_.room(),
-                                      .lanes = layout_.packs()}});
-        end.finite.push_back(dz);
-        end.finite.push_back(rest);
+        each.push_back({CollectStages{
+            dz, rest, {"start", "refinement"}, index(0), layout_.room(), layout_.packs()}});
         continue;
       }
       Expression changes = component("carry");
@@ -352,8 +347,6 @@ class StageRoutines : StageParts {
       // Slopes are products with constants: what is rounded off their sum is a bias.
       for (int m = 1; m < stages_; ++m)
         each.push_back({Collect{dz, rest, of_start(b, "refinement.slope", index(m))}});
-      end.finite.push_back(dz);
-      end.finite.push_back(rest);
     }
     if (is_array()) {
       end.ranges = {counting("j", n_)};

@@ -76,8 +76,8 @@ class Outline {
   }
   void operator()(const CollectStages& sum) {
     word("stages", {sum.count, sum.lanes});
-    use(Event::get, sum.slopes());
-    use(Event::get, sum.changes());
+    use(Event::get, sum.in("slope"));
+    use(Event::get, sum.in("change"));
     use(Event::set, sum.symbol);
     use(Event::add, sum.lost);
   }

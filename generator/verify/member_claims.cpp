@@ -315,7 +315,7 @@ class MemberClaims : private MemberPoints {
         expected += h * at_end(derivatives_.first(k));
       } else {
         expected += h * gradient(k);
-        if (!sweeps_) expected += h * (change(k) + refined(k));
+        if (!sweeps_) expected += h * (change(k) + refined_change(k));
       }
     }
     claim("the increment of " + name(i), step_.increment(machine_, i), expected);
@@ -358,16 +358,11 @@ class MemberClaims : private MemberPoints {
 
   // What the rounded solution of a fixed point lacks of the exact one is free, of the component
   // that its refinement looks at.
-  Expression refined(int k) {
-    for (const IterationTrace& trace : machine_.iterations) {
-      const auto it =
-          std::ranges::find(trace.changes, "change(H(" + name(k) + "))", &Expression::name);
-      if (it == trace.changes.end()) continue;
-      const auto j = static_cast<std::size_t>(it - trace.changes.begin());
-      claim("dH/d" + name(k) + " at the fixed point", trace.gradient[j], gradient(k));
-      return *it;
-    }
-    return Expression(0);
+  Expression refined_change(int k) {
+    const std::optional<Refined> end = refined(k);
+    if (!end) return Expression(0);
+    claim("dH/d" + name(k) + " at the fixed point", end->gradient, gradient(k));
+    return end->change;
   }
 };
 

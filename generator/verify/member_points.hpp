@@ -301,15 +301,19 @@ class MemberPoints {
     return sum;
   }
 
-  // What dH/dz_k changes by from the rounded end of a fixed point to the solution, as its
-  // refinement says; claim_increment has where that looks.
-  [[nodiscard]] Expression left_by_fixed_point(int k) const {
+  // What dH/dz_k changes by from the rounded end of a fixed point to the solution, and the gradient
+  // that its refinement looks at there.
+  struct Refined {
+    Expression change, gradient;
+  };
+  [[nodiscard]] std::optional<Refined> refined(int k) const {
     for (const IterationTrace& trace : machine_.iterations) {
       const auto it =
           std::ranges::find(trace.changes, "change(H(" + name(k) + "))", &Expression::name);
-      if (it != trace.changes.end()) return *it;
+      if (it == trace.changes.end()) continue;
+      return Refined{*it, trace.gradient[static_cast<std::size_t>(it - trace.changes.begin())]};
     }
-    return Expression(0);
+    return {};
   }
 
   [[nodiscard]] Expression carry(int i) const {
@@ -325,7 +329,9 @@ class MemberPoints {
     const Expression plain = gradient(k);
     const int where = iteration_of(k);
     if (where < 0 || where == b) return plain;
-    const Expression more = change(k) + left_by_fixed_point(k);
+    // The claim of the increment has where a refinement looks.
+    const std::optional<Refined> end = refined(k);
+    const Expression more = end ? change(k) + end->change : change(k);
     if (more.is_zero()) return plain;
     if (!corrected_.contains(k)) corrected_[k] = define("H(" + name(k) + ")*", plain + more);
     return corrected_.at(k);

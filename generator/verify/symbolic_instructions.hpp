@@ -32,8 +32,8 @@ struct SymbolicMachine::Run {
   // What rounding moves from one to the other changes nothing in their sum.
   void operator()(const Collect& sum) const { (*this)(Accumulate{sum.symbol, sum.value}); }
   void operator()(const CollectStages& sum) const {
-    m.assign(frame, sum.symbol, sum_from(sum.slopes(), sum.count));
-    const Expression lost = m.number(frame, sum.lost) + sum_from(sum.changes(), sum.count);
+    m.assign(frame, sum.symbol, sum_from(sum.in("slope"), sum.count));
+    const Expression lost = m.number(frame, sum.lost) + sum_from(sum.in("change"), sum.count);
     m.assign(frame, sum.lost, lost, false);
   }
   [[nodiscard]] Expression sum_from(Place place, int count) const {

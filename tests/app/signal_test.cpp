@@ -22,11 +22,14 @@ namespace {
 // A run of hours, from when it has begun to write its trajectory.
 class LongRun {
  public:
-  explicit LongRun(const Scratch& scratch) {
-    const std::string model = scratch.write("pendulum.ham", pendulum);
-    std::vector<std::string> words = {
-        HAMGEN_EXECUTABLE,    "run", model, "--quiet", "--steps", "1e13", "--every", "100000", "-o",
-        scratch.path("x.csv")};
+  explicit LongRun(const Scratch& scratch)
+      : LongRun(scratch, {"run", scratch.write("pendulum.ham", pendulum), "--quiet", "--steps",
+                          "1e13", "--every", "100000", "-o", scratch.path("x.csv")}) {
+    while (scratch.names().size() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  // Any command that takes as long, from its beginning.
+  LongRun(const Scratch& scratch, std::vector<std::string> words) {
+    words.insert(words.begin(), HAMGEN_EXECUTABLE);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -37,7 +40,6 @@ class LongRun {
     EXPECT_EQ(
         posix_spawn(&process_, HAMGEN_EXECUTABLE, &actions, nullptr, arguments.data(), environ), 0);
     posix_spawn_file_actions_destroy(&actions);
-    while (scratch.names().size() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   LongRun(const LongRun&) = delete;
   LongRun& operator=(const LongRun&) = delete;
@@ -77,6 +79,25 @@ TEST(Signals, EndARunInGoodOrderWithAllItsRows) {
     ASSERT_FALSE(rows.empty());
     EXPECT_TRUE(rows.back().starts_with("# status    stopped: stopped after ")) << rows.back();
   }
+}
+
+// The orbit along which the modified Hamiltonian is looked at, too: from when it has been compiled.
+TEST(Signals, EndWhatIsVerifiedAlongAnOrbit) {
+  const Scratch scratch;
+  const std::string cache = scratch.path("cache");
+  ::setenv("HAMGEN_CACHE", cache.c_str(), 1);
+  LongRun run(scratch, {"verify", scratch.write("pendulum.ham", pendulum), "--terms", "2",
+                        "--scene", "swing", "--steps", "1e12"});
+  ::unsetenv("HAMGEN_CACHE");
+  const auto is_compiled = [&] {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache, none))
+      if (entry.path().extension() == ".so") return true;
+    return false;
+  };
+  while (!is_compiled()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  run.send(SIGINT);
+  EXPECT_EQ(run.status(), 130);
 }
 
 // nohup hamgen run ... &

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/source_text.hpp"
@@ -393,6 +394,21 @@ TEST(HostileNames, ACommentOrUnitOfTheUsersStaysAComment) {
           .at(0)
           .text;
   EXPECT_EQ(messages("g++", without_pragma(code)), "");
+}
+
+// Two underscores in a name are the language's own.
+TEST(Names, OfElementsHaveNoTwoUnderscores) {
+  const std::string text =
+      "coordinate x[1..2]\nmomentum u[1..2]\nH = sum(i=1..2, u[i]^2/2 + x[i]^4/4) + x[1]*x[2]/3\n";
+  for (const Request& request :
+       {Request{.alpha = "0", .beta = "h/7"}, Request{.alpha = "2/3", .gamma = "-h/5"}}) {
+    const std::string all = header(text, request, "two");
+    EXPECT_NE(all.find("_times_"), std::string::npos);
+    for (std::size_t at = all.find("__"); at != std::string::npos; at = all.find("__", at + 2)) {
+      const bool inside = std::isalnum(static_cast<unsigned char>(all[at - 1])) != 0;
+      EXPECT_FALSE(inside) << all.substr(at - 20, 60);
+    }
+  }
 }
 
 }  // namespace

@@ -134,8 +134,8 @@ class Evaluator {
   }
   void run(Frame& f, const Collect& c) { run(f, Accumulate{c.symbol, c.value}); }
   void run(Frame& f, const CollectStages& c) {
-    number(f, c.symbol) = sum_from(f, c.slopes(), c.count);
-    number(f, c.lost) += sum_from(f, c.changes(), c.count);
+    number(f, c.symbol) = sum_from(f, c.in("slope"), c.count);
+    number(f, c.lost) += sum_from(f, c.in("change"), c.count);
   }
   double sum_from(Frame& f, Place place, int count) {
     double sum = 0;

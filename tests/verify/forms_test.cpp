@@ -152,8 +152,10 @@ TEST(Forms, ALossOfAnotherProductIsRefuted) {
       const Expression before = let->value;
       const Expression& x = before.operands()[0];
       const Expression& y = before.operands()[1];
-      let->value = Expression::apply(kProductError, {x + x, y});
-      EXPECT_EQ(prove().verdict, Verdict::refuted) << to_text(before);
+      for (const Expression& other : {x + x, y}) {
+        let->value = Expression::apply(kProductError, {other, y});
+        EXPECT_EQ(prove().verdict, Verdict::refuted) << to_text(before) << to_text(other);
+      }
       let->value = before;
       ++losses;
     }
