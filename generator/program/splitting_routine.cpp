@@ -277,16 +277,10 @@ class SplittingRoutine {
       const Expression z = component("z", kind.kick, i);
       const Origin origin{.terms = velocity_ && !kind.kick ? velocity_->terms : std::set<int>()};
       // See Note [the way back]; with nothing to add to there is no sum.
-      const bool no_sum = kind.once || (reversible_ && begins);
+      const bool no_sum = kind.once || (begins && (reversible_ || begins_in_loops()));
       if (no_sum) body.push_back({Assign{dz.name(), change}, {}, origin});
       if (kind.once || (reversible_ && !begins)) body.push_back({Assign{rest.name(), carry}});
-      if (!no_sum) {
-        if (begins && begins_in_loops()) {
-          body.push_back({Assign{dz.name(), carry}});
-          body.push_back({Assign{rest.name(), Expression(0)}});
-        }
-        body.push_back({Collect{dz.name(), rest.name(), change}, {}, origin});
-      }
+      if (!no_sum) body.push_back({Collect{dz.name(), rest.name(), change}, {}, origin});
       if (look == Look::nobody) continue;
       const bool to_local = look == Look::velocity;
       const std::string looked_at =
