@@ -27,8 +27,8 @@ struct ChaosOptions {
   MethodOptions method;
   SceneOptions scene;
   std::vector<std::string> over;
-  std::string indicator = "megno";
-  std::string frequencies = "0";
+  std::string indicator;    // megno where nothing else is asked for
+  std::string frequencies;  // none
   std::string output, plot;
   CompilerChoice compiler;
   bool spectrum = false;
@@ -45,13 +45,36 @@ ChaosAxis read_axis(const std::string& text, const std::set<std::string>& names)
   return axis;
 }
 
-const Indicator& read_indicator(const std::string& name) {
+const Indicator& read_indicator(const std::string& asked) {
+  const std::string name = asked.empty() ? "megno" : asked;
   std::string known;
   for (const Indicator& each : all_indicators()) {
     if (each.name == name) return each;
     known += (known.empty() ? "" : ", ") + each.name;
   }
   throw UsageError(fmt::format("--indicator {}: there are {}", name, known));
+}
+
+// What is of an orbit alone, and of a map alone.
+void require_for_what(const ChaosOptions& options) {
+  if (!options.over.empty() && options.spectrum)
+    throw UsageError("--spectrum: of one orbit; a map (--over) has no place for all exponents");
+  if (!options.over.empty() && !options.frequencies.empty())
+    throw UsageError("--frequencies: of one orbit; a map (--over) has no place for them");
+  if (options.over.empty() && !options.indicator.empty())
+    throw UsageError(
+        fmt::format("--indicator {}: of a map; one orbit has all of them\n"
+                    "help: a map is asked for by --over NAME=LOW:HIGH:COUNT",
+                    options.indicator));
+}
+
+int read_count(const std::string& frequencies) {
+  constexpr long most = 20;
+  if (frequencies.empty()) return 0;
+  const std::string option = "--frequencies " + frequencies;
+  const long count = integer_value(option, frequencies, 0);
+  if (count > most) throw UsageError(fmt::format("{}: {} at most", option, most));
+  return static_cast<int>(count);
 }
 
 struct Loaded {
@@ -155,11 +178,10 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
                    .on_progress = [&work](long done) { work.tell(done); },
                    .stop = &interrupt_flag()});
   }
-  const long count = integer_value("--frequencies " + options.frequencies, options.frequencies, 0);
   std::vector<DegreeFrequencies> degrees;
+  const int count = read_count(options.frequencies);
   if (count > 0 && found.status == runtime::Status::done)
-    degrees = orbit_frequencies(loaded.library.library, start, steps,
-                                static_cast<int>(std::min(count, 20L)), &interrupt_flag());
+    degrees = orbit_frequencies(loaded.library.library, start, steps, count, &interrupt_flag());
   const ChaosTitle title = title_of(loaded);
   write_chaos_files(options,
                     {.people = chaos_text(found, title) + frequencies_text(degrees, title),
@@ -174,6 +196,9 @@ int run_chaos(const ChaosOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   require_one_document(options.json, table_kind(options.output));
+  require_for_what(options);
+  if (!options.indicator.empty()) (void)read_indicator(options.indicator);
+  (void)read_count(options.frequencies);
   require_writable({options.output, options.plot});
   Setting setting = read_setting(options.method, options.scene);
   const std::set<std::string> names = varied_names(setting.model);
@@ -210,7 +235,9 @@ Command add_chaos(CLI::App& app) {
   add_repeated(*parser, "--over", options->over,
                "an axis of a map: a parameter or variable; twice at most")
       ->type_name("NAME=LOW:HIGH:COUNT,...");
-  parser->add_option("--indicator", options->indicator, "of a map: megno, lyapunov, fli or sali")
+  parser
+      ->add_option("--indicator", options->indicator,
+                   "of a map: megno (default), lyapunov, fli or sali")
       ->type_name("NAME");
   add_step_option(*parser, options->scene);
   parser->add_option("--time", options->scene.time, "")->type_name("T");

@@ -32,6 +32,7 @@ int run_plot(const PlotOptions& options) {
                     .script = std::filesystem::path(options.output).replace_extension(".gp"),
                     .text = gnuplot_script(plot, options.output)},
                    options.quiet, &interrupt_flag());
+  if (!drawn && interrupt_flag()) return interrupted;
   return drawn ? done : tool_failure;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
@@ -71,6 +72,19 @@ struct Geometry {
   std::string first, second;       // the axes
 };
 
+// A picture of a section has two directions.
+void require_plane(const SectionOptions& options, const Geometry& g) {
+  if (g.first == g.second)
+    throw UsageError(fmt::format("--axes {}: both are {}", options.axes, g.first));
+  const bool is_plane = std::ranges::none_of(
+      g.names, [&](const std::string& name) { return g.right.find(name) != std::string::npos; });
+  for (const std::string& axis : {g.first, g.second}) {
+    if (axis == g.left && is_plane)
+      throw UsageError(fmt::format("--axes {}: {} is {} on the surface everywhere", options.axes,
+                                   axis, g.right));
+  }
+}
+
 Geometry geometry(const SectionOptions& options, const Model& model) {
   Geometry g;
   g.names = element_names(model.coordinates);
@@ -85,6 +99,7 @@ Geometry geometry(const SectionOptions& options, const Model& model) {
           "--axes {}: two quantities are wanted\nhelp: for example --axes q2,p2", options.axes));
     g.first = blankless(pieces[0]);
     g.second = blankless(pieces[1]);
+    require_plane(options, g);
     return g;
   }
   const std::size_t pair = n > 1 && g.left == g.names[0] ? 1 : 0;
@@ -103,7 +118,7 @@ std::pair<double, double> interval(const SectionOptions& options, const Geometry
     const double low = to_double(constant_option("--from", each.second.substr(0, colon)));
     const double high = to_double(constant_option("--from", each.second.substr(colon + 1)));
     if (low < high) return {low, high};
-    break;
+    throw UsageError(fmt::format("--from {}={}: the lower end comes first", axis, each.second));
   }
   throw UsageError(
       fmt::format("--from {}: a range of both axes is wanted\nhelp: --from "
@@ -115,7 +130,15 @@ std::pair<double, double> interval(const SectionOptions& options, const Geometry
 void read_starts(const SectionOptions& options, const Geometry& g, SectionRequest& request) {
   request.orbits = static_cast<int>(integer_value("--orbits " + options.orbits, options.orbits, 0));
   request.points = integer_value("--points " + options.points, options.points, 1);
-  if (request.orbits == 0) return;
+  if (request.orbits == 0) {
+    // Then there is nothing to start.
+    for (const auto& [name, text] :
+         {std::pair("--from", options.from), {"--energy", options.energy}})
+      if (!text.empty())
+        throw UsageError(fmt::format(
+            "{} {}: --orbits 0 is the scene's own orbit, with its start and energy", name, text));
+    return;
+  }
   const std::string option = options.axes.empty() ? "--surface" : "--axes";
   request.first = place_of(g.names, g.first, option);
   request.second = place_of(g.names, g.second, option);
@@ -139,6 +162,11 @@ void read_starts(const SectionOptions& options, const Geometry& g, SectionReques
   const auto [x, right] = interval(options, g, g.first);
   const auto [y, top] = interval(options, g, g.second);
   request.box = {x, right, y, top};
+}
+
+std::optional<double> read_energy(const SectionOptions& options) {
+  if (options.energy.empty()) return std::nullopt;
+  return to_double(constant_option("--energy", options.energy));
 }
 
 // With mistakes in what it looks at called by the options they come from.
@@ -185,6 +213,9 @@ int run_section(const SectionOptions& options) {
   setting.scene.observe = fmt::format("{} = ({}) - ({}), {} = {}, {} = {}", kSurface, g.left,
                                       g.right, kFirstAxis, g.first, kSecondAxis, g.second);
   const SceneValues scene = scene_of(setting);
+  SectionRequest request;
+  read_starts(options, g, request);
+  const std::optional<double> energy = read_energy(options);
   take_gauge_at(scene, setting.model, setting.request);
   scene_options.whole = false;
   std::vector<std::string> varied = g.names;
@@ -193,16 +224,13 @@ int run_section(const SectionOptions& options) {
 
   const PluginSource plugin = generate_plugin(setting.source, setting.request);
   const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler, &interrupt_flag());
-  SectionRequest request;
   request.plugin = &plugin;
   request.library = loaded.library;
   request.start = initial_values(plugin, scene, *loaded.library);
   request.direction = direction;
-  request.energy = options.energy.empty()
-                       ? loaded.library->energy(request.start.parameters, request.start.state).hi
-                       : to_double(constant_option("--energy", options.energy));
+  request.energy =
+      energy.value_or(loaded.library->energy(request.start.parameters, request.start.state).hi);
   request.steps = *scene.steps;
-  read_starts(options, g, request);
   Work work(progress_bars(options.quiet), "section", std::max(1, request.orbits));
   request.on_progress = [&work](int done, int) { work.tell(done); };
   request.stop = &interrupt_flag();

@@ -26,6 +26,11 @@ bool draw_picture(const PictureFiles& files, bool quiet, StopFlag stop) {
   runtime::atomic_write(files.script, files.text);
   if (!quiet) print_error(fmt::format("{}\n", files.script.string()));
   const std::string problem = run_gnuplot(files.text, files.picture, stop);
+  if (!problem.empty() && is_stopped(stop)) {
+    print_error(fmt::format("hamgen: stopped; the picture was not drawn\nhelp: draw it with: {}\n",
+                            drawing_command(files.script)));
+    return false;
+  }
   if (!problem.empty()) {
     print_error(
         fmt::format("hamgen: no picture: {}\nhelp: with gnuplot installed, draw it with: {}\n",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/verify/precise.hpp"
@@ -13,7 +14,7 @@ namespace hamgen {
 namespace {
 
 // Sizes as trees up to which differences are expanded, and brought over one denominator.
-constexpr std::size_t kExpandable = 3000;
+constexpr std::size_t kExpandable = 6000;
 constexpr std::size_t kNormalisable = 2000;
 constexpr int kPoints = 200;
 // The first points only refute: most mistakes show at once.
@@ -31,9 +32,21 @@ std::size_t tree_size(const Expression& e, std::map<const void*, std::size_t>& k
   return size;
 }
 
+bool has_ranks(const Expression& e) {
+  std::set<const void*> seen;
+  const auto visit = [&](auto&& self, const Expression& node) -> bool {
+    if (!seen.insert(node.identity()).second) return false;
+    if (node.kind() == Kind::symbol) return node.rank() != 0;
+    return std::ranges::any_of(node.operands(),
+                               [&](const Expression& operand) { return self(self, operand); });
+  };
+  return visit(visit, e);
+}
+
 // With symbols of one rank: the two sides may have the same ones in another order, and sin(x - y)
 // and sin(y - x) are one function only where the order is one.
 Expression without_ranks(const Expression& e) {
+  if (!has_ranks(e)) return e;
   Substitution plain;
   for (const std::string& name : symbols(e)) plain.emplace(name, Expression::symbol(name));
   return substitute(e, plain);
@@ -101,8 +114,9 @@ class Decider {
     const bool holds_at_first = test(decision, 0, kFirstPoints);
     if (decision.verdict == Verdict::refuted) return decision;
     for (const Statement& s : identities_.expected) match(s.name, s.value);
-    for (const Claim& claim : identities_.claims) {
-      if (equal(reduced(claim.emitted), reduced(claim.expected))) ++decision.by_algebra;
+    const std::vector<Expression> sides = reduced_sides();
+    for (std::size_t i = 0; i < sides.size(); i += 2) {
+      if (equal(sides[i], sides[i + 1])) ++decision.by_algebra;
     }
     if (decision.by_algebra == decision.claims && decision.corners.empty()) {
       decision.verdict = Verdict::proved;
@@ -147,16 +161,27 @@ class Decider {
     return true;
   }
 
-  // Both sides with definitions replaced by what is known of them.
-  Expression reduced(const Expression& e) {
-    std::set<std::string> names;
-    collect_symbols(e, names);
+  // With definitions replaced by what is known of them, all at once: claims share most of what they
+  // are made of.  Symbols lose their ranks by it.
+  std::vector<Expression> reduced(std::span<const Expression> values) {
     Substitution replacements;
-    for (const std::string& name : names) {
-      const Expression value = definition(name);
-      if (value.kind() != Kind::symbol || value.name() != name) replacements.emplace(name, value);
+    for (const Expression& value : values) {
+      for (const std::string& name : symbols(value)) {
+        if (!replacements.contains(name)) replacements.emplace(name, definition(name));
+      }
     }
-    return replacements.empty() ? e : substitute(e, replacements);
+    return substitute(values, replacements);
+  }
+  Expression reduced(const Expression& e) { return reduced(std::span(&e, 1))[0]; }
+
+  // Of every claim what is emitted and what is expected.
+  std::vector<Expression> reduced_sides() {
+    std::vector<Expression> sides;
+    for (const Claim& claim : identities_.claims) {
+      sides.push_back(claim.emitted);
+      sides.push_back(claim.expected);
+    }
+    return reduced(sides);
   }
 
   Expression definition(const std::string& name) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,17 +18,24 @@ bool is_function(const Expression& e) { return e.kind() == Kind::function; }
 
 }  // namespace
 
-std::size_t SumsOfStep::size(const Expression& e) {
-  if (e.operands().empty()) return 1;
-  if (const auto it = sizes_.find(e.identity()); it != sizes_.end()) return it->second;
-  std::size_t total = 1;
-  for (const Expression& operand : e.operands()) total = std::min(total + size(operand), kLong);
-  sizes_[e.identity()] = total;
-  return total;
+SumsOfStep::Facts SumsOfStep::facts(const Expression& e) {
+  if (e.kind() == Kind::symbol) return {1, e.name() == "h" ? Of::step : Of::others};
+  if (e.operands().empty()) return {1, Of::numbers};
+  if (const auto it = facts_.find(e.identity()); it != facts_.end()) return it->second;
+  Facts whole{1, Of::numbers};
+  for (const Expression& operand : e.operands()) {
+    const Facts part = facts(operand);
+    whole.size = std::min(whole.size + part.size, kLong);
+    whole.symbols = std::max(whole.symbols, part.symbols);
+  }
+  facts_.emplace(e.identity(), whole);
+  return whole;
 }
 
 bool SumsOfStep::is_one(const Expression& e) {
-  return e.kind() == Kind::sum && size(e) >= kLong && symbols(e) == std::set<std::string>{"h"} &&
+  if (e.kind() != Kind::sum) return false;
+  const Facts whole = facts(e);
+  return whole.size >= kLong && whole.symbols == Of::step &&
          std::ranges::any_of(e.operands(), [](const Expression& term) {
            return is_function(term) || std::ranges::any_of(term.operands(), is_function);
          });
@@ -38,15 +44,19 @@ bool SumsOfStep::is_one(const Expression& e) {
 Expression SumsOfStep::named(const Expression& e) {
   if (e.operands().empty()) return e;
   if (const auto it = known_.find(e); it != known_.end()) return it->second;
-  Expression result;
+  Expression result = e;
   if (is_one(e)) {
     const std::string name = fmt::format("sum#{}", meaning_.size());
     meaning_.emplace(name, e);
     result = Expression::symbol(name);
   } else {
     std::vector<Expression> operands;
-    for (const Expression& operand : e.operands()) operands.push_back(named(operand));
-    result = with_operands(e, std::move(operands));
+    bool same = true;
+    for (const Expression& operand : e.operands()) {
+      operands.push_back(named(operand));
+      same = same && operands.back().identity() == operand.identity();
+    }
+    if (!same) result = with_operands(e, std::move(operands));
   }
   return known_.emplace(e, result).first->second;
 }

@@ -18,10 +18,16 @@ class SumsOfStep {
   [[nodiscard]] bool empty() const { return meaning_.empty(); }
 
  private:
-  [[nodiscard]] bool is_one(const Expression& e);
-  [[nodiscard]] std::size_t size(const Expression& e);
+  enum class Of { numbers, step, others };
+  struct Facts {
+    std::size_t size;  // as a tree, up to what is long
+    Of symbols;
+  };
 
-  std::map<const void*, std::size_t> sizes_;
+  [[nodiscard]] Facts facts(const Expression& e);
+  [[nodiscard]] bool is_one(const Expression& e);
+
+  std::map<const void*, Facts> facts_;
   ExpressionMap<Expression> known_;
   Substitution meaning_;
 };

@@ -266,7 +266,7 @@ struct SymbolicMachine::Run {
   void finish(std::size_t first, IterationTrace& trace) const {
     for (const Expression& unknown : trace.unknowns) trace.inside.insert(unknown.name());
     for (std::size_t i = first; i < m.definitions_.size(); ++i) {
-      const Statement& s = m.definitions_[i];
+      const Statement& s = m.definitions_.all()[i];
       const std::set<std::string> read = symbols(s.value);
       const auto inside = [&](const std::string& name) { return trace.inside.contains(name); };
       if (std::ranges::any_of(read, inside)) trace.inside.insert(s.name);

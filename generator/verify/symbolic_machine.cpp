@@ -94,8 +94,7 @@ Expression SymbolicMachine::define(const std::string& name, const Expression& va
   const auto [known, is_new] = known_.try_emplace({name, value}, Expression());
   if (!is_new) return known->second;
   known->second = Expression::symbol(unique(name), kRankOfTemporary);
-  defined_[known->second.name()] = definitions_.size();
-  definitions_.push_back({known->second.name(), value});
+  definitions_.add(known->second.name(), value);
   return known->second;
 }
 
@@ -107,10 +106,10 @@ Expression SymbolicMachine::without_rounding(const std::string& name, const Expr
   const Expression exact = error.name() == kProductError ? x * y : x - y;
   if (is_trivial(exact)) return Expression(0);
   const auto known = lost_.find(exact);
-  if (const std::optional<std::size_t> i = computed_as(exact)) {
+  if (const std::optional<std::size_t> i = definitions_.computed_as(exact)) {
     // What is computed twice by different names is rounded alike.
     const Expression lost = known == lost_.end() ? free_symbol(name) : known->second;
-    definitions_[*i].value = definitions_[*i].value - lost;
+    definitions_.change(*i, definitions_.all()[*i].value - lost);
     lost_.emplace(exact, lost);
     return lost;
   }
@@ -118,36 +117,10 @@ Expression SymbolicMachine::without_rounding(const std::string& name, const Expr
   return known == lost_.end() ? free_symbol(name) : known->second;
 }
 
-// The last definition with this value; or of numbers that have the same values, or these with the
-// other sign, by other names: what is rounded of them is the same.
-std::optional<std::size_t> SymbolicMachine::computed_as(const Expression& exact) const {
-  for (std::size_t i = definitions_.size(); i-- > 0;) {
-    if (definitions_[i].value == exact) return i;
-  }
-  std::map<Expression, Expression> first;
-  Substitution same;
-  std::vector<Expression> values;
-  for (const auto& [name, value] : definitions_) {
-    values.push_back(substitute(value, same));
-    const Expression symbol = Expression::symbol(name, kRankOfTemporary);
-    const auto [it, is_new] = first.try_emplace(values.back(), symbol);
-    if (!is_new) {
-      same.emplace(name, it->second);
-    } else if (const auto negated = first.find(-values.back()); negated != first.end()) {
-      same.emplace(name, -negated->second);
-    }
-  }
-  const Expression wanted = substitute(exact, same);
-  for (std::size_t i = values.size(); i-- > 0;) {
-    if (values[i] == wanted) return i;
-  }
-  return {};
-}
-
 Expression SymbolicMachine::set_free(Frame& frame, const Expression& value, std::size_t first) {
   if (value.kind() != Kind::symbol) return value;
-  const auto it = defined_.find(value.name());
-  if (it == defined_.end() || it->second < first) return value;
+  const std::optional<std::size_t> place = definitions_.place(value.name());
+  if (!place || *place < first) return value;
   const Expression symbol = free_symbol(value.name() + "'");
   for (auto& [name, local] : frame.locals) {
     if (local == value) local = symbol;

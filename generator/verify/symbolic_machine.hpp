@@ -13,6 +13,7 @@
 
 #include "generator/program/program.hpp"
 #include "generator/program/statement.hpp"
+#include "generator/verify/defined_values.hpp"
 
 namespace hamgen {
 
@@ -84,7 +85,7 @@ class SymbolicMachine {
   // its name, too.  The number that it returns, if it does.
   std::optional<Expression> run(const std::string& routine);
 
-  [[nodiscard]] const std::vector<Statement>& definitions() const { return definitions_; }
+  [[nodiscard]] const std::vector<Statement>& definitions() const { return definitions_.all(); }
 
   std::vector<IterationTrace> iterations;
   std::vector<SweepTrace> sweeps;
@@ -119,7 +120,6 @@ class SymbolicMachine {
   void run(Frame& frame, const Body& body);
   Expression define(const std::string& name, const Expression& value);
   Expression without_rounding(const std::string& name, const Expression& error);
-  [[nodiscard]] std::optional<std::size_t> computed_as(const Expression& exact) const;
   Expression free_symbol(const std::string& name);
   // What follows knows a value that was defined since `first` as a free symbol.
   Expression set_free(Frame& frame, const Expression& value, std::size_t first);
@@ -152,8 +152,7 @@ class SymbolicMachine {
   std::map<std::string, bool> flags_;
   std::map<std::string, MatrixEntries> matrices_;
   std::set<std::string> symmetric_;  // of them
-  std::vector<Statement> definitions_;
-  std::map<std::string, std::size_t> defined_;  // where
+  DefinedValues definitions_;
   std::map<Expression, Expression> lost_;  // by their exact values, what rounding takes from them
   std::map<std::string, int> names_;
   std::map<std::string, std::string> hints_;

@@ -86,6 +86,25 @@ TEST(Chaos, RefusesWhatItCannotVary) {
   }
 }
 
+// What is asked for and cannot be given is not passed over.
+TEST(Chaos, HasOptionsOfAnOrbitAndOptionsOfAMap) {
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham";
+  for (const auto& [options, words] :
+       {std::pair<std::vector<std::string>, std::string>{{"--over", "q2=0:1:5", "--spectrum"},
+                                                         "--spectrum: of one orbit"},
+        {{"--over", "q2=0:1:5", "--frequencies", "2"}, "--frequencies: of one orbit"},
+        {{"--indicator", "fli"}, "--indicator fli: of a map"},
+        {{"--over", "q2=0:1:5", "--indicator", "flee"}, "there are megno"},
+        {{"--frequencies", "21"}, "20 at most"},
+        {{"--frequencies", "few"}, "--frequencies few"}}) {
+    std::vector<std::string> words_of{"chaos", model};
+    words_of.insert(words_of.end(), options.begin(), options.end());
+    const Result result = hamgen(words_of);
+    EXPECT_EQ(result.status, 2) << words;
+    EXPECT_TRUE(contains(result.err, words)) << result.err;
+  }
+}
+
 using Complex = std::complex<double>;
 
 TEST(Frequencies, OfAQuasiPeriodicSignalAreFound) {

@@ -134,7 +134,13 @@ TEST(SectionCommand, RefusesWhatIsNoSection) {
         {{"--surface", "q1,q2"}, "one equation is wanted"},
         {{"--surface", "q1 +"}, "expected"},
         {{"--direction", "up"}, "rising, falling or both"},
+        {{"--axes", "q2,q2"}, "both are q2"},
+        {{"--axes", "q1,p2"}, "q1 is 0 on the surface everywhere"},
         {{"--from", "q2=1"}, "a range of both axes"},
+        {{"--from", "q2=1:0,p2=0:1"}, "the lower end comes first"},
+        {{"--orbits", "0", "--from", "q2=0:1,p2=0:1"}, "the scene's own orbit"},
+        {{"--orbits", "0", "--energy", "1/8"}, "the scene's own orbit"},
+        {{"--energy", "much"}, "--energy"},
         {{"--plot", "a.pdf"}, "ends in .svg or .png"}}) {
     std::vector<std::string> words_of{"section", model};
     words_of.insert(words_of.end(), options.begin(), options.end());
