@@ -140,7 +140,7 @@ ObservedAndStatistics read_statistics(const std::string& statistics, const Model
     observed = scene_values(model, scene).observe;
   } catch (const UsageError& error) {
     std::string text = error.what();
-    if (text.starts_with("--observe")) text.replace(0, 9, "--statistics, observed:");
+    if (text.starts_with("--observe")) text.replace(0, text.find(' '), "--statistics:");
     throw UsageError(text);
   }
   for (const std::string& name : names) {

@@ -188,7 +188,9 @@ void draw(const RunOptions& options, const NumberTable& rows, const RunReport& r
 
 int run(const RunOptions& options) {
   require_run_files(options);
-  require_writable({options.output, options.plot, options.watch.events});
+  require_file("-o", options.output);
+  require_file("--events", options.watch.events);
+  require_writable({options.plot});
   Setting setting = read_setting(options.method, options.scene);
   const SourceText& source = setting.source;
   const Model& model = setting.model;

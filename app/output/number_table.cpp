@@ -39,6 +39,8 @@ class TableReader {
  public:
   explicit TableReader(const std::filesystem::path& path)
       : path_(path.string()), in_(path, std::ios::binary) {
+    if (std::filesystem::is_directory(path))
+      throw UsageError(fmt::format("cannot read '{}': it is a directory", path_));
     if (!in_) throw UsageError(fmt::format("cannot read '{}'", path_));
   }
 

@@ -80,6 +80,16 @@ void require_writable(std::initializer_list<std::string> names) {
   }
 }
 
+void require_file(const std::string& option, const std::string& name) {
+  if (name.empty() || name == "-") return;
+  const std::filesystem::path path = name;
+  if (path.has_filename() && !std::filesystem::is_directory(path))
+    return runtime::require_writable(path);
+  throw UsageError(fmt::format(
+      "{0} {1}: this is a directory, and one file is written\nhelp: {0} {2}", option, name,
+      ((path / "").parent_path() / "NAME.csv").string()));
+}
+
 void require_one_document(bool json, OutputKind kind) {
   if (json && kind == OutputKind::standard)
     throw UsageError(

@@ -22,6 +22,9 @@ void make_directories_above(std::initializer_list<std::string> names, bool quiet
 // Throws ToolError where a file of one of these names could not be written: before something takes
 // long for it.  Directories and standard output are left out.
 void require_writable(std::initializer_list<std::string> names);
+// Of a command that writes one file by this option: throws UsageError for the name of a directory,
+// ToolError where it could not be written.
+void require_file(const std::string& option, const std::string& name);
 // Throws UsageError if both are documents on standard output.
 void require_one_document(bool json, OutputKind kind);
 

@@ -177,16 +177,20 @@ std::string axis_text(const PlotAxis& axis) {
       axis.drawn().high, axis.name == 'x' ? 0.4 : 0.0);
 }
 
+// A little less high than the letters at the axes, which script_head sets.
+int small_font(bool png) { return png ? 9 : 12; }
+
 // What is below is shaded, where the data come near to it.
-std::string floor_text(const PlotPanel& panel, const Range& y) {
+std::string floor_text(const PlotPanel& panel, const Range& y, int small_font) {
   if (!panel.floor || !(*panel.floor > y.low && *panel.floor < y.high)) return "";
   return fmt::format(
       "set object rectangle from graph 0, graph 0 to graph 1, first {0:.9g} behind fc rgb "
       "'#DDDDDD' fs solid 0.55 noborder\n"
-      "set label 'rounding' at graph 0.015, first {0:.9g} left offset 0,-0.75 font ',12' textcolor "
+      "set label 'rounding' at graph 0.015, first {0:.9g} left offset 0,-0.75 font ',{1}' "
+      "textcolor "
       "rgb "
       "'#555555'\n",
-      *panel.floor);
+      *panel.floor, small_font);
 }
 
 std::size_t longest_label(const PlotPanel& panel) {
@@ -203,18 +207,19 @@ int legend_columns(const PlotPanel& panel, int width) {
 }
 
 // Names beside short pieces of line or markers, in rows below the plot, as many in one as fit.
-std::string legend_text(const PlotPanel& panel, int picture_width) {
+std::string legend_text(const PlotPanel& panel, int picture_width, bool png) {
   const int length = static_cast<int>(longest_label(panel));
   if (length == 0) return "unset key\n";
-  // Gnuplot takes letters for wider than they are, the more the longer a name is.
-  const int width = length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
+  // In SVG gnuplot takes letters for wider than they are, the more the longer a name is.
+  const int width = png || length < 8 ? 2 : length < 15 ? -length / 5 : -length / 3;
   return fmt::format(
       "set key below center horizontal maxcols {} Left reverse noenhanced samplen 1.8 width {} "
-      "height 0.6 font ',12'\n",
-      legend_columns(panel, picture_width), width);
+      "height 0.6 font ',{}'\n",
+      legend_columns(panel, picture_width), width, small_font(png));
 }
 
-std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height) {
+std::string panel_text(const PlotPanel& panel, std::size_t number, int width, int height,
+                       bool png) {
   PlotAxis x{.name = 'x', .label = panel.x_label, .logarithmic = panel.logarithmic_x, .range = {}};
   PlotAxis y{.name = 'y', .label = panel.y_label, .logarithmic = panel.logarithmic_y, .range = {}};
   const PanelRanges ranges = ranges_of(panel);
@@ -234,7 +239,7 @@ std::string panel_text(const PlotPanel& panel, std::size_t number, int width, in
   text += axis_text(x) + axis_text(y);
   text += panel.square ? "set size ratio -1\n" + square_tics(x.drawn(), y.drawn(), width, height)
                        : "set size noratio\n" + narrow_tics(x.drawn(), x.logarithmic, width);
-  text += floor_text(panel, y.range) + legend_text(panel, width);
+  text += floor_text(panel, y.range, small_font(png)) + legend_text(panel, width, png);
   std::string plots;
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     if (!has_points(panel, i)) continue;
@@ -273,7 +278,7 @@ std::string gnuplot_script(const Plot& plot, const std::string& output) {
   for (std::size_t i = 0; i < count; ++i) text += data_block(plot.panels[i], i);
   text += fmt::format("set multiplot layout {},{}\n", down, across);
   for (std::size_t i = 0; i < count; ++i)
-    text += panel_text(plot.panels[i], i, plot.width, plot.height);
+    text += panel_text(plot.panels[i], i, plot.width, plot.height, output.ends_with(".png"));
   return text + "unset multiplot\nunset output\n";
 }
 

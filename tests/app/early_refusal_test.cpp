@@ -36,6 +36,22 @@ TEST(EarlyRefusal, OfAFileThatCannotBeWritten) {
   }
 }
 
+// No run is made for a name that is none of a file.
+TEST(EarlyRefusal, OfADirectoryWhereAFileIsWanted) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const std::string cache = scratch.path("cache");
+  for (const std::string& name : {scratch.path(""), scratch.path("new") + "/"}) {
+    const Result result = hamgen({"run", model, "-o", name}, {"HAMGEN_CACHE=" + cache});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find("NAME.csv"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(cache));
+  }
+  const Result plot = hamgen({"plot", scratch.path(""), "-o", scratch.path("x.svg")});
+  EXPECT_EQ(plot.status, 2);
+  EXPECT_NE(plot.err.find("it is a directory"), std::string::npos) << plot.err;
+}
+
 // A check leaves nothing behind, not even an empty file.
 TEST(EarlyRefusal, LeavesNoFileOfOneThatCouldBeWritten) {
   const Scratch scratch;
@@ -59,6 +75,16 @@ TEST(StandardOutput, IsWrittenOnWhereItIsAFileThatIsThere) {
   const std::string text = read(log);
   EXPECT_TRUE(text.starts_with("before\n# made by"));
   EXPECT_TRUE(text.ends_with("\nafter\n"));
+}
+
+TEST(Messages, SayThatWhatIsComputedWantsAName) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  for (const char* text : {"q1^2", "q1 + q2", "energy, q[1]*2", "sqrt(q1)"}) {
+    const Result result = hamgen({"run", model, "--observe", text});
+    EXPECT_EQ(result.status, 2) << text;
+    EXPECT_NE(result.err.find("gets a name of its own"), std::string::npos) << result.err;
+  }
 }
 
 TEST(Messages, ProposeWhatHelps) {
