@@ -25,6 +25,19 @@ void require_varied(const std::string& option, const std::string& text, const st
                                near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
+void require_set_once(const SceneRequest& scene, const std::vector<std::string>& varied) {
+  for (const std::string& name : varied) {
+    for (const auto& [option, list] :
+         {std::pair("--set", &scene.set), {"--initial", &scene.initial}}) {
+      for (const auto& [other, value] : *list)
+        if (other == name)
+          throw UsageError(
+              fmt::format("{} {}={}: {} is varied, and a name is set once\nhelp: leave out {}",
+                          option, name, value, name, option));
+    }
+  }
+}
+
 AxisOption read_axis_option(const std::string& text, const std::set<std::string>& names, long least,
                             long most) {
   const std::string help = "\nhelp: for example --over q2=-0.5:0.7:50";

@@ -3,8 +3,10 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "generator/language/model.hpp"
+#include "generator/language/scene.hpp"
 
 namespace hamgen::app {
 
@@ -19,6 +21,9 @@ struct AxisOption {
 // Throws UsageError, with the nearest name, if it is not among them; `text` is the option's value.
 void require_varied(const std::string& option, const std::string& text, const std::string& name,
                     const std::set<std::string>& names);
+
+// Throws UsageError if --set or --initial gives one of these a value, too.
+void require_set_once(const SceneRequest& scene, const std::vector<std::string>& varied);
 
 // Throws UsageError; the count is within [least, most].
 [[nodiscard]] AxisOption read_axis_option(const std::string& text,

@@ -143,7 +143,6 @@ int run_map(const ChaosOptions& options, const Loaded& loaded, std::vector<Chaos
                        .library = loaded.library.library,
                        .scene = loaded.setting.scene,
                        .axes = axes,
-                       .steps = *loaded.scene.steps,
                        .on_progress = [&work](long done) { work.tell(done); },
                        .stop = &interrupt_flag()});
   }
@@ -186,7 +185,7 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
   write_chaos_files(options,
                     {.people = chaos_text(found, title) + frequencies_text(degrees, title),
                      .json = chaos_json(found, degrees, title),
-                     .csv = chaos_csv(found, title)},
+                     .csv = chaos_csv(found, degrees, title)},
                     gnuplot_script(chaos_plot(found, title), options.plot));
   if (found.status == runtime::Status::stopped) return interrupted;
   return found.status == runtime::Status::done ? done : numerical_failure;
@@ -207,6 +206,9 @@ int run_chaos(const ChaosOptions& options) {
     for (const std::string_view piece : outermost_pieces(text))
       axes.push_back(read_axis(std::string(piece), names));
   }
+  std::vector<std::string> varied;
+  for (const ChaosAxis& axis : axes) varied.push_back(axis.name);
+  require_set_once(setting.scene, varied);
   if (axes.size() > 2) throw UsageError("--over: two axes at most");
   if (axes.size() == 2 && axes[0].name == axes[1].name)
     throw UsageError(fmt::format("--over: both axes are {}", axes[0].name));
@@ -217,6 +219,8 @@ int run_chaos(const ChaosOptions& options) {
                     "help: smaller COUNTs: a picture of 1000 by 1000 is a fine one",
                     axes[0].values.size() * axes[1].values.size(), most));
   const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()});
+  if (*loaded.scene.steps < 1)
+    throw UsageError("deviations grow in steps, and there are none\nhelp: --steps 10000");
   return axes.empty() ? run_orbit(options, loaded) : run_map(options, loaded, std::move(axes));
 }
 

@@ -39,6 +39,12 @@ void prepare(const EnsembleOptions& options, Prepared& prepared) {
   EnsembleRequest& request = prepared.request;
   setting = read_setting(options.method, options.scene);
   request.plan = read_plan(options, setting.model);
+  require_set_once(setting.scene, request.plan.names());
+  if (!options.every.empty() && options.statistics.empty())
+    throw UsageError(fmt::format(
+        "--every {}: statistics are taken over these states, and none are asked for\nhelp: for "
+        "example --statistics energy",
+        options.every));
   const ObservedAndStatistics observed =
       read_statistics(options.statistics, setting.model, setting.scene);
   if (!observed.observe.empty()) setting.scene.observe = observed.observe;
@@ -78,7 +84,12 @@ bool is_complete(const EnsembleOptions& options, const EnsembleManifest& manifes
     return false;
   std::vector<std::string> lines = manifest_lines_of(options.output);
   const std::string difference = difference_of(lines, manifest.lines);
-  if (difference.empty()) return true;
+  if (difference.empty() && is_whole(options.output)) return true;
+  if (difference.empty())
+    throw UsageError(
+        fmt::format("--resume: {} is cut off, and its parts are gone\nhelp: another name of the "
+                    "output, or leave out --resume to write it anew",
+                    options.output));
   throw UsageError(
       fmt::format("--resume: {} is of another ensemble:\n{}help: another name of the output, or "
                   "leave out --resume to write it anew",

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
@@ -126,6 +127,33 @@ std::pair<double, double> interval(const SectionOptions& options, const Geometry
                   options.from, g.first, g.second));
 }
 
+// Of the variable that the surface fixes where orbits start.
+double surface_value(const Geometry& g) {
+  try {
+    return to_double(constant_option("--surface", g.right));
+  } catch (const ModelError&) {
+    throw UsageError(
+        fmt::format("--surface {} = {}: orbits start where {} has a value, and this is none\n"
+                    "help: --orbits 0 follows the scene's own orbit",
+                    g.left, g.right, g.left));
+  }
+}
+
+// Of both axes, and of each once.
+void require_intervals(const SectionOptions& options, const Geometry& g) {
+  std::set<std::string> seen;
+  for (const Assignment& each : split_assignments("--from", options.from)) {
+    if (each.first != g.first && each.first != g.second)
+      throw UsageError(
+          fmt::format("--from {}={}: this is none of the axes {} and {}\nhelp: of other variables "
+                      "--initial sets "
+                      "one value",
+                      each.first, each.second, g.first, g.second));
+    if (!seen.insert(each.first).second)
+      throw UsageError(fmt::format("--from: {} has two ranges", each.first));
+  }
+}
+
 // Starts are drawn in the plane of the axes, which then are variables.
 void read_starts(const SectionOptions& options, const Geometry& g, SectionRequest& request) {
   request.orbits = static_cast<int>(integer_value("--orbits " + options.orbits, options.orbits, 0));
@@ -146,7 +174,7 @@ void read_starts(const SectionOptions& options, const Geometry& g, SectionReques
   std::size_t of_surface = g.names.size();
   if (const auto it = std::ranges::find(g.names, g.left); it != g.names.end()) {
     of_surface = static_cast<std::size_t>(it - g.names.begin());
-    request.fixed = {of_surface, to_double(constant_option("--surface", g.right))};
+    request.fixed = {of_surface, surface_value(g)};
   }
   const auto taken = [&](std::size_t place) {
     return place == request.first || place == request.second || place == of_surface;
@@ -159,6 +187,7 @@ void read_starts(const SectionOptions& options, const Geometry& g, SectionReques
         "--axes, or --orbits 0 for the scene's own orbit",
         g.first, g.second));
   if (options.from.empty()) return;
+  require_intervals(options, g);
   const auto [x, right] = interval(options, g, g.first);
   const auto [y, top] = interval(options, g, g.second);
   request.box = {x, right, y, top};

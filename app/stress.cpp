@@ -98,9 +98,11 @@ int run_stress(const StressOptions& options) {
   request.setting = read_setting(with_run_time_members(options.method, request.axes), scene);
   std::vector<std::string> varied;
   for (const StressAxis& axis : request.axes) varied.push_back(axis.label);
+  require_set_once(request.setting.scene, varied);
   const SceneValues values = complete_scene(request.setting.model, request.setting.scene);
   if (*values.steps == 0) throw UsageError(fmt::format("--time {}: less than a step", *scene.time));
   request.limits = read_limits(options, *values.steps);
+  request.of_one_time = scene.time.has_value();
   specialise(scene, values, varied, Observing::everything, request.setting);
   const StressMap map = stress_map(request);
   if (interrupt_flag()) {

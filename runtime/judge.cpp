@@ -85,6 +85,15 @@ double Judge::size_of(std::span<const double> state) const {
 
 double Judge::jump_limit() const { return kJump * energy_scale_; }
 
+std::optional<double> Judge::raised_limit(double limit, std::span<const double> state,
+                                          double energy_error) const {
+  constexpr double small = 0.1;
+  const double at_state = terms(state);
+  const bool has_scale = limit > 0.0;
+  if (has_scale && !(energy_error <= small * at_state)) return {};
+  return kJump * (has_scale ? energy_error : std::max(at_state, energy_error));
+}
+
 bool Judge::keeps_energy(std::span<const double> state, double energy_error) const {
   constexpr double small = 0.1;
   const HalfProducts half = half_products(state, library_->gradient(parameters_, state));

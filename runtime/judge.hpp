@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,10 @@ class Judge {
   [[nodiscard]] double jump_limit() const;
   // Is an error |H - H(0)| larger than that limit?
   [[nodiscard]] bool is_jump(double energy_error) const { return energy_error > jump_limit(); }
+  // The limit from there on of an orbit whose terms of H at that state explain an error beyond the
+  // one it had; empty where they do not.  See Note [jumps] in trajectory.cpp.
+  [[nodiscard]] std::optional<double> raised_limit(double limit, std::span<const double> state,
+                                                   double energy_error) const;
   // The error is small beside |p H_p|/2 or |q H_q|/2 at the state.  A step that is unstable on a
   // quadratic H errs by their sum.
   [[nodiscard]] bool keeps_energy(std::span<const double> state, double energy_error) const;

@@ -159,12 +159,9 @@ class Steps {
 
   // Do the terms of H at the present state explain such an error?  Raises the limit.
   bool explains(double error) {
-    constexpr double small = 0.1;
-    const double terms = judge().terms(integrator_.rounded_state());
-    const bool has_scale = limit_ > 0.0;
-    if (has_scale && !(error <= small * terms)) return false;
-    limit_ = 10.0 * (has_scale ? error : std::max(terms, error));
-    return true;
+    const auto raised = judge().raised_limit(limit_, integrator_.rounded_state(), error);
+    limit_ = raised.value_or(limit_);
+    return raised.has_value();
   }
 
   Integrator& integrator_;

@@ -91,7 +91,7 @@ std::string errors_text(const Bench& bench) {
 }
 
 std::string run_line(const Bench& bench, const BenchRow& row) {
-  return run_command(bench.path, bench.methods[row.method].request, row.h);
+  return run_command(bench.path, bench.methods[row.method].request, row.h, row.steps);
 }
 
 // 1e-04 as 1e-4, where it is a power of ten.

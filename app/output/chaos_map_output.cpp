@@ -33,16 +33,15 @@ std::vector<std::optional<double>> values_of(const ChaosMapTable& map, const Ind
 }
 
 // The middle nine tenths of the values: single ones do not take the colours of the others.
-std::pair<double, double> range_of(const std::vector<std::optional<double>>& values) {
+std::optional<std::pair<double, double>> range_of(
+    const std::vector<std::optional<double>>& values) {
   std::vector<double> sorted;
   for (const auto& value : values) {
     if (value) sorted.push_back(*value);
   }
-  if (sorted.empty()) return {0.0, 1.0};
+  if (sorted.empty()) return {};
   std::ranges::sort(sorted);
-  const double low = sorted[sorted.size() / 20];
-  const double high = sorted[sorted.size() - 1 - sorted.size() / 20];
-  return {low, high > low ? high : low + 1.0};
+  return std::pair(sorted[sorted.size() / 20], sorted[sorted.size() - 1 - sorted.size() / 20]);
 }
 
 }  // namespace
@@ -55,9 +54,10 @@ std::string chaos_map_text(const ChaosMapTable& map, const Indicator& indicator,
                                  title.scene.empty() ? "" : ", scene " + title.scene, title.scheme,
                                  title.h, map.cells->size());
   for (const auto& [outcome, count] : outcomes) text += fmt::format(", {} {}", count, outcome);
-  const auto [low, high] = range_of(values_of(map, indicator));
+  const std::optional<std::pair<double, double>> range = range_of(values_of(map, indicator));
+  if (!range) return text + fmt::format("\n  {:10} of no cell\n", indicator.name);
   return text + fmt::format("\n  {:10} nine in ten between {:.4g} and {:.4g}\n", indicator.name,
-                            low, high);
+                            range->first, range->second);
 }
 
 std::string chaos_map_csv(const ChaosMapTable& map, const ChaosTitle& title) {
@@ -126,7 +126,7 @@ std::string chaos_map_script(const ChaosMapTable& map, const Indicator& indicato
                            .width = 720},
                           output);
   }
-  const auto [low, high] = range_of(values);
+  const auto [low, high] = range_of(values).value_or(std::pair(0.0, 1.0));
   return heat_map_script({.title = title.model,
                           .x_label = plain_symbol(x.name),
                           .y_label = plain_symbol((*map.axes)[1].name),
@@ -135,7 +135,7 @@ std::string chaos_map_script(const ChaosMapTable& map, const Indicator& indicato
                           .y = (*map.axes)[1].values,
                           .values = values,
                           .low = low,
-                          .high = high},
+                          .high = high > low ? high : low + 1.0},
                          output);
 }
 

@@ -56,8 +56,9 @@ std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
                              const ChaosTitle& title) {
   std::string text;
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    text += fmt::format("  frequencies of {} (change between the halves of the time {:.1e})\n",
-                        title.coordinates[i], degrees[i].change);
+    text += fmt::format(
+        "  frequencies of {} (change from the first part of the time to the last {:.1e})\n",
+        title.coordinates[i], degrees[i].change);
     for (const Harmonic& harmonic : degrees[i].harmonics)
       text += fmt::format("    {:+.12f}  amplitude {:.4e}\n", harmonic.frequency,
                           std::abs(harmonic.amplitude));
@@ -65,13 +66,23 @@ std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
   return text;
 }
 
-std::string chaos_csv(const Chaos& chaos, const ChaosTitle& title) {
-  std::string text =
-      fmt::format("# made by   hamgen " HAMGEN_VERSION
-                  "\n# model     {}\n# scheme    {}, h = {}\n"
-                  "t,lyapunov,megno,fli,sali,gali_{}\n",
-                  title.model, title.scheme, runtime::number_text(title.h), chaos.deviations);
+std::string chaos_csv(const Chaos& chaos, const std::vector<DegreeFrequencies>& degrees,
+                      const ChaosTitle& title) {
   using runtime::number_text;
+  std::string text =
+      fmt::format("# made by   hamgen " HAMGEN_VERSION "\n# model     {}\n# scheme    {}, h = {}\n",
+                  title.model, title.scheme, number_text(title.h));
+  if (!chaos.spectrum.empty()) {
+    text += "# spectrum ";
+    for (const double exponent : chaos.spectrum) text += " " + number_text(exponent);
+    text += "\n";
+  }
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    for (const Harmonic& each : degrees[i].harmonics)
+      text += fmt::format("# frequency of {}: {}, amplitude {}\n", title.coordinates[i],
+                          number_text(each.frequency), number_text(std::abs(each.amplitude)));
+  }
+  text += fmt::format("t,lyapunov,megno,fli,sali,gali_{}\n", chaos.deviations);
   for (const ChaosSample& s : chaos.samples)
     text += fmt::format("{},{},{},{},{},{}\n", number_text(s.time), number_text(s.lyapunov),
                         number_text(s.megno), number_text(s.fli), number_text(s.sali),

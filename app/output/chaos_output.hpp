@@ -22,7 +22,9 @@ struct ChaosTitle {
 [[nodiscard]] std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
                                            const ChaosTitle& title);
 // The samples in time.
-[[nodiscard]] std::string chaos_csv(const Chaos& chaos, const ChaosTitle& title);
+[[nodiscard]] std::string chaos_csv(const Chaos& chaos,
+                                    const std::vector<DegreeFrequencies>& degrees,
+                                    const ChaosTitle& title);
 [[nodiscard]] std::string chaos_json(const Chaos& chaos,
                                      const std::vector<DegreeFrequencies>& degrees,
                                      const ChaosTitle& title);

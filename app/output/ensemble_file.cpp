@@ -70,6 +70,17 @@ std::unique_ptr<EnsembleFile> make_ensemble_file(const std::string& output,
   return std::make_unique<EnsembleCsv>(output, head);
 }
 
+bool is_whole(const std::string& output) {
+  if (ensemble_format(output) == EnsembleFormat::hdf5) return true;  // HDF5 opens no part of a file
+  std::ifstream in(output, std::ios::binary);
+  std::string last;
+  for (std::string line; std::getline(in, line);) {
+    if (in.eof()) return false;  // cut off within a line
+    last = std::move(line);
+  }
+  return last.starts_with("# ended");
+}
+
 std::vector<std::string> manifest_lines_of(const std::string& output) {
   if (ensemble_format(output) == EnsembleFormat::hdf5) return manifest_lines_of_hdf5(output);
   std::ifstream in(output);

@@ -37,6 +37,8 @@ enum class EnsembleFormat { csv, hdf5 };
 
 [[nodiscard]] std::unique_ptr<EnsembleFile> make_ensemble_file(const std::string& output,
                                                                const EnsembleFileHead& head);
+// Does the file that is there go on to its end?
+[[nodiscard]] bool is_whole(const std::string& output);
 // The manifest's lines of a file that is there; empty if there is none or it has no such lines.
 [[nodiscard]] std::vector<std::string> manifest_lines_of(const std::string& output);
 

@@ -70,7 +70,8 @@ std::string ensemble_json(const EnsembleSummary& summary, const EnsembleTitle& t
                                  {"steps_of_all", summary.steps},
                                  {"ended", ended}};
   if (title.watches_energy) {
-    json["max_energy_error"] = summary.largest_error;
+    json["max_energy_error"] = summary.steps > 0 ? nlohmann::ordered_json(summary.largest_error)
+                                                 : nlohmann::ordered_json(nullptr);
     json["max_relative_energy_error"] = summary.has_scale
                                             ? nlohmann::ordered_json(summary.largest_relative_error)
                                             : nlohmann::ordered_json(nullptr);

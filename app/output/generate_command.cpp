@@ -89,10 +89,12 @@ std::string generate_command(const std::string& model, const Request& request) {
   return words.text();
 }
 
-std::string run_command(const std::string& model, const Request& request, const Rational& h) {
+std::string run_command(const std::string& model, const Request& request, const Rational& h,
+                        long steps) {
   Words words("run", model);
   words.add_step(request);
   words.add("--h", step_text(h));
+  words.add("--steps", std::to_string(steps));
   return words.text();
 }
 

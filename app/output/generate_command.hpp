@@ -12,6 +12,6 @@ namespace hamgen::app {
 [[nodiscard]] std::string generate_command(const std::string& model, const Request& request);
 // The `hamgen run` command of the method with this step size, and of its scene.
 [[nodiscard]] std::string run_command(const std::string& model, const Request& request,
-                                      const Rational& h);
+                                      const Rational& h, long steps);
 
 }  // namespace hamgen::app

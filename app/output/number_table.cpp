@@ -46,14 +46,16 @@ class TableReader {
 
   NumberTable run() {
     std::string status = "# status";
-    bool is_ours = false;
+    bool is_made = false;
+    bool is_ours = false;  // of `run`: it ends with its status
     for (std::string line; std::getline(in_, line);) {
       ++number_;
       if (in_.eof())
         fail("the last line has no end: the file is cut off",
              "draw it without that line: head -n -1 FILE > OTHER");
       if (!line.empty() && line.back() == '\r') line.pop_back();
-      is_ours = is_ours || line.starts_with("# made by   hamgen");
+      is_made = is_made || line.starts_with("# made by   hamgen");
+      is_ours = is_ours || (is_made && line.starts_with("step,t"));
       table_.is_whole = !is_ours || line.starts_with(status);
       if (line.starts_with("# ")) read_remark(std::string_view(line).substr(2));
       if (line.empty() || line.front() == '#') continue;

@@ -104,7 +104,7 @@ std::string advice_answer(const ReportContent& content) {
       "<br>{}",
       html_text(method.spec), named_value("h", to_double(row.h), 4),
       html_seconds(time_of(row).seconds_per_time),
-      command_markup(run_command(content.file, method.request, row.h)));
+      command_markup(run_command(content.file, method.request, row.h, row.steps)));
 }
 
 std::string left_out_answer(const PluginSource& plugin) {

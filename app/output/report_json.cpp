@@ -63,7 +63,7 @@ ReportJson answers_json(const ReportContent& content) {
       entry["scheme"] = method.spec;
       entry["h"] = to_double(row.h);
       entry["s_per_time"] = time_of(row).seconds_per_time;
-      entry["command"] = run_command(content.path, method.request, row.h);
+      entry["command"] = run_command(content.path, method.request, row.h, row.steps);
     } else {
       entry["scheme"] = nullptr;
     }

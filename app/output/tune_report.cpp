@@ -65,6 +65,13 @@ Json tune_json_number(std::optional<double> value) {
   return *value;
 }
 
+// Where both runs came to their end, and the energy spread is less by that factor, or gone.
+bool is_worth_while(const TuneReport& report) {
+  const std::optional<double> before = report.gauges.front().measured_spread();
+  const std::optional<double> after = report.gauges.back().measured_spread();
+  return before && after && *before > report.rounding() && *before >= kWorthTuning * *after;
+}
+
 }  // namespace
 
 std::string verdict_of(const TuneReport& report) {
@@ -74,7 +81,9 @@ std::string verdict_of(const TuneReport& report) {
     return "nothing to tune: the midpoint rule keeps this energy to rounding";
   const std::optional<double> gain = report.gain();
   if (!best.measured.failure.empty()) return "worth nothing here: the tuned run failed";
-  const bool worth = !gain || *gain >= kWorthTuning;
+  if (!midpoint.measured.failure.empty())
+    return "nothing to compare with: the run of the midpoint rule failed";
+  const bool worth = is_worth_while(report);
   // Nothing is gained in the energy; the phase may still be better.
   const bool phase = midpoint.state_error && best.state_error &&
                      *midpoint.state_error >= kWorthTuning * *best.state_error;
@@ -165,7 +174,7 @@ std::string tune_json(const TuneReport& report) {
                      {"energy_scale", tune_json_number(report.energy_scale())},
                      {"gauges", gauges},
                      {"gain", tune_json_number(report.gain())},
-                     {"worth_while", report.gain().value_or(0.0) >= kWorthTuning},
+                     {"worth_while", is_worth_while(report)},
                      {"evaluations", report.evaluations},
                      {"polish_ended", report.polish_ended},
                      {"command", generate_command(report.path, report.request)}};

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "app/studies/ball_expression.hpp"
+#include "generator/algebra/functions.hpp"
+
 namespace hamgen::app {
 namespace {
 
@@ -94,6 +97,12 @@ Ball Ball::function(std::string_view name, std::span<const Ball> arguments) {
     return binary(arb_atan2, arguments[0], arguments[1]);
   const auto* row = std::ranges::find(ball_functions, name, &BallFunction::name);
   if (row == ball_functions.end() || arguments.size() != 1) {
+    const Function* others = find_function(name);
+    if (others != nullptr && others->by_others != nullptr && arguments.size() == 1) {
+      const Expression x = Expression::symbol("x");
+      return evaluate_in_balls(others->by_others(std::span(&x, 1)), {{"x", arguments[0]}},
+                               arguments[0].bits_);
+    }
     arb_indeterminate(result.value_);
     return result;
   }

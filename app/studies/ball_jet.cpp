@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "app/studies/ball_expression.hpp"
+#include "generator/algebra/derivative.hpp"
+#include "generator/algebra/functions.hpp"
+
 namespace hamgen::app {
 namespace {
 
@@ -207,17 +211,33 @@ BallJet power(const BallJet& base, const BallJet& exponent) {
   return chain(base, {x.power(e), e * x.power(less), e * less * x.power(less - Ball(1))});
 }
 
+namespace {
+
+// By the derivative that its row of the table says; not finite where that has none.
+Derivatives by_table(std::string_view name, const Ball& x) {
+  const Function* row = find_function(name);
+  if (row == nullptr || row->slopes[0] == nullptr) return reciprocal(Ball(0));
+  const Expression place = Expression::symbol("x");
+  const Expression slope = row->slopes[0](std::span(&place, 1));
+  const std::map<std::string, Ball> values = {{"x", x}};
+  return {value_of(name, x), evaluate_in_balls(slope, values, x.bits()),
+          evaluate_in_balls(derivative(slope, place), values, x.bits())};
+}
+
+}  // namespace
+
 BallJet apply_function(std::string_view function, std::span<const BallJet> arguments) {
   if (function == "atan2") return angle(arguments[0], arguments[1]);
   for (const NamedRule& row : rules) {
     if (row.name != function) continue;
     return chain(arguments[0], row.rule(arguments[0].value));
   }
-  return chain(arguments[0], reciprocal(Ball(0)));
+  return chain(arguments[0], by_table(function, arguments[0].value));
 }
 
 bool has_ball_derivatives(std::string_view function) {
-  return function == "atan2" ||
+  const Function* row = find_function(function);
+  return function == "atan2" || (row != nullptr && row->by_others != nullptr) ||
          std::ranges::any_of(rules, [&](const NamedRule& row) { return row.name == function; });
 }
 

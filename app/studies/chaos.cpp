@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -52,12 +53,21 @@ class Deviations {
     }
   }
 
-  [[nodiscard]] bool step() {
+  // Where the next step ends, and by which map; or why it cannot be made.
+  [[nodiscard]] std::optional<runtime::Status> look_ahead() {
     if (plugin_.tangent(parameters_.data(), request_.start.h.hi, state_.data(), next_.data(),
                         map_.data()) == 0)
-      return false;
-    if (!map_.allFinite() || !std::ranges::all_of(next_, [](double x) { return std::isfinite(x); }))
-      return false;
+      return runtime::Status::not_converged;
+    const auto is_number = [](double x) { return std::isfinite(x); };
+    if (!map_.allFinite() || !std::ranges::all_of(next_, is_number) || !is_number(energy_ahead()))
+      return runtime::Status::left_domain;
+    return {};
+  }
+  [[nodiscard]] double energy_ahead() const { return request_.library->energy(parameters_, next_); }
+  [[nodiscard]] const std::vector<double>& state_ahead() const { return next_; }
+
+  // Makes the step that was looked at.
+  void take() {
     state_.swap(next_);
     ++steps_;
     columns_ = map_ * columns_;
@@ -67,11 +77,9 @@ class Deviations {
       columns_.col(j) /= length;
     }
     if (request_.spectrum) turn_frame();
-    return true;
   }
 
   [[nodiscard]] double time() const { return static_cast<double>(steps_) * request_.start.h.hi; }
-  [[nodiscard]] double energy() const { return request_.library->energy(parameters_, state_); }
   [[nodiscard]] const std::vector<double>& state() const { return state_; }
 
   [[nodiscard]] ChaosSample sample() const {
@@ -137,6 +145,8 @@ Chaos chaos(const ChaosRequest& request) {
                              request.start.defined_everywhere);
   Chaos result{.samples = {}, .spectrum = {}, .deviations = deviations.count()};
   result.energy_scale = judge.energy_terms();
+  double limit = judge.jump_limit();
+  long sampled = 0;
   long next = std::min(kFirstSample, request.steps);
   while (result.steps < request.steps && result.status == runtime::Status::done) {
     if (result.steps % kStepsOfAProgress == 0) {
@@ -144,21 +154,26 @@ Chaos chaos(const ChaosRequest& request) {
       if (is_stopped(request.stop)) result.status = runtime::Status::stopped;
     }
     if (result.status != runtime::Status::done) break;
-    const std::vector<double> before = deviations.state();
-    if (!deviations.step()) {
-      result.status =
-          judge.failure(runtime::Status::not_converged, before, result.largest_energy_error);
+    std::optional<runtime::Status> failure = deviations.look_ahead();
+    const double error = failure ? 0.0 : std::abs(deviations.energy_ahead() - judge.energy().hi);
+    if (!failure && error > limit) {
+      const auto raised = judge.raised_limit(limit, deviations.state_ahead(), error);
+      if (!raised) failure = runtime::Status::jumped;
+      limit = raised.value_or(limit);
+    }
+    if (failure) {
+      result.status = judge.failure(*failure, deviations.state(), result.largest_energy_error);
       break;
     }
+    deviations.take();
+    result.largest_energy_error = std::max(result.largest_energy_error, error);
     if (++result.steps < next) continue;
     next = std::min(request.steps,
                     std::max(next + 1, static_cast<long>(kGrowth * static_cast<double>(next))));
-    const double error = std::abs(deviations.energy() - judge.energy().hi);
-    result.largest_energy_error = std::max(result.largest_energy_error, error);
-    if (!(error <= judge.jump_limit()))
-      result.status = judge.failure(runtime::Status::jumped, deviations.state(), error);
     result.samples.push_back(deviations.sample());
+    sampled = result.steps;
   }
+  if (sampled < result.steps) result.samples.push_back(deviations.sample());
   if (request.spectrum && result.steps > 0) result.spectrum = deviations.spectrum();
   return result;
 }

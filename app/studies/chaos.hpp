@@ -47,7 +47,7 @@ struct ChaosSample {
 struct Chaos {
   runtime::Status status = runtime::Status::done;
   long steps = 0;
-  double largest_energy_error = 0.0;  // at the samples
+  double largest_energy_error = 0.0;  // after every step
   double energy_scale = 0.0;          // see runtime::Judge::energy_terms
   std::vector<ChaosSample> samples;   // the last one at the end; times grow by about a tenth
   std::vector<double> spectrum;       // exponents, the largest first; empty if not asked for

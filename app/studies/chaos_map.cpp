@@ -24,10 +24,11 @@ SceneValues scene_at(const ChaosMapRequest& request, const std::vector<double>& 
 ChaosCell cell_at(const ChaosMapRequest& request, const std::vector<double>& at) {
   ChaosCell cell;
   try {
-    const runtime::InitialValues start =
-        initial_values(*request.plugin, scene_at(request, at), *request.library);
-    const Chaos found = chaos(
-        {.library = request.library, .start = start, .steps = request.steps, .stop = request.stop});
+    const SceneValues scene = scene_at(request, at);
+    const Chaos found = chaos({.library = request.library,
+                               .start = initial_values(*request.plugin, scene, *request.library),
+                               .steps = *scene.steps,
+                               .stop = request.stop});
     cell.status = found.status;
     if (!found.samples.empty()) cell.end = found.samples.back();
   } catch (const ModelError& error) {

@@ -28,8 +28,7 @@ struct ChaosMapRequest {
   const PluginSource* plugin = nullptr;
   std::shared_ptr<const runtime::Library> library;
   SceneRequest scene;
-  std::vector<ChaosAxis> axes;  // one or two
-  long steps = 0;
+  std::vector<ChaosAxis> axes;                      // one or two
   std::function<void(long done)> on_progress = {};  // of the cells
   StopFlag stop = nullptr;
 };

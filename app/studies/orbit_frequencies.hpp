@@ -12,13 +12,13 @@ namespace hamgen::app {
 
 struct DegreeFrequencies {
   std::vector<Harmonic> harmonics;  // of q + i p
-  // The largest one's frequency in the second half of the time less that in the first: rounding
+  // The largest one's frequency in the last half of so many steps less that in the first: rounding
   // on a regular orbit, diffusion on a chaotic one.
   double change = 0.0;
 };
 
-// Of `steps` steps, sampled at most 16384 times.  Empty where the orbit ends before or `stop`
-// is set.
+// Of an orbit of `steps` steps: of the first 65536 of them, or all.  Empty where the orbit ends
+// before or `stop` is set.
 [[nodiscard]] std::vector<DegreeFrequencies> orbit_frequencies(
     const std::shared_ptr<const runtime::Library>& library, const runtime::InitialValues& start,
     long steps, int count, StopFlag stop);

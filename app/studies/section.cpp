@@ -48,6 +48,7 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
     const double value_after = locator.value(after);
     for (const runtime::Crossing& crossing :
          locator.within(before, value_before, after, value_after)) {
+      if (static_cast<long>(orbit.points.size()) == request.points) break;
       const auto values = axes(crossing.state);
       const double steps = static_cast<double>(orbit.steps - 1) + crossing.fraction;
       orbit.points.push_back({steps * start.h.hi, values[1].hi, values[2].hi});

@@ -81,7 +81,8 @@ struct StressRequest {
   Setting setting;               // alpha, beta, gamma are the axes' names where these vary them
   std::vector<StressAxis> axes;  // one or two
   StressLimits limits;
-  bool with_bound = false;  // what only a picture shows takes its time: StressMap::linear_bound
+  bool of_one_time = false;  // all cells: h must not change
+  bool with_bound = false;   // what only a picture shows takes its time: StressMap::linear_bound
   ProgressSink on_progress;
 };
 

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "app/studies/load_integrator.hpp"
 #include "app/studies/stress_grid.hpp"
 #include "app/studies/stress_references.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "runtime/csv_writer.hpp"
 #include "runtime/provenance.hpp"
 
 namespace hamgen::app {
@@ -54,6 +56,7 @@ void run_all(const std::string& label, std::size_t count, const StressRequest& r
 void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest& request,
                StressMap& map) {
   std::vector<runtime::InitialValues> starts(map.cells.size());
+  std::optional<double> first_h;
   std::size_t undefined = 0;
   // In a map of nothing but these the model or the command is wrong: the caller's exception.
   const auto is_undefined = [&](StressCell& cell, const std::string& reason) {
@@ -78,7 +81,14 @@ void run_cells(StressGrid& grid, const StressLimits& limits, const StressRequest
       if (!is_undefined(cell, text.substr(0, text.find('\n')))) throw;
       continue;
     }
-    cell.h = starts[i].h.hi;
+    const double h = starts[i].h.hi;
+    cell.h = h;
+    if (!first_h) first_h = h;
+    if (request.of_one_time && h != *first_h)
+      throw UsageError(
+          fmt::format("--time: h is {} in one cell and {} in another, and so many steps are of "
+                      "different lengths\nhelp: say --steps N, or one --h H for all cells",
+                      runtime::number_text(*first_h), runtime::number_text(h)));
     if (const auto linear = grid.linear_at(at)) {
       cell.h_omega = linear->h_omega;
       cell.linear_bounded = linear->margin > 0.0;

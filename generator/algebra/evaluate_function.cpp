@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "generator/algebra/from_ginac.hpp"
-#include "generator/algebra/functions.hpp"
+#include "generator/algebra/ginac_functions.hpp"
 
 namespace hamgen {
 namespace {
@@ -17,13 +17,14 @@ namespace {
 constexpr long largest_argument_of_exp = 20000;
 
 // Sets GiNaC's global precision for as long as it lives: enough digits to keep 60 after the
-// argument of a periodic function has lost its multiples of 2 pi.
+// argument of a periodic function has lost its multiples of 2 pi, or exp(x) - 1 its 1.
 class Precision {
  public:
   explicit Precision(std::span<const Rational> arguments) : before_(GiNaC::Digits) {
     std::size_t digits = 60;
     for (const Rational& x : arguments) {
-      if (abs(x) > 1) digits = std::max(digits, 60 + Integer(x).get_str().size());
+      const Rational size = abs(x) < 1 && x != 0 ? Rational(1 / x) : x;
+      digits = std::max(digits, 60 + Integer(size).get_str().size());
     }
     set(static_cast<long>(digits));
   }
@@ -85,14 +86,11 @@ GiNaC::ex argument(const Rational& x) {
   return multiple.get_den() <= 6 ? to_ginac(multiple) * GiNaC::Pi : GiNaC::ex(to_ginac(x));
 }
 
-// The table names its functions as GiNaC does, so GiNaC finds the function by its name.
-GiNaC::ex call(std::string_view name, std::span<const Rational> arguments) {
-  if (name == "sqrt") return GiNaC::sqrt(to_ginac(arguments.front()));
-  const auto arity = static_cast<unsigned>(arguments.size());
-  const unsigned serial = GiNaC::function::find_function(std::string(name), arity);
+GiNaC::ex call(const Function& function, std::span<const Rational> arguments) {
+  if (function.name == "sqrt") return GiNaC::sqrt(to_ginac(arguments.front()));
   GiNaC::exvector values;
   for (const Rational& x : arguments) values.push_back(argument(x));
-  const GiNaC::ex exact = GiNaC::function(serial, values);
+  const GiNaC::ex exact = GiNaC::function(ginac_serial(function), values);
   return exact.evalf();
 }
 
@@ -125,7 +123,7 @@ std::optional<Rational> evaluate_function(std::string_view name,
     return std::isfinite(limit) ? std::optional(from_double(limit)) : std::nullopt;
   }
   try {
-    return real_value(call(name, arguments));
+    return real_value(call(*function, arguments));
   } catch (const std::exception&) {  // a pole or an overflow GiNaC or CLN reports
     return std::nullopt;
   }

@@ -3,8 +3,8 @@
 #include <quadmath.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "generator/algebra/expression.hpp"
 
@@ -33,7 +33,7 @@ Expression inverse(const Expression& x) { return Expression::power(x, -1); }
               [](long double x, long double y) { return std::function(x, y); }, \
               [](Quad x, Quad y) -> Quad { return function##q(x, y); }}
 
-const std::array<Function, 17> table = {{
+const Function table[] = {
     {.name = "abs",
      HAMGEN_LIBRARY(fabs),
      .description = "absolute value, derivative x/abs(x)",
@@ -133,6 +133,16 @@ const std::array<Function, 17> table = {{
      .is_exponential = true,
      .has_latex_name = true,
      .slopes = {[](X x) { return call("exp", x); }}},
+    {.name = "expm1",
+     HAMGEN_LIBRARY(expm1),
+     .description = "exp(x) - 1, exact near x = 0 too",
+     .domain = "all x",
+     .is_smooth = true,
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .is_exponential = true,
+     .slopes = {[](X x) { return call("exp", x); }},
+     .by_others = [](X x) { return call("exp", x) - 1; }},
     {.name = "log",
      HAMGEN_LIBRARY(log),
      .description = "natural logarithm",
@@ -142,6 +152,14 @@ const std::array<Function, 17> table = {{
      .exact_at = 1,
      .has_latex_name = true,
      .slopes = {[](X x) { return inverse(x[0]); }}},
+    {.name = "log1p",
+     HAMGEN_LIBRARY(log1p),
+     .description = "log(1 + x), exact near x = 0 too",
+     .domain = "x > -1",
+     .shape = Shape::ascending,
+     .exact_at = 0,
+     .slopes = {[](X x) { return inverse(1 + x[0]); }},
+     .by_others = [](X x) { return Expression::apply("log", {1 + x[0]}); }},
     {.name = "sin",
      HAMGEN_LIBRARY(sin),
      .description = "sine",
@@ -194,7 +212,7 @@ const std::array<Function, 17> table = {{
      .is_exponential = true,
      .has_latex_name = true,
      .slopes = {[](X x) { return 1 - square(call("tanh", x)); }}},
-}};
+};
 
 #undef HAMGEN_LIBRARY
 #undef HAMGEN_LIBRARY_OF_TWO
@@ -205,7 +223,7 @@ std::span<const Function> all_functions() { return table; }
 
 const Function* find_function(std::string_view name) {
   const auto* row = std::ranges::find(table, name, &Function::name);
-  return row == table.end() ? nullptr : row;
+  return row == std::end(table) ? nullptr : row;
 }
 
 }  // namespace hamgen

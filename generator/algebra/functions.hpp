@@ -1,5 +1,5 @@
-// THE TABLE of functions the language knows.  To add a function, add one row in functions.cpp; what
-// no row can say is in docs/extending.md.
+// THE TABLE of functions the language knows.  To add a function, add one row in functions.cpp; an
+// example is in docs/extending.md.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ enum class Parity { none, odd, even };
 enum class Shape { unknown, ascending, descending, valley_at_zero, sine, cosine, tangent };
 
 struct Function {
-  std::string_view name;  // in the language, and in GiNaC where the two agree
+  std::string_view name;  // in the language, and in GiNaC where that knows it
   int arity = 1;
   std::string_view cpp;   // in <cmath>, without std::
   std::string_view quad;  // in <quadmath.h>; empty for those written as a power
@@ -59,6 +59,8 @@ struct Function {
   // The derivatives by its arguments: what power series and bounds of rounding follow from.
   using Slope = Expression (*)(std::span<const Expression> arguments);
   std::array<Slope, 2> slopes = {};
+  // Of a function of one argument that GiNaC does not know: its value by others.
+  Slope by_others = nullptr;
 };
 
 // All functions in alphabetical order.

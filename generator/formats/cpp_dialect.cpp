@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "generator/algebra/functions.hpp"
+#include "generator/base/fixed_blocks.hpp"
 
 namespace hamgen {
 
@@ -19,7 +20,13 @@ std::string CppDialect::function(const std::string& name) const {
 std::string CppDialect::lane_function(const std::string& name) const {
   // Those of both are exactly rounded.
   const bool same = name == "sqrt" || name == "abs";
-  return library_ && !same ? "library<" + CppDialect::function(name) + ">" : "lane_" + name;
+  if (same || (!library_ && has_own_lanes(name))) return "lane_" + name;
+  const Function* row = find_function(name);
+  return fmt::format("library<std::{}>", row != nullptr ? std::string(row->cpp) : name);
+}
+
+bool CppDialect::has_own_lanes(const std::string& name) {
+  return is_defined(lane_blocks(), "lane_" + name);
 }
 
 std::vector<std::string> CppDialect::taken_names() const {

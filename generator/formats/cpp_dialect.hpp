@@ -21,6 +21,8 @@ class CppDialect : public Dialect {
   // The functions of lanes.
   [[nodiscard]] std::vector<std::string> taken_names() const override;
   [[nodiscard]] std::string lane_function(const std::string& name) const override;
+  // Is the function on lanes a block of ours?  If not, lanes have the library's.
+  [[nodiscard]] static bool has_own_lanes(const std::string& name);
   [[nodiscard]] std::string empty_record(const std::string& name) const override {
     return name + "()";
   }

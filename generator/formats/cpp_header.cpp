@@ -42,18 +42,24 @@ void declare_quad_functions(CodeWriter& out, const std::set<std::string>& functi
   if (!declared.empty()) out.line("}");
 }
 
+// Is there one that lanes have from the library, which no builtin is called by?
+bool has_no_lanes(const std::set<std::string>& functions) {
+  return !std::ranges::all_of(functions, CppDialect::has_own_lanes);
+}
+
 void write_includes(CodeWriter& out, const EmitContext& context, const Support& support) {
   const bool shared = context.options.shared_support;
   if (context.options.lanes > 0) {
     const std::optional<ArrayMatrix>& matrix = context.program.matrix;
     const bool sparse = matrix && matrix->kind == MatrixKind::eigen_sparse;
     if (sparse) out.line("#include <algorithm>");
-    if (context.options.library_functions) out.line("#include <cmath>");
+    if (context.options.library_functions || !context.used.functions.empty())
+      out.line("#include <cmath>");
     if (sparse) out.line("#include <vector>");
   } else if (context.quad()) {
     declare_quad_functions(out, context.used.functions);
   } else if ((!context.used.functions.empty() && !context.options.builtins) ||
-             support.uses_cmath(shared)) {
+             support.uses_cmath(shared) || has_no_lanes(context.used.functions)) {
     out.line("#include <cmath>");
   }
   if (support.uses_eigen()) {

@@ -51,7 +51,8 @@ constexpr int kDigits<Quad> = FLT128_MANT_DIG;
 template <class Real>
 NumericFunction<Real> numeric_function(const std::string& name, FunctionsOf functions) {
   if constexpr (std::is_same_v<Real, double>) {
-    if (functions == FunctionsOf::lanes && !is_rounding_error(name)) return lane_function(name);
+    const bool of_lanes = functions == FunctionsOf::lanes;
+    if (const auto own = of_lanes ? lane_function(name) : nullptr; own != nullptr) return own;
   }
   if (name == "pow") return OfScalar<Real>::power;
   if (name == kProductError) return NumericsOf<Real>::lost_of_product;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "generator/algebra/from_ginac.hpp"
-#include "generator/algebra/functions.hpp"
+#include "generator/algebra/ginac_functions.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
@@ -63,8 +63,7 @@ Precise precise_function(const std::string& name, const std::vector<Precise>& x)
   if (static_cast<long>(GiNaC::Digits) != kPreciseDigits) GiNaC::Digits = kPreciseDigits;
   GiNaC::exvector arguments;
   for (const Precise& a : x) arguments.emplace_back(GiNaC::numeric(a));
-  const unsigned serial = GiNaC::function::find_function(name, static_cast<unsigned>(x.size()));
-  const GiNaC::ex value = GiNaC::function(serial, arguments).evalf();
+  const GiNaC::ex value = GiNaC::function(ginac_serial(*row), arguments).evalf();
   require(GiNaC::is_a<GiNaC::numeric>(value));
   const auto& number = GiNaC::ex_to<GiNaC::numeric>(value);
   require(number.is_real());

@@ -14,17 +14,6 @@
 namespace hamgen {
 namespace {
 
-using Real = double (*)(double);
-
-const std::map<std::string, Real>& library() {
-  static const std::map<std::string, Real> functions = {
-      {"abs", std::fabs},    {"acos", std::acos}, {"acosh", std::acosh}, {"asin", std::asin},
-      {"asinh", std::asinh}, {"atan", std::atan}, {"atanh", std::atanh}, {"cos", std::cos},
-      {"cosh", std::cosh},   {"exp", std::exp},   {"log", std::log},     {"sin", std::sin},
-      {"sinh", std::sinh},   {"sqrt", std::sqrt}, {"tan", std::tan},     {"tanh", std::tanh}};
-  return functions;
-}
-
 TEST(Functions, are_in_alphabetical_order) {
   EXPECT_TRUE(std::ranges::is_sorted(all_functions(), {}, &Function::name));
 }
@@ -33,11 +22,10 @@ TEST(Functions, are_in_alphabetical_order) {
 TEST(Functions, have_the_values_of_the_library_where_it_has_any) {
   for (const Function& function : all_functions()) {
     if (function.arity != 1) continue;
-    const Real real = library().at(std::string(function.name));
     for (const double x : {-40.0, -3.5, -1.0, -0.75, 0.0, 1e-9, 0.3, 1.0, 2.0, 100.0, 1e15}) {
       const Rational argument = from_double(x);
       const auto value = evaluate_function(function.name, std::span(&argument, 1));
-      const double expected = real(x);
+      const double expected = function.numbers.real(x, 0);
       const bool grows = std::isinf(expected) && function.domain == "all x";
       EXPECT_TRUE(grows || value.has_value() == std::isfinite(expected)) << function.name << x;
       if (value && std::isfinite(expected)) {
