@@ -141,6 +141,17 @@ TEST(Functions, whose_squares_have_a_partner_have_that_one) {
   }
 }
 
+// exp(x) - 1 has the digits of x, not those that 1 leaves of them.
+TEST(Functions, have_their_digits_near_zero) {
+  const Rational x = *parse_decimal("1e-45");
+  for (const auto& [name, sign] : {std::pair("expm1", 1), {"log1p", -1}}) {
+    const auto value = evaluate_function(name, std::span(&x, 1));
+    ASSERT_TRUE(value) << name;
+    EXPECT_LT(abs(*value / x - 1 - sign * x / 2), *parse_decimal("1e-55")) << name;
+    EXPECT_NE(*value, x) << name;
+  }
+}
+
 TEST(Functions, are_exact_where_the_value_is_rational) {
   const auto value = [](const char* name, Rational x) {
     return evaluate_function(name, std::span(&x, 1));

@@ -96,6 +96,9 @@ TEST(Bench, AnswersWhichStepReachesATarget) {
   EXPECT_TRUE(answer["run"].get<std::string>().starts_with(
       "hamgen run " + model + " --scheme implicit-midpoint --scene swing --h "))
       << answer["run"];
+  EXPECT_TRUE(
+      contains(answer["run"].get<std::string>(), " --steps " + result["rows"][2]["steps"].dump()))
+      << answer["run"];
 }
 
 TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {

@@ -86,6 +86,95 @@ TEST(Chaos, RefusesWhatItCannotVary) {
   }
 }
 
+// The energy is looked at after every step, and what is told of an orbit that ends is told of its
+// last good state.
+TEST(Chaos, LooksAtEveryStep) {
+  const std::string models = HAMGEN_SOURCE_DIR "/hamiltonians/";
+  const auto of = [](std::vector<std::string> words, int status) {
+    const Result result = hamgen(std::move(words));
+    EXPECT_EQ(result.status, status) << result.err;
+    return result;
+  };
+  const std::vector<std::string> encounter = {
+      models + "pythagorean.ham", "--h", "3e-4", "--time", "10", "--json"};
+  std::vector<std::string> chaos = {"chaos", "--quiet"};
+  chaos.insert(chaos.end(), encounter.begin(), encounter.end());
+  std::vector<std::string> run = {"run"};
+  run.insert(run.end(), encounter.begin(), encounter.end());
+  const auto measured = nlohmann::json::parse(of(chaos, 1).out);
+  const auto integrated = nlohmann::json::parse(of(run, 1).out);
+  const double error = measured["max_energy_error"];
+  EXPECT_NEAR(error, integrated["energy"]["max_error"].get<double>(), 0.05 * error);
+  EXPECT_EQ(measured["status"], integrated["status"]);
+  EXPECT_EQ(measured["steps"], integrated["steps_done"]);
+
+  const Scratch scratch;
+  const std::string logarithm = scratch.write("m.ham",
+                                              "coordinate q\nmomentum p\nH = p^2/2 - log(1 - "
+                                              "q)\nscene s { q = -3; p = 9; h = 0.07; steps = "
+                                              "100 }\n");
+  const auto left = nlohmann::json::parse(
+      of({"chaos", logarithm, "--scheme", "stormer-verlet", "--json", "--quiet"}, 1).out);
+  EXPECT_EQ(left["status"], "left the domain");
+  EXPECT_EQ(left["steps"], 6);
+  EXPECT_NEAR(left["samples"].back()["t"].get<double>(), 0.42, 1e-12);
+  EXPECT_GT(left["max_energy_error"].get<double>(), 1e-6);
+  EXPECT_TRUE(contains(of({"chaos", logarithm, "--steps", "0"}, 2).err, "there are none"));
+}
+
+// So many steps that the frequency would be folded if every hundredth were a sample.
+TEST(Chaos, FrequenciesOfALongOrbitAreThoseOfAShortOne) {
+  const auto of = [](const char* steps) {
+    const auto json = chaos_of("harmonic.ham", {"--steps", steps, "--frequencies", "1"});
+    return json["frequencies"].front()["harmonics"][0]["frequency"].get<double>();
+  };
+  EXPECT_NEAR(of("10000"), of("200000"), 1e-9);
+}
+
+TEST(Chaos, AMapOfOneTimeIsThatWhateverTheStep) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham",
+                                          "coordinate q\nmomentum p\nparameter w = 1\nparameter k "
+                                          "= 1\nH = p^2/2 + k*w^2*q^2/2 + q^4/4\nscene s { q = 1; "
+                                          "h = 0.1/w; steps = 100 }\n");
+  const Result map =
+      hamgen({"chaos", model, "--over", "w=1:4:4", "--time", "5", "--json", "--quiet"});
+  ASSERT_EQ(map.status, 0) << map.err;
+  const auto json = nlohmann::json::parse(map.out);
+  ASSERT_EQ(json["cells"].size(), 4U);
+  for (const auto& cell : json["cells"]) EXPECT_NEAR(cell["t"].get<double>(), 5, 0.1);
+  const Result stress = hamgen({"stress", model, "--vary", "w=1:2:2,k=1:2:2", "--time", "5"});
+  EXPECT_EQ(stress.status, 2);
+  EXPECT_TRUE(contains(stress.err, "so many steps are of different lengths")) << stress.err;
+  const Result equal = hamgen({"chaos", HAMGEN_SOURCE_DIR "/hamiltonians/harmonic.ham", "--over",
+                               "q=1:2:3", "--indicator", "fli", "--steps", "50", "--quiet"});
+  EXPECT_TRUE(contains(equal.out, "between 0 and 0")) << equal.out;
+}
+
+TEST(Chaos, ItsTableHasWhatWasAskedFor) {
+  const Result result = hamgen({"chaos", HAMGEN_SOURCE_DIR "/hamiltonians/harmonic.ham",
+                                "--spectrum", "--frequencies", "1", "--steps", "100", "-o", "-"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "\n# spectrum  "));
+  EXPECT_TRUE(contains(result.out, "\n# frequency of q: -"));
+}
+
+// Of any study that varies something.
+TEST(Varied, ANameIsSetOnce) {
+  const Scratch scratch;
+  const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham";
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"chaos", model, "--over", "q=0:1:3", "--initial", "q=2"},
+           {"chaos", model, "--over", "eps=1:2:3", "--set", "eps=2"},
+           {"stress", model, "--vary", "eps=1:2:3", "--set", "eps=2"},
+           {"ensemble", model, "--over", "q=0:1:3", "--initial", "q=2", "-o",
+            scratch.path("x.csv")}}) {
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << words[0];
+    EXPECT_TRUE(contains(result.err, "is varied, and a name is set once")) << result.err;
+  }
+}
+
 // What is asked for and cannot be given is not passed over.
 TEST(Chaos, HasOptionsOfAnOrbitAndOptionsOfAMap) {
   const std::string model = HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham";

@@ -121,6 +121,17 @@ TEST(EnsembleResume, DoesNothingTwice) {
   EXPECT_TRUE(contains(again.err, "nothing is missing")) << again.err;
 }
 
+TEST(EnsembleResume, DoesNotTakeACutFileForAWholeOne) {
+  const Scratch scratch;
+  const std::string whole = uninterrupted(scratch);
+  for (const std::size_t size : {whole.size() / 3, whole.rfind("# ended"), whole.size() - 1}) {
+    std::ofstream(scratch.path("x.csv"), std::ios::binary) << whole.substr(0, size);
+    const Result result = hamgen(with(command(scratch, "x.csv"), {"--resume"}));
+    EXPECT_EQ(result.status, 2) << size;
+    EXPECT_TRUE(contains(result.err, "is cut off")) << result.err;
+  }
+}
+
 TEST(EnsembleResume, DoesSpoiltRecordsAgain) {
   const Scratch scratch;
   const std::string whole = uninterrupted(scratch);

@@ -248,6 +248,14 @@ TEST(Ensemble, ComputesWhatDependsOnAVariedParameter) {
   }
 }
 
+TEST(Ensemble, RefusesSoManyStepsOfNoStatistics) {
+  const Scratch scratch;
+  const Result result = hamgen({"ensemble", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham",
+                                "--over", "q=0:1:3", "--every", "5", "-o", scratch.path("x.csv")});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "--every 5: statistics")) << result.err;
+}
+
 TEST(Ensemble, RefusesWhatMakesNoSense) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);

@@ -113,6 +113,16 @@ TEST(SectionCommand, WritesPointsPictureAndJson) {
   EXPECT_TRUE(contains(read(scratch.path("s.svg")), "</svg>"));
 }
 
+// No more points than were asked for, though the last step crosses twice.
+TEST(SectionCommand, HasNoMorePointsThanWereAskedFor) {
+  const Result result =
+      hamgen({"section", HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham", "--points", "5",
+              "--direction", "both", "--orbits", "0", "--surface", "q1^2+q2^2 = 0.01", "--axes",
+              "q1*p2-q2*p1,p1", "--json", "--quiet"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["orbits"][0]["points"].size(), 5U);
+}
+
 // Where orbits end, those say where to begin that did not.
 TEST(SectionCommand, SaysWhereOrbitsBeganThatStayed) {
   app::Section section;
@@ -138,6 +148,9 @@ TEST(SectionCommand, RefusesWhatIsNoSection) {
         {{"--axes", "q1,p2"}, "q1 is 0 on the surface everywhere"},
         {{"--from", "q2=1"}, "a range of both axes"},
         {{"--from", "q2=1:0,p2=0:1"}, "the lower end comes first"},
+        {{"--from", "q2=0:1,p2=0:1,p1=3:4"}, "none of the axes q2 and p2"},
+        {{"--from", "q2=0:1,p2=0:1,q2=0:2"}, "q2 has two ranges"},
+        {{"--surface", "q1 = q2"}, "orbits start where q1 has a value"},
         {{"--orbits", "0", "--from", "q2=0:1,p2=0:1"}, "the scene's own orbit"},
         {{"--orbits", "0", "--energy", "1/8"}, "the scene's own orbit"},
         {{"--energy", "much"}, "--energy"},

@@ -105,6 +105,17 @@ TEST(Tune, SaysThatItIsWorthNothingWhereTheGainIsSmall) {
       << harmonic.out;
 }
 
+// Where the midpoint rule's run fails, no spread is gone.
+TEST(Tune, HasNothingToCompareWithWhereTheMidpointRunFailed) {
+  const std::string kepler = HAMGEN_SOURCE_DIR "/hamiltonians/kepler.ham";
+  const std::vector<std::string> words = {"tune", kepler, "--steps",   "300",
+                                          "--h",  "0.5",  "--samples", "50"};
+  const Result result = hamgen(words);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "nothing to compare with: the run of the midpoint rule failed"))
+      << result.out;
+}
+
 // A flat energy is not all: the phase of this one is better by more than a factor of two.
 TEST(Tune, DoesNotCallABetterPhaseWorthNothing) {
   const Scratch scratch;

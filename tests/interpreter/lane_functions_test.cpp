@@ -18,7 +18,8 @@ TEST(LaneFunctions, AreThereForEveryFunctionThatLanesHave) {
     EXPECT_EQ(own != nullptr, is_defined(lane_blocks(), "lane_" + name)) << name;
     const double x = row.name == "acosh" ? 1.5 : 0.5;
     const double exact = row.numbers.real(x, 0.75);
-    if (own != nullptr) EXPECT_NEAR(own(x, 0.75), exact, 0x1p-52 * std::abs(exact)) << name;
+    if (own == nullptr) continue;
+    EXPECT_NEAR(own(x, 0.75), exact, 0x1p-52 * std::abs(exact)) << name;
   }
   EXPECT_EQ(lane_function("zeta"), nullptr);
   EXPECT_NEAR(lane_function("pow")(0.5, 0.75), std::pow(0.5, 0.75), 0x1p-52);
