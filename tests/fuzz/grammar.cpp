@@ -210,7 +210,7 @@ class Writer {
   std::string call(int depth) {
     const std::string name =
         random_.of({"abs", "acos", "acosh", "asin", "asinh", "atan", "atanh", "cos", "cosh", "exp",
-                    "log", "sin", "sinh", "sqrt", "tan", "tanh"});
+                    "expm1", "log", "log1p", "sin", "sinh", "sqrt", "tan", "tanh"});
     if (random_.one_in(16)) {
       return fmt::format("atan2({}, {})", expression(depth - 1), expression(depth - 1));
     }

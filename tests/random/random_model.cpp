@@ -118,7 +118,11 @@ class Writer {
     if (depth <= 0) return of[pick(of)];
     const std::string u = smooth(of, depth - 1);
     const std::string v = of[pick(of)];
-    switch (random_.below(24)) {
+    switch (random_.below(26)) {
+      case 24:
+        return fmt::format("expm1(sin({}))", u);
+      case 25:
+        return fmt::format("log1p(({})^2)", u);
       case 0:
         return fmt::format("sin({})", u);
       case 1:
