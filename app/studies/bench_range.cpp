@@ -19,6 +19,10 @@ constexpr long kFewestSteps = 4;
 long step_count(const Rational& time, const Rational& h) {
   const Rational count = time / h;
   const double wanted = to_double(count);
+  if (wanted < 0.0)
+    throw UsageError(fmt::format(
+        "h = {0:g} goes the other way than the time {1:g}\nhelp: --h {2:g}, or --time {3:g}",
+        to_double(h), to_double(time), -to_double(h), -to_double(time)));
   if (!(wanted > 0.0) || wanted > static_cast<double>(kMostBenchSteps))
     throw UsageError(
         fmt::format("h = {:g} makes {:.3g} steps of the time {:g}\nhelp: between 1 and "

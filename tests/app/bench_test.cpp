@@ -101,6 +101,14 @@ TEST(Bench, AnswersWhichStepReachesATarget) {
       << answer["run"];
 }
 
+TEST(Bench, SaysThatAStepAndATimeHaveDifferentSigns) {
+  const Scratch scratch;
+  const Result result =
+      bench({scratch.write("m.ham", pendulum), "--time", "10", "--h=-0.2", "--schemes", "gauss-4"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.err, "goes the other way")) << result.err;
+}
+
 TEST(Bench, SaysSoWhenNoMethodReachesTheTarget) {
   const Scratch scratch;
   const Result result = bench({scratch.write("m.ham", pendulum), "--time", "10", "--h", "0.2,0.1",
