@@ -27,8 +27,7 @@ struct ChaosOptions {
   MethodOptions method;
   SceneOptions scene;
   std::vector<std::string> over;
-  std::string indicator;    // megno where nothing else is asked for
-  std::string frequencies;  // none
+  std::string indicator, frequencies;  // empty where not asked for
   std::string output, plot;
   CompilerChoice compiler;
   bool spectrum = false;
@@ -90,6 +89,8 @@ Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std:
   Loaded loaded;
   loaded.setting = std::move(setting);
   loaded.scene = complete_scene(loaded.setting.model, loaded.setting.scene);
+  if (*loaded.scene.steps < 1)
+    throw UsageError("deviations grow in steps, and there are none\nhelp: --steps 10000");
   take_gauge_at(loaded.scene, loaded.setting.model, loaded.setting.request);
   specialise(options.scene, loaded.scene, names, Observing::everything, loaded.setting);
   loaded.setting.request.tangent = true;
@@ -132,8 +133,8 @@ void write_chaos_files(const ChaosOptions& options, const ChaosTexts& texts,
                options.quiet, &interrupt_flag());
 }
 
-int run_map(const ChaosOptions& options, const Loaded& loaded, std::vector<ChaosAxis> axes) {
-  const Indicator& indicator = read_indicator(options.indicator);
+int run_map(const ChaosOptions& options, const Loaded& loaded, const Indicator& indicator,
+            const std::vector<ChaosAxis>& axes) {
   const long all =
       static_cast<long>(axes[0].values.size() * (axes.size() > 1 ? axes[1].values.size() : 1));
   std::vector<ChaosCell> cells;
@@ -163,7 +164,7 @@ int run_map(const ChaosOptions& options, const Loaded& loaded, std::vector<Chaos
              : numerical_failure;
 }
 
-int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
+int run_orbit(const ChaosOptions& options, const Loaded& loaded, int frequencies) {
   const runtime::InitialValues start =
       initial_values(loaded.plugin, loaded.scene, *loaded.library.library);
   const long steps = *loaded.scene.steps;
@@ -178,9 +179,9 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded) {
                    .stop = &interrupt_flag()});
   }
   std::vector<DegreeFrequencies> degrees;
-  const int count = read_count(options.frequencies);
-  if (count > 0 && found.status == runtime::Status::done)
-    degrees = orbit_frequencies(loaded.library.library, start, steps, count, &interrupt_flag());
+  if (frequencies > 0 && found.status == runtime::Status::done)
+    degrees =
+        orbit_frequencies(loaded.library.library, start, steps, frequencies, &interrupt_flag());
   const ChaosTitle title = title_of(loaded);
   write_chaos_files(options,
                     {.people = chaos_text(found, title) + frequencies_text(degrees, title),
@@ -196,8 +197,8 @@ int run_chaos(const ChaosOptions& options) {
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   require_one_document(options.json, table_kind(options.output));
   require_for_what(options);
-  if (!options.indicator.empty()) (void)read_indicator(options.indicator);
-  (void)read_count(options.frequencies);
+  const Indicator& indicator = read_indicator(options.indicator);
+  const int frequencies = read_count(options.frequencies);
   require_writable({options.output, options.plot});
   Setting setting = read_setting(options.method, options.scene);
   const std::set<std::string> names = varied_names(setting.model);
@@ -219,9 +220,8 @@ int run_chaos(const ChaosOptions& options) {
                     "help: smaller COUNTs: a picture of 1000 by 1000 is a fine one",
                     axes[0].values.size() * axes[1].values.size(), most));
   const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()});
-  if (*loaded.scene.steps < 1)
-    throw UsageError("deviations grow in steps, and there are none\nhelp: --steps 10000");
-  return axes.empty() ? run_orbit(options, loaded) : run_map(options, loaded, std::move(axes));
+  return axes.empty() ? run_orbit(options, loaded, frequencies)
+                      : run_map(options, loaded, indicator, axes);
 }
 
 }  // namespace

@@ -145,9 +145,8 @@ void require_intervals(const SectionOptions& options, const Geometry& g) {
   for (const Assignment& each : split_assignments("--from", options.from)) {
     if (each.first != g.first && each.first != g.second)
       throw UsageError(
-          fmt::format("--from {}={}: this is none of the axes {} and {}\nhelp: of other variables "
-                      "--initial sets "
-                      "one value",
+          fmt::format("--from {}={}: this is none of the axes {} and {}\n"
+                      "help: other variables have one value, by --initial",
                       each.first, each.second, g.first, g.second));
     if (!seen.insert(each.first).second)
       throw UsageError(fmt::format("--from: {} has two ranges", each.first));

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
@@ -72,13 +75,13 @@ std::unique_ptr<EnsembleFile> make_ensemble_file(const std::string& output,
 
 bool is_whole(const std::string& output) {
   if (ensemble_format(output) == EnsembleFormat::hdf5) return true;  // HDF5 opens no part of a file
-  std::ifstream in(output, std::ios::binary);
-  std::string last;
-  for (std::string line; std::getline(in, line);) {
-    if (in.eof()) return false;  // cut off within a line
-    last = std::move(line);
-  }
-  return last.starts_with("# ended");
+  constexpr std::streamoff kLine = 4096;                             // more than its last one has
+  std::ifstream in(output, std::ios::binary | std::ios::ate);
+  in.seekg(std::max<std::streamoff>(0, in.tellg() - kLine));
+  const std::string end((std::istreambuf_iterator<char>(in)), {});
+  if (!end.ends_with('\n')) return false;
+  const std::size_t line = end.rfind('\n', end.size() - 2);
+  return std::string_view(end).substr(line + 1).starts_with("# ended");  // npos + 1 is 0
 }
 
 std::vector<std::string> manifest_lines_of(const std::string& output) {

@@ -85,9 +85,9 @@ void require_file(const std::string& option, const std::string& name) {
   const std::filesystem::path path = name;
   if (path.has_filename() && !std::filesystem::is_directory(path))
     return runtime::require_writable(path);
-  throw UsageError(fmt::format(
-      "{0} {1}: this is a directory, and one file is written\nhelp: {0} {2}", option, name,
-      ((path / "").parent_path() / "NAME.csv").string()));
+  throw UsageError(
+      fmt::format("{0} {1}: this is a directory, and one file is written\nhelp: {0} {2}", option,
+                  name, ((path / "").parent_path() / "NAME.csv").string()));
 }
 
 void require_one_document(bool json, OutputKind kind) {

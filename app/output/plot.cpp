@@ -181,7 +181,7 @@ std::string axis_text(const PlotAxis& axis) {
 int small_font(bool png) { return png ? 9 : 12; }
 
 // What is below is shaded, where the data come near to it.
-std::string floor_text(const PlotPanel& panel, const Range& y, int small_font) {
+std::string floor_text(const PlotPanel& panel, const Range& y, int font) {
   if (!panel.floor || !(*panel.floor > y.low && *panel.floor < y.high)) return "";
   return fmt::format(
       "set object rectangle from graph 0, graph 0 to graph 1, first {0:.9g} behind fc rgb "
@@ -190,7 +190,7 @@ std::string floor_text(const PlotPanel& panel, const Range& y, int small_font) {
       "textcolor "
       "rgb "
       "'#555555'\n",
-      *panel.floor, small_font);
+      *panel.floor, font);
 }
 
 std::size_t longest_label(const PlotPanel& panel) {

@@ -56,11 +56,11 @@ struct Function {
   std::string_view square_partner = {};
   int square_sign = 1;
   bool has_latex_name = false;  // \sin
+  using Formula = Expression (*)(std::span<const Expression> arguments);
   // The derivatives by its arguments: what power series and bounds of rounding follow from.
-  using Slope = Expression (*)(std::span<const Expression> arguments);
-  std::array<Slope, 2> slopes = {};
+  std::array<Formula, 2> slopes = {};
   // Of a function of one argument that GiNaC does not know: its value by others.
-  Slope by_others = nullptr;
+  Formula by_others = nullptr;
 };
 
 // All functions in alphabetical order.

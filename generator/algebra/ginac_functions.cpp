@@ -13,7 +13,7 @@ namespace hamgen {
 namespace {
 
 // A formula of the table at one of GiNaC's values.
-GiNaC::ex formula_at(Function::Slope formula, const GiNaC::ex& x) {
+GiNaC::ex formula_at(Function::Formula formula, const GiNaC::ex& x) {
   SymbolTable symbols;
   const GiNaC::ex place = symbols.symbol("x", 0);
   const Expression argument = Expression::symbol("x");

@@ -75,7 +75,8 @@ std::vector<Observed> observed_list(ExpressionParser& in) {
       observed.value = in.expression();
       observed.text = to_text(observed.value);
     } else if (const Token& next = in.peek();
-               next.kind == TokenKind::symbol && std::string_view("+-*/^(").find(next.text) != std::string_view::npos) {
+               next.kind == TokenKind::symbol &&
+               std::string_view("+-*/^(").find(next.text) != std::string_view::npos) {
       in.fail(next.span, "what is computed gets a name of its own",
               "write observe radius = sqrt(x^2 + y^2)");
     }

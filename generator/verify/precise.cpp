@@ -124,7 +124,7 @@ const std::vector<Expression>& slopes_of(const std::string& name) {
   static std::map<std::string, std::vector<Expression>> known;
   const auto [it, fresh] = known.try_emplace(name);
   if (!fresh) return it->second;
-  for (const Function::Slope slope : find_function(name)->slopes) {
+  for (const Function::Formula slope : find_function(name)->slopes) {
     if (slope != nullptr) it->second.push_back(slope(places()));
   }
   return it->second;
