@@ -281,9 +281,11 @@ std::string failure_text(const RunReport& report) {
                          report.seconds.value_or(0.0), summary.steps_done, *report.scene->steps, t);
     case runtime::Status::jumped:
       return fmt::format(
-          "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times the "
-          "energy "
-          "scale of the start, {:.3g}: it went across a singularity, or h is far too large",
+          "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times {:.3g}, "
+          "the "
+          "larger of |H| and |q| |H_q| + |p| |H_p| at the start: it went across a singularity, or "
+          "h "
+          "is far too large",
           step, where, summary.jump.value_or(0.0), summary.energy_scale);
     case runtime::Status::escaped:
       return fmt::format(

@@ -120,6 +120,17 @@ TEST(Chaos, LooksAtEveryStep) {
   EXPECT_NEAR(left["samples"].back()["t"].get<double>(), 0.42, 1e-12);
   EXPECT_GT(left["max_energy_error"].get<double>(), 1e-6);
   EXPECT_TRUE(contains(of({"chaos", logarithm, "--steps", "0"}, 2).err, "there are none"));
+
+  // An energy error beyond the scale that is no failure of the step itself.
+  const std::vector<std::string> outwards = {models + "harmonic.ham", "--scheme", "explicit-euler",
+                                             "--json", "--quiet"};
+  chaos = {"chaos"};
+  chaos.insert(chaos.end(), outwards.begin(), outwards.end());
+  run = {"run"};
+  run.insert(run.end(), outwards.begin(), outwards.end());
+  const auto jumped = nlohmann::json::parse(of(chaos, 1).out);
+  EXPECT_EQ(jumped["status"], "jumped");
+  EXPECT_EQ(jumped["steps"], nlohmann::json::parse(of(run, 1).out)["steps_done"]);
 }
 
 // So many steps that the frequency would be folded if every hundredth were a sample.
@@ -129,6 +140,7 @@ TEST(Chaos, FrequenciesOfALongOrbitAreThoseOfAShortOne) {
     return json["frequencies"].front()["harmonics"][0]["frequency"].get<double>();
   };
   EXPECT_NEAR(of("10000"), of("200000"), 1e-9);
+  EXPECT_NEAR(std::abs(of("10000")), 2 * std::atan(0.05) / 0.1, 1e-9);  // of the step
 }
 
 TEST(Chaos, AMapOfOneTimeIsThatWhateverTheStep) {

@@ -124,7 +124,7 @@ TEST(Tune, DoesNotCallABetterPhaseWorthNothing) {
                     "coordinate q\nmomentum p\ntime t\n"
                     "H = p^2/(2*(1 + q^2)) + q^2/2 + q^4/4 - 0.3*q*cos(1.7*t)\n"
                     "scene driven { q = 0.5; h = 0.05; steps = 20000 }\n");
-  const Result result = hamgen({"tune", model, "--time", "250"});
+  const Result result = hamgen({"tune", model, "--time", "60"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(result.out, "no flatter: the energy spread shrinks by a factor of 1."))
       << result.out;
