@@ -123,13 +123,8 @@ Stages stages_of(Model model, const Request& request) {
   Specialised system = choose_sums(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
-  SolvePlan plan = plan_solve(equations, request.solver);
-  if (request.scalar->type->digits == 113 && plan.arrays && uses_eigen(*plan.arrays)) {
-    // Eigen does not know quad numbers: everything is written out instead.
-    system = make_system(folded.model, scene, request, false);
-    equations = discretise(system.mechanics, system.scheme, hessian);
-    plan = plan_solve(equations, request.solver);
-  }
+  const bool eigen = request.scalar->type->digits < 113;  // it does not know quad numbers
+  SolvePlan plan = plan_solve(equations, request.solver, eigen);
   drop_unused_parameters(plan.equations);
   equations.mechanics.parameters = plan.equations.mechanics.parameters;
   system.mechanics.parameters = plan.equations.mechanics.parameters;

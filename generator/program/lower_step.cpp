@@ -104,11 +104,12 @@ LoweredStep with_tangent(LoweredStep lowered) {
   const StepEquations& equations = lowered.plan.equations;
   const bool solved = equations.scheme.has_member() && !lowered.plan.sweeps;
   if (lowered.plan.arrays) {
-    // Of a fixed point, too, the linearised equations are solved by elimination.
+    // Of a fixed point, too, the linearised equations are solved by elimination; systems that are
+    // too large for that have no tangent map.
     ArrayPlan& arrays = *lowered.plan.arrays;
     if (iterates(arrays) && !arrays.matrix) {
       const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
-      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced);
+      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced, arrays.eigen);
     }
   } else if (solved) {
     lowered.linearisation = linearise(lowered.plan);

@@ -7,14 +7,17 @@ namespace hamgen {
 
 namespace {
 
-// Elimination within a band of width w costs 2 w^2 operations a row, Eigen's sparse one some
-// microseconds, and twenty seconds of compilation.
-constexpr int kWidestBand = 24;
+// Elimination within a band of width w costs 2 w^2 operations a row and a solve 5 w, Eigen's sparse
+// one some microseconds and less than a tenth of one, and twenty seconds of compilation.
+constexpr int kWidestBand = 64;
+constexpr int kWidestConstantBand = 24;  // of a matrix that is eliminated once
 // A dense matrix of this size is half a megabyte of the object that takes the steps.
 constexpr int kLargestOwn = 256;
 constexpr int kLargestDense = 1024;
 // Up to here dense elimination takes less than 100 microseconds, whatever the pattern.
 constexpr int kSmall = 64;
+// Without Eigen a matrix has at most so many numbers, four megabytes of quad ones.
+constexpr long kMostWithoutEigen = 512L * 512L;
 
 // How many arrays of the same length the variables are; 1 if they differ in length.
 int equal_arrays(const Mechanics& mechanics, int size) {
@@ -65,8 +68,8 @@ void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, 
 
 }  // namespace
 
-ArrayMatrix choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
-                          bool reduced) {
+std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
+                                         bool reduced, bool eigen) {
   const int size = (reduced ? 1 : 2) * mechanics.degrees_of_freedom;
   std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size}};
   for (const int arrays : {1, equal_arrays(mechanics, size)}) {
@@ -88,7 +91,14 @@ ArrayMatrix choose_matrix(const Mechanics& mechanics, const FamilyParameters& me
       filled[static_cast<std::size_t>(row) * rows + static_cast<std::size_t>(column)] = true;
   });
   const ArrayMatrix best = *std::ranges::min_element(orders, {}, &ArrayMatrix::bandwidth);
-  if (best.bandwidth <= kWidestBand && 4 * best.bandwidth < size) return best;
+  const bool is_constant = has_constant_hessian(mechanics);
+  const bool is_narrow = 4 * best.bandwidth < size;
+  if (is_narrow && best.bandwidth <= (is_constant ? kWidestConstantBand : kWidestBand)) return best;
+  if (!eigen) {
+    const long width = is_narrow ? 3L * best.bandwidth + 1 : size;
+    if (width * size > kMostWithoutEigen) return {};
+    return is_narrow ? best : ArrayMatrix{.kind = MatrixKind::dense, .size = size};
+  }
   const auto count = std::ranges::count(filled, true);
   ArrayMatrix matrix{.kind = MatrixKind::eigen_sparse, .size = size};
   const bool full = maybe_dense && 4 * count > static_cast<long>(rows * rows);

@@ -14,7 +14,7 @@ constexpr double kOfUnknown = 10;
 // A row of a band waits for the row before it: its division, and the choice of a pivot.
 constexpr double kOfBandRow = 100;
 // A row of Eigen's sparse matrix, whose entries are sorted and whose fill-in is looked up.
-constexpr double kOfSparseRow = 1000;
+constexpr double kOfSparseRow = 20000;
 
 struct Counts {
   double gradient = 0;

@@ -35,6 +35,11 @@ bool has_diagonal_hessian(const Kernel& kernel) {
 
 }  // namespace
 
+bool has_constant_hessian(const Mechanics& mechanics) {
+  return std::ranges::all_of(mechanics.kernels,
+                             [](const Kernel& kernel) { return has_constant_hessian(kernel); });
+}
+
 bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
   return std::ranges::all_of(mechanics.kernels, [](const Kernel& kernel) {
     return !uses_momenta(kernel) ||
@@ -130,7 +135,7 @@ bool uses_eigen(const ArrayPlan& plan) {
                          plan.matrix->kind == MatrixKind::eigen_sparse);
 }
 
-SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
+SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bool eigen) {
   using Kind = SolverWish::Kind;
   SolvePlan plan{.equations = equations};
   if (wish.kind == Kind::sweeps) plan.sweeps = wish.sweeps;
@@ -139,7 +144,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
   const bool separable = mechanics.is_separable();
   const bool plain = member.beta.is_zero() && member.gamma.is_zero();
   const int n = mechanics.degrees_of_freedom;
-  ArrayPlan arrays;
+  ArrayPlan arrays{.eigen = eigen};
   if (plan.sweeps) {
     arrays.method = ArrayMethod::sweeps;
   } else if (separable && plain && member.alpha.is_zero()) {
@@ -154,11 +159,18 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish) {
       throw UsageError(
           "--solver newton: H is a function of sums over all elements, whose second derivatives "
           "are not made\nhelp: --solver fixed-point");
-    if (wish.kind == Kind::fixed_point || of_sums) {
+    if (wish.kind != Kind::fixed_point && !of_sums)
+      arrays.matrix = choose_matrix(mechanics, member, arrays.reduced, eigen);
+    if (wish.kind == Kind::newton && !arrays.matrix)
+      throw UsageError(
+          fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "
+                      "which does not "
+                      "know quad numbers\nhelp: --solver fixed-point",
+                      (arrays.reduced ? 1 : 2) * n));
+    if (!arrays.matrix) {
       arrays.method = ArrayMethod::fixed_point;
     } else {
-      arrays.constant_matrix = std::ranges::all_of(mechanics.kernels, has_constant_hessian);
-      arrays.matrix = choose_matrix(mechanics, member, arrays.reduced);
+      arrays.constant_matrix = has_constant_hessian(mechanics);
       arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
       const bool either = wish.kind == Kind::cheapest && arrays.reduced && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;

@@ -51,6 +51,7 @@ struct ArrayPlan {
   bool reduced = false;
   std::optional<Expression> mass = {};     // reduced: m_i, if they are all the same
   std::optional<ArrayMatrix> matrix = {};  // of Newton's iteration
+  bool eigen = true;                       // may Eigen eliminate it?
   bool constant_matrix = false;            // factorised once per run
   // What Newton's matrix and its elimination cost, in evaluations of the equations: where the fixed
   // point would take more, Newton serves.
@@ -77,15 +78,17 @@ struct SolvePlan {
   [[nodiscard]] bool is_explicit() const;
 };
 
-// Throws UsageError for a solver that the step has not.
-[[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver);
+// Throws UsageError for a solver that the step has not.  `eigen`: Eigen knows the scalar.
+[[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver,
+                                   bool eigen = true);
 [[nodiscard]] bool uses_eigen(const ArrayPlan& plan);
 // Is there an iteration, with start values from earlier steps?
 [[nodiscard]] bool iterates(const ArrayPlan& plan);
 // Of a splitting or a Runge-Kutta method.
 [[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
                                             const SolverChoice& solver);
-[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish);
+[[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish,
+                                    bool eigen);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 // What is said of SolvePlan::ahead.

@@ -133,12 +133,12 @@ TEST(LargePlan, ASumOfSeveralTermsIsOneLoop) {
 }
 
 TEST(LargePlan, TheMatrixFollowsThePattern) {
-  auto solver = [](const std::string& sums, const char* size) {
+  auto solver = [](const std::string& sums, const char* size, const Request& request = {}) {
     return show_stage(model(std::string("size N = ") + size +
                             "\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
-                            "H = sum(i = 1..N, p[i]^2/2 + q[i]^4/4)" +
+                            "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/4)" +
                             sums + "\n"),
-                      {}, "plan");
+                      request, "plan");
   };
   const std::string ring = solver(" - sum(i = 1..N, cos(q[i+1] - q[i]))", "100");
   EXPECT_TRUE(contains(ring, "banded Newton of size 100")) << ring;
@@ -150,8 +150,32 @@ TEST(LargePlan, TheMatrixFollowsThePattern) {
   EXPECT_TRUE(contains(halves, "dense Newton of size 100")) << halves;
   const std::string fewer = solver(" - sum(i = 1..30, j = 71..100, cos(q[i] - q[j]))", "100");
   EXPECT_TRUE(contains(fewer, "sparse Newton of size 100")) << fewer;
-  const std::string torus = solver(" - sum(i = 1..N, cos(q[i+20] - q[i]))", "400");
-  EXPECT_TRUE(contains(torus, "sparse Newton of size 400")) << torus;
+  // A wide band is eliminated sooner than a sparse matrix, but solved later.
+  const char* near = " - sum(i = 1..N, cos(q[i+20] - q[i]))";
+  const char* far = " - sum(i = 1..N, cos(q[i+40] - q[i]))";
+  const char* springs = " + sum(i = 1..N, (q[i+20] - q[i])^2)";
+  const std::string torus = solver(near, "400");
+  EXPECT_TRUE(contains(torus, "banded Newton of size 400")) << torus;
+  const std::string wide = solver(far, "800");
+  EXPECT_TRUE(contains(wide, "sparse Newton of size 800")) << wide;
+  const std::string once = solver(springs, "400");
+  EXPECT_TRUE(contains(once, "sparse linear solve of size 400")) << once;
+
+  // Eigen does not know quad numbers.
+  const Request quad{.scalar = "quad"};
+  const std::string exact = solver(springs, "400", quad);
+  EXPECT_TRUE(contains(exact, "banded linear solve of size 400")) << exact;
+  const std::string exact_fewer =
+      solver(" - sum(i = 1..30, j = 71..100, cos(q[i] - q[j]))", "100", quad);
+  EXPECT_TRUE(contains(exact_fewer, "dense Newton of size 100")) << exact_fewer;
+  const std::string too_large = solver(far, "2000", quad);
+  EXPECT_TRUE(contains(too_large, "solver: fixed point of size 2000")) << too_large;
+  try {
+    solver(far, "2000", {.solver = "newton", .scalar = "quad"});
+    ADD_FAILURE() << "a matrix of 2000 rows in quad";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(contains(error.what(), "does not know quad numbers\nhelp: ")) << error.what();
+  }
 }
 
 TEST(LargePlan, TheProgramIsItsRecordsAndRoutines) {
