@@ -288,15 +288,15 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
   std::function<MachineReport<Real>()> called(const Call& call) {
     Machine<Real>* other = others_.at(call.routine).get();
     const std::vector<Argument>& arguments = code_.routine(call.routine)->arguments;
-    struct Slot {
+    struct Passed {
       Address place;
       std::function<AnyMatrix<Real>&()> matrix;
       bool is_report = false;
     };
-    std::vector<Slot> slots;
+    std::vector<Passed> slots;
     bool reports = call.record == "StepReport";
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-      Slot slot;
+      Passed slot;
       if (arguments[i].record == "Matrix") {
         slot.matrix = matrix_at(call.arguments[i]);
       } else if (arguments[i].record == "StepReport") {
@@ -311,7 +311,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     const int result = kept ? index_of(call.object) : 0;
     return [this, other, slots, reports, result] {
       std::vector<Given<Real>> given;
-      for (const Slot& slot : slots) {
+      for (const Passed& slot : slots) {
         if (slot.matrix) {
           given.push_back({nullptr, nullptr, &slot.matrix()});
         } else if (slot.is_report) {

@@ -124,18 +124,18 @@ class MachineMemory : public MachineIterations<Real> {
     };
   }
 
-  void begin(Object<Real>& object, const Forget& forget) const {
+  void begin(Object<Real>& target, const Forget& forget) const {
     const std::string& field = forget.what.field;
     if (forget.type == "History") {
-      object.history = Blocks<Real>::history(code_.unknowns);
+      target.history = Blocks<Real>::history(code_.unknowns);
     } else if (forget.type == "bool") {
-      object.flags.at(field) = 0;
+      target.flags.at(field) = 0;
     } else {
       Object<Real> fresh = make_object<Real>(*code_.record("Start"), code_);
       if (field.empty()) {
-        renew(object, std::move(fresh));
+        renew(target, std::move(fresh));
       } else {
-        object.rules.at(field) = std::move(fresh.rules.at(field));
+        target.rules.at(field) = std::move(fresh.rules.at(field));
       }
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "generator/mechanics/mechanics.hpp"
+
 namespace hamgen {
 
 namespace {

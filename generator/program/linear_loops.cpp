@@ -41,10 +41,10 @@ Routine LoopStage::gradient_error() const {
   b.body().push_back(for_each(counting("i", 2 * n_), std::move(begin)));
   const int n = n_;
   const auto use = [n, count = 0](Routine& routine, Body& body, const HessianEntry& entry) mutable {
-    const auto element = [&](const char* array, const StateElement& of, bool is_whole) {
+    const auto element = [&](const char* name, const StateElement& of, bool is_whole) {
       AffineIndex index = of.index;
       if (of.is_momentum && is_whole) index.constant += n;
-      const Place place{array, "", {index}};
+      const Place place{name, "", {index}};
       routine.places.insert_or_assign(to_text(place), place);
       return Expression::symbol(to_text(place), kRankOfTemporary);
     };

@@ -2,6 +2,7 @@
 
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_coefficients.hpp"
+#include "generator/program/lower.hpp"
 
 namespace hamgen {
 

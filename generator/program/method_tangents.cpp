@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/splitting_routine.hpp"
 #include "generator/program/stage_routines.hpp"
 #include "generator/program/step_weights.hpp"

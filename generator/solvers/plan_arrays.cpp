@@ -136,9 +136,9 @@ bool uses_eigen(const ArrayPlan& plan) {
 }
 
 SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bool eigen) {
-  using Kind = SolverWish::Kind;
+  using Wish = SolverWish::Kind;
   SolvePlan plan{.equations = equations};
-  if (wish.kind == Kind::sweeps) plan.sweeps = wish.sweeps;
+  if (wish.kind == Wish::sweeps) plan.sweeps = wish.sweeps;
   const Mechanics& mechanics = equations.mechanics;
   const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
   const bool separable = mechanics.is_separable();
@@ -155,13 +155,13 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
     arrays.reduced = separable && has_diagonal_kinetic_energy(mechanics);
     if (arrays.reduced) arrays.mass = uniform_mass(mechanics);
     const bool of_sums = !mechanics.sums.empty();
-    if (of_sums && wish.kind == Kind::newton)
+    if (of_sums && wish.kind == Wish::newton)
       throw UsageError(
           "--solver newton: H is a function of sums over all elements, whose second derivatives "
           "are not made\nhelp: --solver fixed-point");
-    if (wish.kind != Kind::fixed_point && !of_sums)
+    if (wish.kind != Wish::fixed_point && !of_sums)
       arrays.matrix = choose_matrix(mechanics, member, arrays.reduced, eigen);
-    if (wish.kind == Kind::newton && !arrays.matrix)
+    if (wish.kind == Wish::newton && !arrays.matrix)
       throw UsageError(
           fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "
                       "which does not "
@@ -172,7 +172,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
       arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
-      const bool either = wish.kind == Kind::cheapest && arrays.reduced && !arrays.constant_matrix;
+      const bool either = wish.kind == Wish::cheapest && arrays.reduced && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }

@@ -240,9 +240,9 @@ Finding prove_shears(const Splitting& splitting) {
   auto s = [](std::size_t i, std::size_t j) {
     return Expression::symbol(fmt::format("S{}{}", std::min(i, j) + 1, std::max(i, j) + 1));
   };
-  using Matrix = std::vector<std::vector<Expression>>;
+  using Rows = std::vector<std::vector<Expression>>;
   auto jacobian = [&](char letter, const Expression& a, std::size_t n, auto entry) {
-    Matrix f(2 * n, std::vector<Expression>(2 * n, Expression(0)));
+    Rows f(2 * n, std::vector<Expression>(2 * n, Expression(0)));
     for (std::size_t i = 0; i < 2 * n; ++i) f[i][i] = Expression(1);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -252,14 +252,14 @@ Finding prove_shears(const Splitting& splitting) {
     return f;
   };
   // (F^T J F)_ij - J_ij
-  auto defect = [](const Matrix& f, std::size_t i, std::size_t j) {
+  auto defect = [](const Rows& f, std::size_t i, std::size_t j) {
     const std::size_t n = f.size() / 2;
     Expression sum(j == i + n ? -1 : (i == j + n ? 1 : 0));
     for (std::size_t k = 0; k < n; ++k) sum += f[k][i] * f[n + k][j] - f[n + k][i] * f[k][j];
     return sum;
   };
   for (std::size_t k = 0; k < factors.size(); ++k) {
-    const Matrix f = jacobian(factors[k].first, factors[k].second, 2, s);
+    const Rows f = jacobian(factors[k].first, factors[k].second, 2, s);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
         if (is_zero_by_algebra(defect(f, i, j))) continue;
@@ -274,12 +274,12 @@ Finding prove_shears(const Splitting& splitting) {
       "generic symmetric `V''` and `T''`",
       factors.size());
   if (factors.size() <= 3) {
-    Matrix m{{Expression(1), Expression(0)}, {Expression(0), Expression(1)}};
+    Rows m{{Expression(1), Expression(0)}, {Expression(0), Expression(1)}};
     for (std::size_t k = 0; k < factors.size(); ++k) {
       auto own = [&](std::size_t, std::size_t) {
         return Expression::symbol(fmt::format("S{}", k));
       };
-      const Matrix f = jacobian(factors[k].first, factors[k].second, 1, own);
+      const Rows f = jacobian(factors[k].first, factors[k].second, 1, own);
       m = {{f[0][0] * m[0][0] + f[0][1] * m[1][0], f[0][0] * m[0][1] + f[0][1] * m[1][1]},
            {f[1][0] * m[0][0] + f[1][1] * m[1][0], f[1][0] * m[0][1] + f[1][1] * m[1][1]}};
     }
