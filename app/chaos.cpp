@@ -16,6 +16,7 @@
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/scheme_spec.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 #include "runtime/atomic_file.hpp"
@@ -107,7 +108,7 @@ Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std:
 ChaosTitle title_of(const Loaded& loaded) {
   return {.model = loaded.setting.model.name,
           .scene = loaded.scene.name,
-          .scheme = loaded.plugin.scheme_name,
+          .scheme = method_text(loaded.plugin),
           .h = to_double(*loaded.scene.h),
           .coordinates = element_names(loaded.setting.model.coordinates)};
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "app/axis_option.hpp"
 #include "app/ensemble_options.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/ensemble_file.hpp"

@@ -17,6 +17,7 @@
 #include "app/output/trajectory_plot.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/scheme_spec.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 #include "runtime/atomic_file.hpp"
@@ -267,7 +268,7 @@ int run_section(const SectionOptions& options) {
   const SectionTitle title{
       .model = setting.model.name,
       .scene = scene.name,
-      .scheme = plugin.scheme_name,
+      .scheme = method_text(plugin),
       .surface =
           fmt::format("{} = {}, {}", g.left, g.right,
                       direction == runtime::Direction::both ? "both ways" : options.direction),

@@ -152,6 +152,10 @@ std::optional<EmittedHeader> read_header(const std::string& path, Request& reque
   if (!option_of_header(header.text, "--events").empty()) request.events = true;
   const std::string modified = option_of_header(header.text, "--watch-modified");
   if (!modified.empty()) request.watch_modified = modified_term_count("--watch-modified", modified);
+  const std::string lanes = option_of_header(header.text, "--batch");
+  if (!lanes.empty()) request.batch = static_cast<int>(integer_value("--batch", lanes, 1));
+  const std::string math = option_of_header(header.text, "--math");
+  if (!math.empty()) request.math = math;
   return header;
 }
 
@@ -204,8 +208,10 @@ int verify(const VerifyOptions& options) {
     const bool symmetric = std::ranges::any_of(proof, [](const Finding& f) {
       return f.property == "symmetric" && hamgen::holds(f.verdict);
     });
-    Measured measured =
-        measure(setting.source, setting.request, setting.scene, symmetric, &interrupt_flag());
+    Request alone = setting.request;  // a lane is the trajectory alone, bit for bit
+    alone.batch = 0;
+    alone.math = {};
+    Measured measured = measure(setting.source, alone, setting.scene, symmetric, &interrupt_flag());
     holds = std::ranges::none_of(measured.proof, is_refuted);
     std::ranges::move(measured.proof, std::back_inserter(proof));
     for (const InvariantDefect& defect : measured.invariants) add_beside(proof, finding(defect));

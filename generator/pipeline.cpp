@@ -212,10 +212,12 @@ Proof verify_step(const SourceText& source, const Request& request,
     Request run = request;
     run.format = "cpp-plugin";
     run.support = "";
-    run.events = false;  // a plugin has none
-    const std::optional<Stages> without_events =
-        request.events ? std::optional(run_stages(source, run)) : std::nullopt;
-    add_plugin(read_file({}, source, without_events ? *without_events : stages, run), proof);
+    run.events = false;  // a plugin has none, and no lanes
+    run.batch = 0;
+    run.math = {};
+    const std::optional<Stages> of_run =
+        request.events || request.batch > 0 ? std::optional(run_stages(source, run)) : std::nullopt;
+    add_plugin(read_file({}, source, of_run ? *of_run : stages, run), proof);
   }
   return proof;
 }

@@ -19,20 +19,36 @@ long points_of(const Section& section) {
   return count;
 }
 
-// Of the orbits that came to their end.
-// Of the orbits that got through, relative to the scale of each; absolute where one has none.
+// No step of it failed.
+bool went_well(const SectionOrbit& orbit) {
+  return orbit.status == runtime::Status::done || orbit.status == runtime::Status::stopped;
+}
+
+// Of the orbits no step of which failed, relative to the scale of each; absolute where one has
+// none.
 std::string energy_kept(const Section& section) {
   double largest = 0.0;
   double scale = 0.0;
   double relative = 0.0;
+  if (std::ranges::none_of(section.orbits, went_well)) return "";
   for (const SectionOrbit& orbit : section.orbits) {
-    if (orbit.status != runtime::Status::done) continue;
+    if (!went_well(orbit)) continue;
     largest = std::max(largest, orbit.largest_error);
     scale = std::max(scale, orbit.energy_scale);
     if (orbit.energy_scale > 0.0)
       relative = std::max(relative, orbit.largest_error / orbit.energy_scale);
   }
-  return kept_text(relative > 0.0 ? relative * scale : largest, scale);
+  return ", kept to " + kept_text(relative > 0.0 ? relative * scale : largest, scale);
+}
+
+// How orbits ended that did not come to their end, and how many did so.
+std::map<std::string, int> endings_of(const Section& section) {
+  std::map<std::string, int> endings;
+  for (const SectionOrbit& orbit : section.orbits) {
+    if (orbit.status != runtime::Status::done)
+      ++endings[std::string(runtime::to_text(orbit.status))];
+  }
+  return endings;
 }
 
 // An expression as the name of a column.
@@ -69,25 +85,19 @@ std::string of_scene(const SectionTitle& title) {
 
 std::string section_summary(const Section& section, const SectionTitle& title) {
   std::string text = fmt::format(
-      "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}, kept to {}\n"
+      "{}: section {}\n  scheme     {}, h = {:.10g}\n  energy     {:.10g}{}\n"
       "  orbits     {}, {} crossings\n",
       of_scene(title), title.surface, title.scheme, title.h, title.energy, energy_kept(section),
       section.orbits.size(), points_of(section));
   if (section.unreachable > 0)
     text += fmt::format("  starts     no momentum has this energy at {} of {} that were tried\n",
                         section.unreachable, section.tried);
-  std::map<std::string, int> endings;
-  int without = 0;
-  for (const SectionOrbit& orbit : section.orbits) {
-    if (orbit.status != runtime::Status::done) {
-      ++endings[std::string(runtime::to_text(orbit.status))];
-    } else if (orbit.points.empty()) {
-      ++without;
-    }
-  }
-  for (const auto& [ending, count] : endings)
+  for (const auto& [ending, count] : endings_of(section))
     text += fmt::format("  ended      {} of the orbits: {}\n", count, ending);
-  if (!endings.empty()) text += advice(section, title);
+  if (!std::ranges::all_of(section.orbits, went_well)) text += advice(section, title);
+  const auto without = std::ranges::count_if(section.orbits, [](const SectionOrbit& orbit) {
+    return orbit.status == runtime::Status::done && orbit.points.empty();
+  });
   if (without > 0)
     text += fmt::format("  never      {} of the orbits did not cross it in {} steps\n", without,
                         section.orbits.front().steps);
@@ -106,6 +116,8 @@ std::string section_csv(const Section& section, const SectionTitle& title) {
       text += fmt::format("{},{},{},{}\n", i + 1, runtime::number_text(point.time),
                           runtime::number_text(point.first), runtime::number_text(point.second));
   }
+  for (const auto& [ending, count] : endings_of(section))
+    text += fmt::format("# ended     {} of the orbits: {}\n", count, ending);
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/studies/ball_step.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -84,6 +85,10 @@ StepDistance StepCertifier::distance(const std::vector<ExactSum>& before,
     const double away = (computed[i] - exact.x[i]).bound().upper();
     const double size = std::max(std::fabs(z[i].nearest()), std::fabs(computed[i].nearest()));
     const double unit = balls_->epsilon * (size + largest / 1024.0);
+    if (away > 0.0 && unit < std::numeric_limits<double>::min()) {
+      result.failure = "the state is too small for a unit of rounding in doubles";
+      return result;
+    }
     constexpr double upwards = 1.0 + 1e-14;  // of the doubles that follow
     const double units = away == 0.0 ? 0.0 : away / unit * upwards;
     if (units <= result.units) continue;

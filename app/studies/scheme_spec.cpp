@@ -47,6 +47,11 @@ void require_scheme(const std::string& name) {
 
 }  // namespace
 
+std::string method_text(const PluginSource& plugin) {
+  const bool is_solved = plugin.solver.find("not symplectic") == std::string::npos;
+  return plugin.scheme_name + (is_solved ? "" : ", " + plugin.solver);
+}
+
 bool suits(std::string_view name, const Mechanics& mechanics) {
   const Scheme* scheme = find_scheme(name);
   if (scheme == nullptr) return false;

@@ -16,6 +16,9 @@ namespace hamgen::app {
 // Fills these fields of a copy of `base`.  Throws UsageError naming the nearest scheme or option.
 [[nodiscard]] Request request_of_spec(std::string_view spec, const Request& base);
 
+// The method of a plugin in words, for a title: "implicit-midpoint", and that sweeps are not it.
+[[nodiscard]] std::string method_text(const PluginSource& plugin);
+
 // Is there a scheme of this name, and has this system what it needs?
 [[nodiscard]] bool suits(std::string_view name, const Mechanics& mechanics);
 

@@ -120,16 +120,23 @@ std::string RoutinePrinter::count_text(long count) const {
 }
 
 std::string RoutinePrinter::text(const AffineIndex& a) const {
-  std::string text;
-  for (const auto& [index, factor] : a.factors) {
-    text += text.empty() ? "" : " + ";
-    text += factor == 1 ? index : fmt::format("{} * {}", factor, index);
+  const bool is_n = dialect_.n > 0 && a.constant == dialect_.n && !a.factors.empty();
+  const bool falls = std::ranges::all_of(a.factors, [](const auto& f) { return f.second < 0; });
+  const bool leads = is_n || falls;  // the constant
+  std::string text = is_n ? "n" : leads && a.constant != 0 ? std::to_string(a.constant) : "";
+  const auto add = [&text](bool negative, const std::string& term) {
+    text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
+    text += term;
+  };
+  for (const bool negative : {false, true}) {
+    for (const auto& [index, factor] : a.factors) {
+      const long size = std::abs(factor);
+      if ((factor < 0) == negative)
+        add(negative, size == 1 ? index : fmt::format("{} * {}", size, index));
+    }
   }
-  if (text.empty()) return std::to_string(a.constant);
-  if (dialect_.n > 0 && a.constant == dialect_.n) return "n + " + text;
-  if (a.constant > 0) text += fmt::format(" + {}", a.constant);
-  if (a.constant < 0) text += fmt::format(" - {}", -a.constant);
-  return text;
+  if (!leads && a.constant != 0) add(a.constant < 0, std::to_string(std::abs(a.constant)));
+  return text.empty() ? "0" : text;
 }
 
 std::string RoutinePrinter::text(const Place& place) const {

@@ -320,7 +320,8 @@ class KernelRoutine {
     return evaluation.results;
   }
 
-  // Loops first, then single instances, each in a scope of its own if there are several.
+  // Loops first, then single instances, each in a scope of its own if there are several in the
+  // routine.
   template <class Add>
   void add_kernels(const Add& add) {
     std::vector<Body> single;
@@ -349,7 +350,7 @@ class KernelRoutine {
       routine_.body.push_back(std::move(body.front()));
     }
     for (Body& body : single) {
-      if (single.size() > 1) {
+      if (single.size() > 1 || std::exchange(has_instance_, true)) {
         routine_.body.push_back({Scope{std::move(body)}});
       } else {
         for (Instruction& instruction : body) routine_.body.push_back(std::move(instruction));
@@ -363,6 +364,7 @@ class KernelRoutine {
   Part part_;
   Place q_{"q"}, p_{"p"};  // the arrays of the state
   Body before_, after_;    // of the innermost loop
+  bool has_instance_ = false;
   Routine routine_;
 };
 

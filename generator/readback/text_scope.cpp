@@ -73,6 +73,7 @@ AffineIndex TextScope::index(const CppExpression& e) const {
     if (meaning != nullptr && meaning->kind == Meaning::Kind::index)
       return {.constant = 0, .factors = {{meaning->name, 1}}};
   }
+  if (e.kind == TermKind::prefix && e.text == "-") return times(index(e.parts[0]), -1);
   if (e.is_binary("+")) return plus(index(e.parts[0]), index(e.parts[1]), 1);
   if (e.is_binary("-")) return plus(index(e.parts[0]), index(e.parts[1]), -1);
   if (e.is_binary("*")) {

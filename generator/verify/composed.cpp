@@ -129,11 +129,6 @@ bool are_exact(const std::vector<Expression>& values) {
   });
 }
 
-Precise value_of_exact(const Expression& e) {
-  const Substitution none;
-  return *PreciseValues({}, none)(e);
-}
-
 Finding order_finding(const OrderFound& found, bool exact, const std::string& what) {
   const bool proved = exact && found.residual == 0;
   const std::string how =

@@ -44,6 +44,25 @@ bool is_plainly_square_free(const GiNaC::ex& polynomial) {
   return true;
 }
 
+bool is_positive(const Expression& e);
+
+bool is_never_negative(const Expression& e) {
+  const auto& operands = e.operands();
+  if (e.kind() == Kind::power && operands[1].is_number() && is_even(operands[1].number()))
+    return true;
+  if (e.kind() == Kind::sum || e.kind() == Kind::product)
+    return std::ranges::all_of(operands, is_never_negative);
+  return is_positive(e) || (e.is_number() && e.number() == 0);
+}
+
+// Is it seen at once?
+bool is_positive(const Expression& e) {
+  if (e.is_number()) return e.number() > 0;
+  if (e.kind() == Kind::function) return e.name() == "exp" || e.name() == "cosh";
+  return e.kind() == Kind::sum && is_never_negative(e) &&
+         std::ranges::any_of(e.operands(), is_positive);
+}
+
 // Factors of a sum that divide it an even number of times, functions in it taken as symbols.
 std::vector<std::pair<Expression, int>> even_factors(const Expression& sum) {
   std::vector<std::pair<Expression, int>> result;
@@ -91,6 +110,8 @@ class Search {
     if (!has_symbols(e)) return;
     const Function* row = find_function(e.name());
     if (row == nullptr || row->corner.empty()) return;
+    // Of atan2 it is where the second is negative.
+    if (e.operands().size() == 2 && is_positive(e.operands()[1])) return;
     add(e, fmt::format(fmt::runtime(row->corner), to_text(x), to_text(e.operands().back())));
   }
 

@@ -21,6 +21,12 @@ FormalPoint::FormalPoint(const Mechanics& mechanics, const Surroundings& around,
   random_ = SamplePoint({}, 4, 5 * number)("h");
 }
 
+Precise FormalPoint::spacing(std::size_t i) const {
+  static const Precise part = precise(*parse_decimal("1e-20"));
+  const Precise size = cln::abs(z_[i]);
+  return part * (cln::zerop(size) ? precise(1) : size);
+}
+
 std::vector<PowerSeries> FormalPoint::state() const {
   std::vector<PowerSeries> result;
   for (const Precise& z : z_) result.push_back({z});
@@ -53,10 +59,12 @@ std::map<std::pair<int, int>, PowerSeries> FormalPoint::gauge(const Member& memb
     }
     if (limits.empty()) limits = gauge_series(member.c, static_cast<int>(length));
     PowerSeries& series = result[place];
+    Precise power = precise(1);  // of a step that is a part of h
     for (const SparseMatrix& limit : limits) {
       const auto it = limit.find(place);
       const Expression term = it == limit.end() ? Expression(0) : it->second;
-      series.push_back(coefficient(values({term}, {}, 1)[0], 0));
+      series.push_back(power * coefficient(values({term}, {}, 1)[0], 0));
+      power = power * coefficient(step(), 1);
     }
   }
   return result;

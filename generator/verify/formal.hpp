@@ -18,6 +18,8 @@ class FormalPoint {
   // The same for every process; `number` counts points.
   FormalPoint(const Mechanics& mechanics, const Surroundings& around, int number);
   void move(std::size_t i, const Precise& by) { z_[i] = z_[i] + by; }
+  // What central differences move a component by: 1e-20 of it, whatever its units.
+  [[nodiscard]] Precise spacing(std::size_t i) const;
   void set_step(const PowerSeries& h) { symbols_["h"] = h; }
   [[nodiscard]] const PowerSeries& step() const { return symbols_.at("h"); }
   [[nodiscard]] std::vector<PowerSeries> state() const;

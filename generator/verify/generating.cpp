@@ -136,9 +136,9 @@ class FunctionCheck {
 
   // By central differences, whose error of 1e-40 is below the tolerance.
   [[nodiscard]] std::vector<Precise> jacobian(const FormalPoint& here, std::size_t length) const {
-    const Precise by = precise(*parse_decimal("1e-20"));
     std::vector<Precise> result;  // d(slope i)/d(z_j) at j * size + i
     for (std::size_t j = 0; j < size_; ++j) {
+      const Precise by = here.spacing(j);
       const std::vector<Precise> up = slopes(here, j, by, length);
       const std::vector<Precise> down = slopes(here, j, -by, length);
       for (std::size_t i = 0; i < size_; ++i) result.push_back((up[i] - down[i]) / (by + by));

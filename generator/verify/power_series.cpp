@@ -93,6 +93,12 @@ PowerSeries integral(const Precise& start, const PowerSeries& u, const PowerSeri
 PowerSeries apply(const std::string& name, const std::vector<PowerSeries>& x, std::size_t length) {
   std::vector<Precise> first;
   for (const PowerSeries& a : x) first.push_back(coefficient(a, 0));
+  // Of that many periods the digits do not tell the last one.
+  static const Precise many = precise(*parse_decimal("1e25"));
+  const Shape shape = find_function(name)->shape;
+  const bool is_periodic =
+      shape == Shape::sine || shape == Shape::cosine || shape == Shape::tangent;
+  if (is_periodic && cln::abs(first[0]) > many) throw std::domain_error("periods beyond number");
   PowerSeries result{precise_function(name, first)};
   const std::size_t terms = extent(x, length);
   if (terms <= 1) return result;

@@ -264,4 +264,9 @@ ScaledValue PreciseValues::computed(const Expression& e) {
   internal_error("handled above");
 }
 
+Precise value_of_exact(const Expression& e) {
+  const Substitution none;
+  return *PreciseValues({}, none)(e);
+}
+
 }  // namespace hamgen

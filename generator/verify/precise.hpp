@@ -55,4 +55,7 @@ class PreciseValues {
   std::map<const void*, std::pair<Expression, ScaledValue>> done_;  // by node, which is kept alive
 };
 
+// The value of a number that has no symbols.
+[[nodiscard]] Precise value_of_exact(const Expression& e);
+
 }  // namespace hamgen

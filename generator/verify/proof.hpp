@@ -84,9 +84,11 @@ inline constexpr const char* kPlugin = "plugin";
 // The order of a K is what its flow shows: no better known than by points.
 [[nodiscard]] Finding prove_raised_order(const GeneratingFunction& function, const Decision& of_k);
 // A fixed number of sweeps in place of the solution, symplectic and symmetric: as the member, where
-// they solve its equations; else the orders of M^T J M - J and of the way back by power series.
+// they solve its equations; else the orders of M^T J M - J and of the way back by power series, of
+// the step or of one that has these parts.
 [[nodiscard]] Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
-                                const Surroundings& around = {});
+                                const Surroundings& around = {},
+                                const std::vector<Expression>& substeps = {Expression(1)});
 // Splittings, compositions, tableaus: symplectic, symmetric, and their order found by formal
 // series, which are looked at up to order + 1.  `nystrom`: T is quadratic in p.
 [[nodiscard]] Proof prove_splitting(const Splitting& splitting, int order, bool nystrom);

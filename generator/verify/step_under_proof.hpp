@@ -3,6 +3,7 @@
 
 #include "generator/program/environment.hpp"
 #include "generator/program/program.hpp"
+#include "generator/schemes/scheme.hpp"
 #include "generator/verify/symbolic_machine.hpp"
 
 namespace hamgen {

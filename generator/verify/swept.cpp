@@ -56,12 +56,14 @@ void keep_lower(const std::optional<LeadingTerm>& found, std::optional<LeadingTe
 class SweptStep {
  public:
   SweptStep(const Mechanics& mechanics, const Derivatives& derivatives, const Member& member,
-            int sweeps, std::size_t length)
+            int sweeps, const std::vector<Expression>& substeps, std::size_t length)
       : derivatives_(derivatives),
         member_(member),
         sweeps_(sweeps),
         size_(mechanics.variables.size()),
-        length_(length) {}
+        length_(length) {
+    for (const Expression& part : substeps) substeps_.push_back(value_of_exact(part));
+  }
 
   // Of M^T J M - J, by central differences, whose error is 1e-40.  Of a large system only some
   // columns.
@@ -117,7 +119,7 @@ class SweptStep {
   }
 
   [[nodiscard]] std::vector<PowerSeries> column(const FormalPoint& point, std::size_t j) const {
-    const Precise by = precise(*parse_decimal("1e-20"));
+    const Precise by = point.spacing(j);
     FormalPoint up = point;
     FormalPoint down = point;
     up.move(j, by);
@@ -130,9 +132,19 @@ class SweptStep {
     return result;
   }
 
+  [[nodiscard]] std::vector<PowerSeries> after(FormalPoint point,
+                                               std::vector<PowerSeries> z) const {
+    const PowerSeries h = point.step();
+    for (const Precise& part : substeps_) {
+      point.set_step(part * h);
+      z = after_substep(point, z);
+    }
+    return z;
+  }
+
   // z moved by h J g, each component's series shifted by h.
-  [[nodiscard]] std::vector<PowerSeries> after(const FormalPoint& point,
-                                               const std::vector<PowerSeries>& z) const {
+  [[nodiscard]] std::vector<PowerSeries> after_substep(const FormalPoint& point,
+                                                       const std::vector<PowerSeries>& z) const {
     const auto gauge = point.gauge(member_, length_);
     auto moved = [&](const std::vector<PowerSeries>& gradient) {
       auto field = rotated(gradient);
@@ -157,6 +169,7 @@ class SweptStep {
   const Derivatives& derivatives_;
   const Member& member_;
   int sweeps_;
+  std::vector<Precise> substeps_;  // 1, or those of a composition
   std::size_t size_, length_;
 };
 
@@ -175,13 +188,14 @@ void at_points(const Mechanics& mechanics, const Surroundings& around, const Use
 }
 
 Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
-                     const Member& member, int sweeps, const Surroundings& around) {
+                     const Member& member, int sweeps, const std::vector<Expression>& substeps,
+                     const Surroundings& around) {
   const std::string general =
       fmt::format("{} sweeps leave the step unsolved: the defect `M^T J M - J` is `O(h^{})`",
                   sweeps, sweeps + 2);
   const bool by_series = sweeps <= kMostSeriesSweeps;
   const auto length = by_series ? static_cast<std::size_t>(sweeps) + 6 : 1;
-  const SweptStep step(mechanics, derivatives, member, sweeps, length);
+  const SweptStep step(mechanics, derivatives, member, sweeps, substeps, length);
   std::optional<LeadingTerm> defect;
   std::optional<LeadingTerm> reversal;
   at_points(mechanics, around, [&](FormalPoint point) {
@@ -218,7 +232,7 @@ Proof prove_unsolved(const Mechanics& mechanics, const Derivatives& derivatives,
 }  // namespace
 
 Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
-                  const Surroundings& around) {
+                  const Surroundings& around, const std::vector<Expression>& substeps) {
   if (mechanics.keeps_sums()) {
     const std::string why = fmt::format(
         "{} sweeps leave the step unsolved, and the defect, `O(h^{})` in general, is not looked at "
@@ -228,7 +242,7 @@ Proof prove_swept(const Mechanics& mechanics, const Member& member, int sweeps,
   }
   const Derivatives derivatives(mechanics);
   if (!sweeps_solve(mechanics, derivatives, member, sweeps))
-    return prove_unsolved(mechanics, derivatives, member, sweeps, around);
+    return prove_unsolved(mechanics, derivatives, member, sweeps, substeps, around);
   Proof proof{prove_step_symplectic(member, mechanics.degrees_of_freedom, around),
               prove_symmetric(member, around)};
   for (Finding& finding : proof) {

@@ -62,6 +62,12 @@ Proof prove_member(const Mechanics& mechanics, const Scheme& scheme, const Solve
   return proof;
 }
 
+bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan) {
+  if (!plan.sweeps) return true;
+  return !mechanics.keeps_sums() &&
+         sweeps_solve(mechanics, Derivatives(mechanics), scheme.member(), *plan.sweeps);
+}
+
 Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan,
                    const Surroundings& around, const std::optional<Decision>& of_k) {
   if (const auto* splitting = std::get_if<Splitting>(&scheme.method)) {
@@ -72,6 +78,8 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Solve
     return prove_tableau(*tableau, scheme.order);
   }
   if (const auto* composition = std::get_if<Composition>(&scheme.method)) {
+    if (!is_solved(mechanics, scheme, plan))
+      return prove_swept(mechanics, scheme.member(), *plan.sweeps, around, composition->substeps);
     return prove_composition(*composition, mechanics.degrees_of_freedom, scheme.order, around);
   }
   return prove_member(mechanics, scheme, plan, around, of_k);
@@ -80,12 +88,6 @@ Proof prove_method(const Mechanics& mechanics, const Scheme& scheme, const Solve
 Verdict verdict_of(const Proof& proof, const std::string& property) {
   const auto found = std::ranges::find(proof, property, &Finding::property);
   return found == proof.end() ? Verdict::not_decided : found->verdict;
-}
-
-bool is_solved(const Mechanics& mechanics, const Scheme& scheme, const SolvePlan& plan) {
-  if (!plan.sweeps) return true;
-  return !mechanics.keeps_sums() &&
-         sweeps_solve(mechanics, Derivatives(mechanics), scheme.member(), *plan.sweeps);
 }
 
 }  // namespace

@@ -133,6 +133,14 @@ TEST(Chaos, LooksAtEveryStep) {
   EXPECT_EQ(jumped["steps"], nlohmann::json::parse(of(run, 1).out)["steps_done"]);
 }
 
+TEST(Chaos, SaysThatSweepsAreNotTheMethod) {
+  const Result result = hamgen({"chaos", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--solver",
+                                "sweeps:2", "--steps", "10"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.err + result.out, "implicit-midpoint, 2 fixed-point sweeps"))
+      << result.err;
+}
+
 // So many steps that the frequency would be folded if every hundredth were a sample.
 TEST(Chaos, FrequenciesOfALongOrbitAreThoseOfAShortOne) {
   const auto of = [](const char* steps) {

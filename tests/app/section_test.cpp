@@ -134,6 +134,14 @@ TEST(SectionCommand, SaysWhereOrbitsBeganThatStayed) {
   EXPECT_TRUE(contains(app::section_summary(section, title), "x=-0.1:0.3, px=-0.4:0.2"));
   section.orbits.erase(section.orbits.begin());
   EXPECT_TRUE(contains(app::section_summary(section, title), "help: a smaller --h\n"));
+
+  // Where none stayed, nothing is known of the energy; one that was stopped needs no advice.
+  section.orbits.erase(section.orbits.begin());
+  EXPECT_FALSE(contains(app::section_summary(section, title), "kept to"));
+  EXPECT_TRUE(contains(app::section_csv(section, title), "# ended     1 of the orbits: jumped\n"));
+  section.orbits.front().status = runtime::Status::stopped;
+  EXPECT_TRUE(contains(app::section_summary(section, title), "kept to"));
+  EXPECT_FALSE(contains(app::section_summary(section, title), "help: "));
 }
 
 TEST(SectionCommand, RefusesWhatIsNoSection) {

@@ -231,6 +231,38 @@ TEST(Verify, ReadsEveryFormatThatIsThere) {
   EXPECT_EQ(hamgen({"verify", model, "--format", "fortran"}).status, 2);
 }
 
+// What the header's first lines say of its lanes is taken from there.
+TEST(Verify, ReadsTheHeaderOfABatch) {
+  const Scratch scratch;
+  const std::string model = (verified_models / "pendulum.ham").string();
+  const std::string path = scratch.path("batch.hpp");
+  ASSERT_EQ(hamgen({"generate", model, "--batch", "4", "-o", path}).status, 0);
+  const Json rows = findings(model, {"--emitted", path});
+  EXPECT_EQ(find(rows, "emitted code").at("verdict"), "proved");
+  EXPECT_EQ(find(rows, "plugin").at("verdict"), "proved");
+  std::string text = read(path);
+  const std::size_t at = text.find("std::sin(", text.find("gradient("));
+  const std::size_t sine = at != std::string::npos ? at : text.find("sin(", text.find("gradient("));
+  ASSERT_NE(sine, std::string::npos) << text;
+  text.replace(text.find("sin", sine), 3, "cos");
+  static_cast<void>(scratch.write("batch.hpp", text));
+  EXPECT_EQ(find(findings(model, {"--emitted", path}, 5), "emitted code").at("verdict"), "refuted");
+}
+
+// An index that falls, and one of every second element.
+TEST(Verify, ReadsSubscriptsThatFall) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("mirror.ham",
+                    "size N = 20\ncoordinate x[1..2*N]\nmomentum u[1..2*N]\n"
+                    "H = sum(i = 1..2*N, u[i]^2/2 + x[i]^2/2) + sum(i = 1..N, x[2*i]*x[2*i-1]^2)"
+                    " + sum(i = 1..N, x[i]*x[2*N+1-i])\n");
+  for (const char* format : {"cpp-header", "cpp-plugin"}) {
+    const Json rows = findings(model, {"--format", format});
+    EXPECT_NE(find(rows, "emitted code").at("verdict"), "not decided") << rows.dump(1);
+  }
+}
+
 TEST(Check, SaysWhereHHasACorner) {
   const Scratch scratch;
   scratch.write("ball.ham", "coordinate q\nmomentum p\nH = p^2/2 + (abs(q) - q)^2/8\n");

@@ -58,6 +58,20 @@ TEST(CertifyCommand, FailsWhereAStepIsFartherThanItMayBe) {
   EXPECT_EQ(within("0").status, 2);
 }
 
+// Where a unit of rounding is no number, no distance is so many of them.
+TEST(CertifyCommand, FailsWhereUnitsVanish) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("small.ham",
+                    "coordinate q\nmomentum p\nH = p^2/2 + q^2/2\n"
+                    "scene s { q = 1e-310; p = -3e-311; h = 0.1; steps = 5 }\n"
+                    "scene t { q = 1e-200; p = -3e-201; h = 0.1; steps = 5 }\n");
+  const Result result = certify(model, {});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.out, "too small for a unit of rounding")) << result.out;
+  EXPECT_EQ(certify(model, {"--scene", "t"}).status, 0);
+}
+
 TEST(CertifyCommand, FailsWhereTheRunEnds) {
   const Scratch scratch;
   const std::string model =

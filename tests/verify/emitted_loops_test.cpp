@@ -8,6 +8,7 @@
 
 #include "generator/language/read_model.hpp"
 #include "generator/mechanics/derive.hpp"
+#include "generator/pipeline.hpp"
 #include "generator/schemes/all_schemes.hpp"
 #include "generator/verify/proof.hpp"
 #include "tests/verify/evaluator.hpp"
@@ -238,6 +239,21 @@ TEST(EmittedLoops, OfARaisedMemberAreTheMathematicsAndNoMutantIs) {
     ++mutants;
   }
   EXPECT_GE(mutants, 3);
+}
+
+// The neighbours of a ring meet where a loop of them ends: one instance in every part of a routine.
+TEST(EmittedLoops, AFunctionOfASumOverARingIsProved) {
+  const std::string ring =
+      "size N = 12\ncoordinate x[1..N] periodic\nmomentum u[1..N]\n"
+      "H = sum(i = 1..N, u[i]^2/2) + sum(i = 1..N, cos(x[i] - x[i+1]))^2\n";
+  for (const char* scheme : {"", "stormer-verlet", "gauss-4"}) {
+    const SourceText source = make_source("ring.ham", ring);
+    const Request request{.scheme = scheme, .in_loops = true};
+    const Proof proof = verify_step(source, request);
+    const auto emitted = std::ranges::find(proof, kEmittedCode, &Finding::property);
+    ASSERT_NE(emitted, proof.end());
+    EXPECT_EQ(emitted->verdict, Verdict::proved) << scheme << emitted->detail;
+  }
 }
 
 TEST(EmittedLoops, EveryMutationOfAFunctionOfSumsIsRefuted) {

@@ -186,6 +186,11 @@ TEST(FalseOrders, OfGaussNeedTheZerosOfTheLegendrePolynomial) {
     EXPECT_NE(f.verdict, Verdict::proved) << f.property;
 }
 
+TEST(FalseSymmetry, IsNotFoundInAZeroThatIsASmallNumber) {
+  const Request gauge{.gauge = "[[h/3, h/5], [h/7, -h/3 + 1e-60]]"};
+  EXPECT_EQ(verdict_of(of_one("p^2/2 - cos(q)"), gauge, "symmetric"), Verdict::refuted);
+}
+
 TEST(FalseSymmetry, IsNotFoundInAHiddenZero) {
   // Odd in h, which algebra does not see.
   const SourceText pendulum = read_source(HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham");
@@ -212,6 +217,59 @@ TEST(Sweeps, AreJudgedByWhatTheySolve) {
   const SourceText chain = model("coordinate x, y\nmomentum u, v\nH = u^2/2 + x*y\n");
   EXPECT_NE(verdict_of(chain, {.solver = "sweeps:1"}, "symplectic"), Verdict::proved);
   EXPECT_EQ(verdict_of(chain, {.solver = "sweeps:2"}, "symplectic"), Verdict::proved);
+}
+
+// A composition is as far from symplectic as its substeps.
+TEST(Sweeps, OfACompositionAreJudgedByWhatTheySolve) {
+  for (const char* scheme : {"yoshida-4", "suzuki-4", "kahan-li-8"}) {
+    const Request swept{.scheme = scheme, .solver = "sweeps:1"};
+    const Finding symplectic = finding(of_one("p^2/2 - cos(q)"), swept, "symplectic");
+    EXPECT_EQ(symplectic.verdict, Verdict::refuted) << scheme;
+    EXPECT_NE(symplectic.detail.find("by its power series"), std::string::npos)
+        << symplectic.detail;
+    EXPECT_EQ(verdict_of(of_one("p^2/2 - cos(q)"), swept, "symmetric"), Verdict::refuted);
+    EXPECT_THROW((void)generate(of_one("p^2/2 - cos(q)"),
+                                {.scheme = scheme, .solver = "sweeps:1", .require = "symplectic"}),
+                 ProofError);
+  }
+  const SourceText chain = model(
+      "size N = 26\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 - cos(q[i+1] - q[i]))\n");
+  EXPECT_EQ(verdict_of(chain, {.scheme = "yoshida-4", .solver = "sweeps:1"}, "symplectic"),
+            Verdict::not_decided);
+}
+
+// Coordinates in metres of what is 1e-10 metres long, and in units that are far too small.
+TEST(TrueOrders, AreFoundInUnitsOfAnySize) {
+  const SourceText small = model(
+      "coordinate x, y\nmomentum u, v\nH = (u^2 + v^2)/2 - 1e-10/sqrt(x^2 + y^2)\n"
+      "scene s { x = 1e-10; y = 3e-11; v = 0.8; h = 1e-12; steps = 10 }\n");
+  const SourceText large = model(
+      "coordinate q\nmomentum p\nH = p^2/2 + q^4/4\n"
+      "scene s { q = 1e100; p = -3e199; h = 1e-102; steps = 10 }\n");
+  for (const SourceText& source : {small, large}) {
+    EXPECT_EQ(verdict_of(source, {.order = 4}, "order 4"), Verdict::tested);
+    EXPECT_EQ(verdict_of(source, {.order = 4}, "program"), Verdict::tested);
+    EXPECT_NE(finding(source, {.solver = "sweeps:2"}, "symplectic").detail.find("`O(h^4)`, by"),
+              std::string::npos);
+  }
+  // Of so many periods no digits tell the last one.
+  const SourceText periods = model(
+      "coordinate q\nmomentum p\nH = p^2/2 + q^4/4 + cos(q*p)/10\n"
+      "scene s { q = 1e50; p = -3e99; h = 1e-52; steps = 10 }\n");
+  EXPECT_EQ(verdict_of(periods, {.order = 4}, "program"), Verdict::tested);
+}
+
+TEST(Corners, AreNotWhereASecondArgumentIsPositive) {
+  const auto of = [](const std::string& second) {
+    return verdict_of(
+        model("coordinate q, r\nmomentum p, s\nH = (p^2 + s^2)/2 + atan2(q, " + second + ")^2\n"),
+        {}, "symplectic");
+  };
+  EXPECT_EQ(of("1 + r^2"), Verdict::proved);
+  EXPECT_EQ(of("exp(r)"), Verdict::proved);
+  for (const char* second : {"1 + r", "r^2 - 1", "r^3 + 1", "r^2"})
+    EXPECT_EQ(of(second), Verdict::tested) << second;
 }
 
 TEST(Corners, LowerEveryVerdictOfTheStepAndAreNamed) {
