@@ -201,6 +201,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     return [this, matrix = matrix_at(factorise.matrix)] {
       if (matrix().factorise()) return true;
       m_.report.iterations += m_.iteration;
+      m_.report.increment = HUGE_VAL;
       return false;
     };
   }

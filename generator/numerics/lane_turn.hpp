@@ -28,9 +28,9 @@ struct Iteration {
     last = select(lanes, size, last);
     open = open & !lanes;
   }
-  // Lanes whose matrix is singular have failed.
+  // Lanes whose matrix is singular or not finite have failed.
   void require(Turn& turn, const Mask& regular) {
-    end_with(open & turn.lanes & !regular, Real(0));
+    end_with(open & turn.lanes & !regular, Real(__builtin_inf()));
     turn.lanes = turn.lanes & regular;
   }
 };

@@ -90,6 +90,7 @@ Routine composition_tangent(const Environment& environment, const LoweredStep& l
   Body substep;
   b.let(substep, "stride", step_size() * b.at("lengths", "", {affine("i")}));
   add_step(substep, code, "stride", "now");
+  if (code.has_rest()) b.add_increment(substep, "moved", "rest");
   substep.push_back({Array{"factor", {size, size}}});
   substep.push_back({Call{.routine = "substep_tangent",
                           .arguments = {{"par"}, {"stride"}, {"now"}, {"moved"}, {"factor"}},
@@ -103,7 +104,7 @@ Routine composition_tangent(const Environment& environment, const LoweredStep& l
   substep.push_back(b.for_entries(std::move(each)));
   Body copy{{Assign{b.entry("m").name(), b.entry("product")}}};
   substep.push_back(b.for_entries(std::move(copy)));
-  b.add_increment(substep, "now", code.has_rest());
+  b.add_increment(substep, "now", "moved");
   b.body().push_back(for_each(counting("i", count), std::move(substep)));
   b.finish();
   return b.take();

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/names.hpp"
@@ -46,14 +48,40 @@ std::vector<std::string> place_texts(const Layout& layout) {
   return texts;
 }
 
+namespace {
+
+// "A[1..5]", "A[3], A[5]"; empty where an element has the number here that it has in the model.
+std::string elements_text(const std::string& base, const std::vector<long>& numbers) {
+  constexpr std::size_t most = 6;
+  const auto size = static_cast<long>(numbers.size());
+  const long first = numbers.front();
+  const bool is_range = numbers.back() - first == size - 1;
+  if (is_range && first == 0) return "";
+  if (is_range && size > 1) return fmt::format("{}[{}..{}]", base, first, numbers.back());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(numbers.size(), most); ++i)
+    text += fmt::format("{}{}[{}]", i == 0 ? "" : ", ", base, numbers[i]);
+  return text + (numbers.size() > most ? fmt::format(", ... {}[{}]", base, numbers.back()) : "");
+}
+
+}  // namespace
+
 Layout layout(const std::string& name, const std::vector<Quantity>& quantities, Defaults defaults) {
   Layout result{.record = {.name = name, .fields = {}}};
   std::vector<Field>& fields = result.record.fields;
   std::set<std::string> taken;
   std::string last;  // the array whose elements come one after the other
+  std::vector<long> numbers;
+  const auto end_array = [&] {
+    if (numbers.empty()) return;
+    const std::string elements = elements_text(last, std::exchange(numbers, {}));
+    std::string& words = fields.back().remark;
+    if (!elements.empty()) words = elements + (words.empty() ? "" : ": " + words);
+  };
   for (const Quantity& quantity : quantities) {
     const ElementName element = split_element(quantity.name);
     if (fields.empty() || !element.indexed || last != element.base) {
+      end_array();
       std::string field = member_identifier(element.base);
       while (!taken.insert(field).second) field += "_";
       fields.push_back({.name = field, .remark = remark(quantity)});
@@ -63,9 +91,11 @@ Layout layout(const std::string& name, const std::vector<Quantity>& quantities, 
     if (element.indexed) {
       if (field.sizes.empty()) field.sizes.push_back(0);
       ++field.sizes.front();
+      numbers.push_back(element.index);
     }
     if (defaults == Defaults::values) field.values.push_back(quantity.value);
   }
+  end_array();
   return result;
 }
 

@@ -69,10 +69,10 @@ void TangentBuilder::for_components(
   body.push_back(for_each(counting("row", n_), std::move(loop)));
 }
 
-void TangentBuilder::add_increment(Body& body, const std::string& state, bool has_rest) {
+void TangentBuilder::add_increment(Body& body, const std::string& state,
+                                   const std::string& increment) {
   for_components(body, [&](Body& to, const Component& of, const AffineIndex&) {
-    const Expression moved = of("moved");
-    to.push_back({Accumulate{of(state).name(), has_rest ? moved + of("rest") : moved}});
+    to.push_back({Accumulate{of(state).name(), of(increment)}});
   });
 }
 

@@ -43,8 +43,8 @@ class TangentBuilder : public RoutineBuilder {
   void add_gradient(Body& body, const TangentPoint& point, const std::string& values) const;
   // y = H''(q, p) u, of a system in loops.
   [[nodiscard]] Instruction curvature(const Place& q, const Place& p, const Place& u) const;
-  // state += moved (+ rest)
-  void add_increment(Body& body, const std::string& state, bool has_rest);
+  // state += increment
+  void add_increment(Body& body, const std::string& state, const std::string& increment);
   // Each component of a record State, or one loop over the elements of its arrays: `each` is given
   // the component of any such record, as an expression, and its number from 0 to 2n - 1, of which
   // an array is one in a loop over "row".

@@ -151,6 +151,7 @@ class RoutineWriter : public RunWriter {
     }
     branch(prefix("!", std::move(regular)), iterates_ ? Shape::braces : Shape::line, [this] {
       if (iterates_) count_iterations();
+      if (iterates_) set(at({"report", "increment"}), call("__builtin_inf", {}));
       fail();
     });
   }

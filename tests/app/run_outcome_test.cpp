@@ -42,6 +42,22 @@ struct Failure {
   std::string status;
 };
 
+// Of four equations solved together, as of one.
+TEST(Run, LeavesTheDomainInAMatrixToo) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("m.ham",
+                    "coordinate a, b, c, d\nmomentum u, v, w, x\n"
+                    "H = (u^2 + v^2 + w^2 + x^2)/2 + b^2*c^2*d^2 + a^2*c^2 + sqrt(1 - a^2)*b\n"
+                    "scene s { a = 0.9; b = 0.1; c = 0.2; d = 0.3; u = 2; h = 0.2; steps = 10 }\n");
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--interpret"}, {"--scheme", "yoshida-4"}}) {
+    std::vector<std::string> arguments = {model};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_json(arguments, 1)["status"], "left the domain");
+  }
+}
+
 // The state in the summary, the last row and the numbers of energy and steps are of one step, the
 // last whose end has an energy.
 TEST(Run, EndsEveryFailureWithItsNameAndTheLastGoodState) {
