@@ -9,6 +9,7 @@
 #include "app/output/difference.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/patience.hpp"
 #include "app/output/terminal.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"
@@ -196,7 +197,11 @@ int generate_files(const GenerateOptions& options) {
           "them");
   }
   record_origin(options.method, source, request);
-  OutputFiles files = generate(source, request);
+  OutputFiles files;
+  {
+    const Patience patience(say_that_proofs_take_long);
+    files = generate(source, request);
+  }
   const bool one_file = is_code_file(options.output);
   if (!one_file && options.output != "-") require_directory("-o", options.output);
   if (one_file) files = under_one_name(files, options.output);

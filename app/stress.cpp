@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/axis_option.hpp"
 #include "app/command_line.hpp"
 #include "app/interrupt.hpp"
 #include "app/output/draw_picture.hpp"

@@ -14,6 +14,7 @@
 #include "app/output/certificate_json.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/modified_output.hpp"
+#include "app/output/patience.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/measure.hpp"
@@ -201,7 +202,11 @@ int verify(const VerifyOptions& options) {
   Setting setting = verify_setting(options);
   const std::optional<EmittedHeader> header = read_header(options.emitted, setting.request);
   const SceneValues scene = scene_values(setting.model, setting.scene);
-  Proof proof = verify_step(setting.source, setting.request, scene, header);
+  Proof proof;
+  {
+    const Patience patience(say_that_proofs_take_long);
+    proof = verify_step(setting.source, setting.request, scene, header);
+  }
   std::vector<InvariantDefect> defects;
   bool holds = true;
   if (options.measure) {

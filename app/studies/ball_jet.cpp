@@ -238,7 +238,7 @@ BallJet apply_function(std::string_view function, std::span<const BallJet> argum
 bool has_ball_derivatives(std::string_view function) {
   const Function* row = find_function(function);
   return function == "atan2" || (row != nullptr && row->by_others != nullptr) ||
-         std::ranges::any_of(rules, [&](const NamedRule& row) { return row.name == function; });
+         std::ranges::any_of(rules, [&](const NamedRule& rule) { return rule.name == function; });
 }
 
 }  // namespace hamgen::app

@@ -141,19 +141,19 @@ TYPED_TEST(ContractionRule, AlwaysComesToAnEnd) {
 // x = 1/8 x + b, from a point one unit away: what the rule has settled is taken as it is, else the
 // change of the slope is found, and the contraction too.
 TYPED_TEST(ContractionRule, LearnsFromRefinement) {
-  using Number = typename TypeParam::Scalar;
-  const Number solution = 1;
+  using Real = typename TypeParam::Scalar;
+  const Real solution = 1;
   for (const bool settled : {true, false}) {
     auto rule = this->with_contraction(1.0 / (1 << 14));
     EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
     rule.settled = settled;
     typename TypeParam::template Refined<1, 2> refinement;
-    Number point[1] = {solution + TypeParam::unit};
-    const Number rounded = point[0];
+    Real point[1] = {solution + TypeParam::unit};
+    const Real rounded = point[0];
     int evaluations = 0;
     for (bool more = true; more; ++evaluations) {
-      const Number slope[2] = {point[0] / 8, 0};
-      const Number lack[1] = {(solution - point[0]) * Number(7) / 8};
+      const Real slope[2] = {point[0] / 8, 0};
+      const Real lack[1] = {(solution - point[0]) * Real(7) / 8};
       more = refinement(rule, point, lack, slope);
     }
     EXPECT_EQ(point[0], rounded);
@@ -166,13 +166,13 @@ TYPED_TEST(ContractionRule, LearnsFromRefinement) {
 
 // A contraction that was learnt long ago may be wrong: what the equations lack says so.
 TYPED_TEST(ContractionRule, IsNotBelievedAgainstWhatIsSeen) {
-  using Number = typename TypeParam::Scalar;
+  using Real = typename TypeParam::Scalar;
   auto rule = this->with_contraction(1.0 / (1 << 14));
   EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
   typename TypeParam::template Refined<1, 2> refinement;
-  Number point[1] = {1};
-  const Number slope[2] = {0, 0};
-  const Number lack[1] = {8 * TypeParam::unit};
+  Real point[1] = {1};
+  const Real slope[2] = {0, 0};
+  const Real lack[1] = {8 * TypeParam::unit};
   EXPECT_TRUE(refinement(rule, point, lack, slope));
   EXPECT_FALSE(rule.settled);
 }

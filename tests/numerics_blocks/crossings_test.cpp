@@ -119,20 +119,20 @@ TYPED_TEST(CrossingSearch, WhatHasNoValueIsLeftOut) {
 
 // s^3 - s, over a step of length 2: its derivative by the time is (3 s^2 - 1)/2.
 TYPED_TEST(CrossingSearch, TheCubicIsThatOfBothEnds) {
-  using Real = typename TypeParam::Scalar;
+  using Number = typename TypeParam::Scalar;
   for (int i = 0; i <= 8; ++i) {
-    const Real s = Real(i) / 8;
-    EXPECT_EQ(TypeParam::on_cubic(s, Real(2), Real(0), Real(-1) / 2, Real(0), Real(1)),
+    const Number s = Number(i) / 8;
+    EXPECT_EQ(TypeParam::on_cubic(s, Number(2), Number(0), Number(-1) / 2, Number(0), Number(1)),
               s * s * s - s);
   }
 }
 
 TYPED_TEST(CrossingSearch, AListIsInTheOrderOfTimeAndOfEvents) {
-  using Real = typename TypeParam::Scalar;
+  using Number = typename TypeParam::Scalar;
   typename TypeParam::template Crossings<3> list;
   const int events[] = {0, 1, 1, 2, 2};
   const int eighths[] = {4, 2, 6, 4, 1};
-  for (int i = 0; i < 5; ++i) list.insert(events[i], Real(eighths[i]) / 8);
+  for (int i = 0; i < 5; ++i) list.insert(events[i], Number(eighths[i]) / 8);
   ASSERT_EQ(list.count, 5);
   const int sorted[] = {2, 1, 0, 2, 1};
   for (int i = 0; i < 5; ++i) EXPECT_EQ(list.event[i], sorted[i]) << i;
