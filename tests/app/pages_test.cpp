@@ -1,6 +1,7 @@
 // Every command of README and docs/ is run, and what it prints is what the page shows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -259,8 +260,8 @@ std::vector<std::string> names_of_pages() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Docs, PagesLong, testing::ValuesIn(names_of_pages()),
-                         [](const auto& info) {
-                           return info.param.substr(0, info.param.find('.'));
+                         [](const auto& instance) {
+                           return instance.param.substr(0, instance.param.find('.'));
                          });
 
 }  // namespace

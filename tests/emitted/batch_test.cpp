@@ -30,14 +30,14 @@ std::vector<Instructions> instructions() {
 
 class BatchLanes : public testing::TestWithParam<BatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Explicit, BatchLanes, testing::ValuesIn(explicit_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 INSTANTIATE_TEST_SUITE_P(Implicit, BatchLanes, testing::ValuesIn(implicit_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 INSTANTIATE_TEST_SUITE_P(Iterated, BatchLanes, testing::ValuesIn(iterated_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 class ExplicitBatch : public testing::TestWithParam<BatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Cases, ExplicitBatch, testing::ValuesIn(explicit_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_P(BatchLanes, AreBitForBitTheTrajectoryAloneWhateverTheWidthAndTheInstructions) {
   const std::vector<int>& widths = GetParam().widths;
@@ -58,7 +58,7 @@ TEST_P(BatchLanes, AreBitForBitTheTrajectoryAloneWhateverTheWidthAndTheInstructi
 // All of them, and if one is refused in lanes then for a reason that it has alone, too.
 class BatchSweep : public testing::TestWithParam<BatchCase> {};
 INSTANTIATE_TEST_SUITE_P(Schemes, BatchSweep, testing::ValuesIn(swept_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_P(BatchSweep, IsBitForBitTheTrajectoryAlone) {
   const BatchCase& test = GetParam();

@@ -12,25 +12,25 @@ namespace {
 template <class Blocks>
 class CrossingSearch : public ::testing::Test {
  public:
-  using Real = typename Blocks::Scalar;
+  using Number = typename Blocks::Scalar;
 
   // Of a quantity that is known exactly, and of what the cubic says of it.
   template <class Value, class Look>
-  static std::vector<Real> found(const Value& value, const Look& look, bool rising = true,
-                                 bool falling = true) {
-    std::vector<Real> thetas;
-    const auto after_part = [&](Real theta, Real& result) {
+  static std::vector<Number> found(const Value& value, const Look& look, bool rising = true,
+                                   bool falling = true) {
+    std::vector<Number> thetas;
+    const auto after_part = [&](Number theta, Number& result) {
       result = value(theta);
       return result == result;
     };
-    Blocks::crossings(after_part, look, value(Real(0)), value(Real(1)), rising, falling,
-                      [&](Real theta) { thetas.push_back(theta); });
+    Blocks::crossings(after_part, look, value(Number(0)), value(Number(1)), rising, falling,
+                      [&](Number theta) { thetas.push_back(theta); });
     return thetas;
   }
   // To rounding of theta: between two arguments so far apart there is the change of sign.
   template <class Value>
-  static void expect_root(const Value& value, Real theta) {
-    const Real near = 4 * Blocks::unit * theta;
+  static void expect_root(const Value& value, Number theta) {
+    const Number near = 4 * Blocks::unit * theta;
     EXPECT_NE(value(theta - near) > 0, value(theta + near) > 0);
   }
 };
@@ -119,20 +119,20 @@ TYPED_TEST(CrossingSearch, WhatHasNoValueIsLeftOut) {
 
 // s^3 - s, over a step of length 2: its derivative by the time is (3 s^2 - 1)/2.
 TYPED_TEST(CrossingSearch, TheCubicIsThatOfBothEnds) {
-  using Number = typename TypeParam::Scalar;
+  using Real = typename TypeParam::Scalar;
   for (int i = 0; i <= 8; ++i) {
-    const Number s = Number(i) / 8;
-    EXPECT_EQ(TypeParam::on_cubic(s, Number(2), Number(0), Number(-1) / 2, Number(0), Number(1)),
+    const Real s = Real(i) / 8;
+    EXPECT_EQ(TypeParam::on_cubic(s, Real(2), Real(0), Real(-1) / 2, Real(0), Real(1)),
               s * s * s - s);
   }
 }
 
 TYPED_TEST(CrossingSearch, AListIsInTheOrderOfTimeAndOfEvents) {
-  using Number = typename TypeParam::Scalar;
+  using Real = typename TypeParam::Scalar;
   typename TypeParam::template Crossings<3> list;
   const int events[] = {0, 1, 1, 2, 2};
   const int eighths[] = {4, 2, 6, 4, 1};
-  for (int i = 0; i < 5; ++i) list.insert(events[i], Number(eighths[i]) / 8);
+  for (int i = 0; i < 5; ++i) list.insert(events[i], Real(eighths[i]) / 8);
   ASSERT_EQ(list.count, 5);
   const int sorted[] = {2, 1, 0, 2, 1};
   for (int i = 0; i < 5; ++i) EXPECT_EQ(list.event[i], sorted[i]) << i;

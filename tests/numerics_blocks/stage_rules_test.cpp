@@ -100,16 +100,16 @@ TYPED_TEST(StageRules, AFastMatrixStays) {
 
 // Where the Hessian is huge the increments are small, far from any solution.
 TYPED_TEST(StageRules, ASmallIncrementOfEquationsThatDoNotHoldIsAFailure) {
-  using Number = typename TypeParam::Scalar;
+  using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
   typename TypeParam::Simplified rule;
   bool factorised = true;
   rule.begin(factorised);
-  EXPECT_EQ(rule(this->moved(10), Number(0.5), factorised, 1), Verdict::failed);
+  EXPECT_EQ(rule(this->moved(10), Real(0.5), factorised, 1), Verdict::failed);
   EXPECT_FALSE(factorised);
   rule.begin(true);
   factorised = true;
-  EXPECT_EQ(rule(this->moved(10), Number(0.01), factorised, 1), Verdict::done);
+  EXPECT_EQ(rule(this->moved(10), Real(0.01), factorised, 1), Verdict::done);
   EXPECT_TRUE(factorised);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "generator/program/arithmetic.hpp"
 #include "generator/stages.hpp"
 #include "generator/verify/proof.hpp"
 

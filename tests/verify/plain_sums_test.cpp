@@ -1,6 +1,7 @@
 // --plain-sums: no carry anywhere, and everything that is proved of a step still is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "generator/interpreter/interpreter.hpp"
