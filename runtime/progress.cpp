@@ -28,6 +28,8 @@ bool can_draw(int descriptor) {
 
 }  // namespace
 
+bool is_watched() { return can_draw(STDERR_FILENO); }
+
 std::string duration_text(double seconds) {
   if (!(seconds < 1e9)) return "?";
   const auto whole = static_cast<long long>(std::ceil(seconds));

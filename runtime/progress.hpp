@@ -16,6 +16,9 @@ namespace hamgen::runtime {
 // "0:42", "3:05:00".
 [[nodiscard]] std::string duration_text(double seconds);
 
+// Is standard error a terminal that can move its cursor?
+[[nodiscard]] bool is_watched();
+
 // Draws on standard error if that is a terminal that can move its cursor, otherwise does nothing.
 // The line is removed at the end.  No colour if NO_COLOR is set.
 class ProgressBar {

@@ -1,10 +1,9 @@
 #include "app/output/patience.hpp"
 
-#include <unistd.h>
-
 #include <utility>
 
 #include "app/output/terminal.hpp"
+#include "runtime/progress.hpp"
 
 namespace hamgen::app {
 
@@ -24,7 +23,7 @@ Patience::~Patience() {
 }
 
 void say_that_proofs_take_long() {
-  if (isatty(STDERR_FILENO) == 0) return;
+  if (!runtime::is_watched()) return;
   print_error("hamgen: what is derived and proved of this step takes long; Ctrl-C ends it\n");
 }
 

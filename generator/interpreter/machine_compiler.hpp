@@ -1,6 +1,8 @@
 // Makes the steps of a machine from the instructions of its routine.
 #pragma once
 
+#include <cmath>
+
 #include "generator/interpreter/machine_iteration_compiler.hpp"
 
 namespace hamgen {
