@@ -305,6 +305,7 @@ PluginSource generate_plugin(const SourceText& source, const Request& request, H
   }
   plugin.order = stages.equations.scheme.order;
   plugin.solver = stages.program.facts.solver;
+  plugin.is_swept = stages.plan.sweeps.has_value();
   plugin.left_out = stages.plan.left_out;
   plugin.left_out_for_scene = stages.folded.folding.left_out.size() + stages.system.left_out.size();
   for (const Quantity& parameter : stages.system.mechanics.parameters) {

@@ -94,6 +94,7 @@ struct PluginSource {
   std::string scheme_name;            // "implicit-midpoint", "alpha = 3/10, ..."
   int order = 1;                      // of the method
   std::string solver;                 // "Newton of size 1, ..." one line
+  bool is_swept = false;              // a number of sweeps stands in for the solution
   std::vector<std::string> left_out;  // what the planner left out and why
   std::size_t left_out_for_scene = 0;        // the first so many of them: the scene needs less
   std::vector<std::string> parameter_names;  // run-time parameters in interface order

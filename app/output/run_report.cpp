@@ -282,10 +282,8 @@ std::string failure_text(const RunReport& report) {
     case runtime::Status::jumped:
       return fmt::format(
           "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times {:.3g}, "
-          "the "
-          "larger of |H| and |q| |H_q| + |p| |H_p| at the start: it went across a singularity, or "
-          "h "
-          "is far too large",
+          "the larger of |H| and |q| |H_q| + |p| |H_p| at the start: it went across a "
+          "singularity, or h is far too large",
           step, where, summary.jump.value_or(0.0), summary.energy_scale);
     case runtime::Status::escaped:
       return fmt::format(

@@ -48,8 +48,7 @@ void require_scheme(const std::string& name) {
 }  // namespace
 
 std::string method_text(const PluginSource& plugin) {
-  const bool is_solved = plugin.solver.find("not symplectic") == std::string::npos;
-  return plugin.scheme_name + (is_solved ? "" : ", " + plugin.solver);
+  return plugin.scheme_name + (plugin.is_swept ? ", " + plugin.solver : "");
 }
 
 bool suits(std::string_view name, const Mechanics& mechanics) {

@@ -131,8 +131,8 @@ struct Alternate {
   int steps = 0;
   Body between;  // after each failure of the first
 };
-// Factorises a matrix.  Where it is singular or not finite the routine ends without success, and the
-// report of an iteration says that its increment is not finite.
+// Factorises a matrix.  Where it is singular or not finite the routine ends without success, and
+// the report of an iteration says that its increment is not finite.
 struct Factorise {
   Place matrix;
 };

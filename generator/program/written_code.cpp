@@ -150,8 +150,10 @@ class RoutineWriter : public RunWriter {
       return void(add(Do{action("NewtonRule", rule_, "require", {turn, std::move(regular)})}));
     }
     branch(prefix("!", std::move(regular)), iterates_ ? Shape::braces : Shape::line, [this] {
-      if (iterates_) count_iterations();
-      if (iterates_) set(at({"report", "increment"}), call("__builtin_inf", {}));
+      if (iterates_) {
+        count_iterations();
+        set(at({"report", "increment"}), call("__builtin_inf", {}));
+      }
       fail();
     });
   }

@@ -8,7 +8,8 @@ namespace hamgen {
 namespace {
 
 // Elimination within a band of width w costs 2 w^2 operations a row and a solve 5 w, Eigen's sparse
-// one some microseconds and less than a tenth of one, and twenty seconds of compilation.
+// one some microseconds and less than a tenth of one, and twenty seconds of compilation: measured
+// of lattices, Newton's steps are as long at w = 75, those of a constant matrix at w = 28.
 constexpr int kWidestBand = 64;
 constexpr int kWidestConstantBand = 24;  // of a matrix that is eliminated once
 // A dense matrix of this size is half a megabyte of the object that takes the steps.

@@ -164,8 +164,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
     if (wish.kind == Wish::newton && !arrays.matrix)
       throw UsageError(
           fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "
-                      "which does not "
-                      "know quad numbers\nhelp: --solver fixed-point",
+                      "which does not know quad numbers\nhelp: --solver fixed-point",
                       (arrays.reduced ? 1 : 2) * n));
     if (!arrays.matrix) {
       arrays.method = ArrayMethod::fixed_point;

@@ -112,8 +112,10 @@ Finding prove_symmetric(const Member& member, const Surroundings& around) {
   for (const auto& [place, value] : member.c) {
     const Expression reflected = substitute(value, {{"h", -Expression::symbol("h", kRankOfStep)}});
     if (vanishes(reflected + value)) continue;
-    Decision decision = decide_equal("`C(-h)`", reflected, -value, around);
-    if ((reflected + value).is_number()) decision.verdict = Verdict::refuted;  // it is not 0
+    // What points take for zero may be a number that is not.
+    const Decision decision = (reflected + value).is_number()
+                                  ? Decision{.verdict = Verdict::refuted}
+                                  : decide_equal("`C(-h)`", reflected, -value, around);
     if (decision.verdict == Verdict::tested) at_points = decision;
     if (holds(decision.verdict)) continue;
     return {

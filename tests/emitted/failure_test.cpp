@@ -140,6 +140,28 @@ TEST(Failure, AnInitialStateThatIsNotFiniteFailsAtOnce) {
       "");
 }
 
+// Of four equations solved together by elimination, alone and as one of two lanes.
+TEST(Failure, OfAMatrixThatIsNotFiniteSaysSoOfTheIncrement) {
+  const std::string four =
+      "coordinate a, b, c, d\nmomentum u, v, w, x\n"
+      "H = (u^2 + v^2 + w^2 + x^2)/2 + b^2*c^2*d^2 + a^2*c^2 + sqrt(1 - a^2)*b\n";
+  const std::string main =
+      "#include <cmath>\n#include <cstdio>\nint main() {\n  model::State z = {};\n"
+      "  z.a = z.a + 0.9;\n  z.b = z.b + 0.1;\n  z.c = z.c + 0.2;\n  z.d = z.d + 0.3;\n";
+  EXPECT_EQ(run_program(without_pragma(header(four, {})) + main +
+                        "  z.u = 2;\n  const auto report = model::step({}, 0.2, z);\n"
+                        "  std::printf(\"%d %d\", report.converged, "
+                        "std::isfinite(report.increment));\n}\n"),
+            "0 0");
+  EXPECT_EQ(run_program(without_pragma(header(four, {.batch = 2})) + main +
+                        "  z.u.set(0, 2);\n  model::Propagator run({}, model::Real() + 0.2, z);\n"
+                        "  const auto report = run.step();\n"
+                        "  for (int l = 0; l < 2; ++l)\n"
+                        "    std::printf(\"%d %d \", report.converged[l] != 0, "
+                        "std::isfinite(double(report.increment[l])) != 0);\n}\n"),
+            "0 0 1 1 ");
+}
+
 TEST(Failure, ASoundStepDoesNotFail) {
   for (const char* solver : {"newton", "fixed-point"}) {
     for (const char* scalar : {"double", "float", "quad"}) {

@@ -193,6 +193,22 @@ TEST(Shape, AnotherSystemOrMethodOfTheSameNameIsAnError) {
             "");
 }
 
+// Where an element has another number than in the model.
+TEST(Shape, AnArrayTellsItsElements) {
+  const std::string text =
+      generate(make_source("m.ham",
+                           "coordinate q\nmomentum p\nparameter A[1..5] = [1, 2, 3, 4, 5]\n"
+                           "parameter m[1..3] = [1, 2, 3]  # masses\n"
+                           "parameter c[0..2] = [1, 2, 3]\nH = p^2/2 + A[3]*q^2/2 + A[5]*q^4"
+                           " + (m[1] + m[2]*q + m[3]*q^3)/(c[0] + c[1] + c[2])\n"),
+               {})
+          .at(0)
+          .text;
+  for (const char* words : {"A[2] = {3.0, 5.0};", "// A[3], A[5]\n", "// m[1..3]: masses\n"})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  EXPECT_EQ(text.find("// c["), std::string::npos);
+}
+
 TEST(Shape, TheSystemComesFirstThenTheFixedBlocksThenTheMethod) {
   const std::string text = generate(pendulum(), {}).at(0).text;
   std::size_t last = 0;
