@@ -283,6 +283,23 @@ Finding swept(const std::string& text, int sweeps, const Expression& alpha) {
       .front();
 }
 
+// Of a substep of h/2 the term in h^3 is an eighth.
+TEST(Sweeps, OfSubstepsHaveTheirLengths) {
+  const Mechanics mechanics = mechanics_of(kPendulum);
+  const Member midpoint = member(1, number(1, 2), Expression(0), Expression(0)).member();
+  const auto first_term = [&](const Expression& part) {
+    const std::string detail = prove_swept(mechanics, midpoint, 1, {}, {part}).front().plain();
+    const std::string words = "begins with ";
+    const std::size_t at = detail.find(words);
+    EXPECT_NE(at, std::string::npos) << detail;
+    EXPECT_NE(detail.find(" h^3 at", at), std::string::npos) << detail;
+    return at == std::string::npos ? 0.0 : std::stod(detail.substr(at + words.size()));
+  };
+  const double whole = first_term(Expression(1));
+  EXPECT_GT(std::abs(whole), 1e-6);
+  EXPECT_NEAR(first_term(number(1, 2)), whole / 8, 1e-3 * std::abs(whole));
+}
+
 // Each sweep wins a power of h from h^2 of the predictor on: K + 2, unless it cancels.
 TEST(Sweeps, AreRefutedWithTheOrderOfTheirDefect) {
   for (int sweeps = 1; sweeps <= 4; ++sweeps) {
