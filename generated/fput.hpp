@@ -816,9 +816,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x785da6cd
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x1b555514
 namespace fput::implicit_midpoint {
-inline namespace emitted_785da6cd {
+inline namespace emitted_1b555514 {
 
 namespace numerics = ::hamgen_186a1ac0::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -967,7 +967,7 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
     differentiate(par, k, start.value, start.matrix);
     if (!start.matrix.factorise()) {
       report.iterations += iteration;
-      report.increment = __builtin_inf();
+      report.increment = Real(__builtin_inf());
       return false;
     }
     start.matrix.solve(start.lack);
@@ -1122,9 +1122,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_785da6cd
+}  // namespace emitted_1b555514
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x785da6cd
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x1b555514
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -152,7 +152,7 @@ class RoutineWriter : public RunWriter {
     branch(prefix("!", std::move(regular)), iterates_ ? Shape::braces : Shape::line, [this] {
       if (iterates_) {
         count_iterations();
-        set(at({"report", "increment"}), call("__builtin_inf", {}));
+        set(at({"report", "increment"}), call("Real", {call("__builtin_inf", {})}));
       }
       fail();
     });
