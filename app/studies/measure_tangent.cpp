@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 
 namespace hamgen::app {
 namespace {
@@ -47,8 +48,8 @@ class TangentMeasurement {
         amplitude_[i] = std::max(amplitude_[i], std::abs(z[i]));
       }
     }
-    const double most = std::max(*std::ranges::max_element(amplitude_), 1e-300);
-    for (double& a : amplitude_) a = a > 0 ? a : most;
+    fill_amplitude(0);
+    fill_amplitude(n_);
   }
 
   void run() {
@@ -100,6 +101,17 @@ class TangentMeasurement {
   }
 
  private:
+  // What rests but for rounding, as sin(pi) does, has no size of its own: that of the largest of
+  // the coordinates, or of the momenta, or of all if these rest.
+  void fill_amplitude(std::size_t first) {
+    constexpr double kRest = 64 * std::numeric_limits<double>::epsilon();
+    const std::span<double> part(amplitude_.data() + first, n_);
+    const double all = std::max(*std::ranges::max_element(amplitude_), 1e-300);
+    const double own = *std::ranges::max_element(part);
+    const double most = own > 0 ? own : all;
+    for (double& a : part) a = a > kRest * most ? a : most;
+  }
+
   // A state of the orbit and the scene's parameters, each moved by up to a tenth.
   Sample sample() {
     std::uniform_real_distribution<double> tenth(-0.1, 0.1);
