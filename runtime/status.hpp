@@ -14,7 +14,7 @@ enum class Status {
                   // perhaps to infinity in finite time, where no step can follow
   not_converged,  // the equations of a step were not solved
   left_domain,    // H or its gradient is not defined where the step went
-  overflow,       // beyond the numbers there are
+  overflow,       // beyond the numbers there are, or a matrix without an inverse
   stopped,        // by the user
   out_of_time,    // its time was over before its steps
   undefined,      // there are no values to begin with: nothing was run

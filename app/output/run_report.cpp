@@ -299,7 +299,10 @@ std::string failure_text(const RunReport& report) {
           "gradient is not a finite number",
           step, where, increment);
     case runtime::Status::overflow:
-      return fmt::format("step {} overflowed: {}, last increment {}", step, where, increment);
+      return fmt::format(
+          "step {} overflowed: {}, last increment {}; it met a number beyond the largest, or its "
+          "equations have no solution at this h",
+          step, where, increment);
     case runtime::Status::stopped:
       return fmt::format("stopped after {} of {} steps, at t = {:.10g}", summary.steps_done,
                          *report.scene->steps, t);

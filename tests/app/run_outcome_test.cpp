@@ -60,6 +60,24 @@ TEST(Run, LeavesTheDomainInAMatrixToo) {
 
 // The state in the summary, the last row and the numbers of energy and steps are of one step, the
 // last whose end has an energy.
+// 1 - h^2/4 = 0: the step of the inverted spring has no solution at h = 2.
+TEST(Run, SaysThatEquationsHaveNoSolution) {
+  const Scratch scratch;
+  const std::string one = scratch.write(
+      "one.ham",
+      "coordinate q\nmomentum p\nH = p^2/2 - q^2/2\nscene s { q = 1; h = 2; steps = 5 }\n");
+  const std::string many = scratch.write(
+      "many.ham",
+      "size N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\nH = sum(i = 1..N, p[i]^2/2 - q[i]^2/2)\n"
+      "scene s { q[i] = i; h = 2; steps = 5 }\n");
+  for (const std::string& model : {one, many}) {
+    const json report = run_json({model}, 1);
+    EXPECT_EQ(report["status"], "overflow") << report;
+    EXPECT_TRUE(contains(report["reason"].get<std::string>(), "no solution at this h")) << report;
+    EXPECT_EQ(report["steps_done"], 0);
+  }
+}
+
 TEST(Run, EndsEveryFailureWithItsNameAndTheLastGoodState) {
   const std::string collision = "p^2/2 - 1/abs(q)";
   const std::vector<Failure> failures = {
