@@ -62,6 +62,24 @@ TEST(PlainSums, KeepTheContract) {
   }
 }
 
+// The force on y is solved for first, and then moves x too: what its last increment added is in it
+// then, and is not added again.
+TEST(ABlockBehindAnother, TakesTheIncrementOfThatOneOnce) {
+  const Case c{.name = "two pendulums",
+               .model = make_source("two.ham",
+                                    "system two\ncoordinate x, y\nmomentum u, v\n"
+                                    "H = (u^2 + v^2)/2 - cos(x) - 2*cos(y)\n"
+                                    "scene s { x = 2; y = 1.5; u = 0.3; h = 0.1; steps = 500 }\n"),
+               .scene = "s",
+               .request = {.gauge = "[[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1/3], [0, 0, 0, 0]]",
+                           .solver = "newton"}};
+  const Defects d = Interpretable(c.model).measure(c);
+  EXPECT_FALSE(d.failed);
+  EXPECT_EQ(d.steps, 500);
+  EXPECT_LE(d.worst, kAllowed) << "at step " << d.worst_step;
+  EXPECT_EQ(d.broken, 0);
+}
+
 // Negative controls, of emitted text that is changed.
 TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
   const auto forget_each = [](std::string text) {
