@@ -214,6 +214,11 @@ std::vector<Row> all_rows() {
         .name = fmt::format("soft chain of {}, h = 1", n), .model = soft_chain(n), .h = 1};
     add(rows, soft_at_one, "midpoint", {});
   }
+  for (const int n : {3, 6, 25}) {
+    const Problem soft_at_two{
+        .name = fmt::format("soft chain of {}, h = 2", n), .model = soft_chain(n), .h = 2};
+    add(rows, soft_at_two, "midpoint", {});
+  }
   const Problem soft_at_five{.name = "soft chain of 6, h = 5", .model = soft_chain(6), .h = 5};
   add(rows, soft_at_five, "midpoint", {});
   const Problem band_at_one{.name = "chain of 25, loops, h = 1", .model = chain(25), .h = 1};
