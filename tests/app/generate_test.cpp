@@ -35,6 +35,14 @@ TEST(Generate, NamesTheModelByItsDigest) {
       << result.out;
 }
 
+// Whatever it is computed from: by h and the parameters.
+TEST(Generate, SaysWhatEachCoefficientIs) {
+  const Result result = hamgen({"generate", HAMGEN_SOURCE_DIR "/hamiltonians/harmonic.ham"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "Real c4 = 0.0;  // h/2/(1 + h^2*w^2/4)\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "Real c8 = 0.0;  // h*w^2/(1 + h^2*w^2/4)\n")) << result.out;
+}
+
 TEST(Generate, APluginKnowsNoStepOfAModifiedHamiltonian) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
