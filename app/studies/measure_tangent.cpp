@@ -101,8 +101,9 @@ class TangentMeasurement {
   }
 
  private:
-  // What rests but for rounding, as sin(pi) does, has no size of its own: that of the largest of
-  // the coordinates, or of the momenta, or of all if these rest.
+  // What rests but for rounding, as sin(pi) does, has no size of its own: it takes that of the
+  // largest coordinate, or momentum, or of all if these are 0.  Such rounding is a few units of the
+  // largest: up to 64 are taken for it.
   void fill_amplitude(std::size_t first) {
     constexpr double kRest = 64 * std::numeric_limits<double>::epsilon();
     const std::span<double> part(amplitude_.data() + first, n_);

@@ -58,8 +58,6 @@ TEST(Run, LeavesTheDomainInAMatrixToo) {
   }
 }
 
-// The state in the summary, the last row and the numbers of energy and steps are of one step, the
-// last whose end has an energy.
 // 1 - h^2/4 = 0: the step of the inverted spring has no solution at h = 2.
 TEST(Run, SaysThatEquationsHaveNoSolution) {
   const Scratch scratch;
@@ -78,6 +76,8 @@ TEST(Run, SaysThatEquationsHaveNoSolution) {
   }
 }
 
+// The state in the summary, the last row and the numbers of energy and steps are of one step, the
+// last whose end has an energy.
 TEST(Run, EndsEveryFailureWithItsNameAndTheLastGoodState) {
   const std::string collision = "p^2/2 - 1/abs(q)";
   const std::vector<Failure> failures = {
