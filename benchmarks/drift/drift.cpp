@@ -50,6 +50,8 @@ bool is_wanted(const Row& row, const std::vector<std::string>& words) {
 int main(int count, char** arguments) {
   const Options options = read_options(count, arguments);
   int drifting = 0;
+  int measured = 0;
+  int failed = 0;
   fmt::print("{:30} {:34} {:>6} {:>10} {:>9} {:>7} {:>9} {:>8}  {}\n", "problem", "method",
              "starts", "mean", "std error", "errors", "units", "ns/step", "verdict");
   for (const Row& row : all_rows()) {
@@ -57,6 +59,7 @@ int main(int count, char** arguments) {
     fmt::print("{:30} {:34} ", row.problem, row.name);
     try {
       const Result r = measure(row, options.steps, options.starts, options.seconds);
+      ++measured;
       const bool drifts = r.drifts();
       if (drifts && !row.is_exempt) ++drifting;
       fmt::print("{:6} {:10.2e} {:9.1e} {:7.1f} {:9.1e} {:8.1f}  {}\n", r.starts, r.mean,
@@ -65,11 +68,18 @@ int main(int count, char** arguments) {
                  : drifts      ? "DRIFTS"
                                : "no drift");
     } catch (const std::exception& error) {
+      ++failed;
       const std::string what = error.what();
       fmt::print("  not measured: {}\n", what.substr(0, 300));
     }
     std::fflush(stdout);
   }
-  fmt::print("{} of the rows drift\n", drifting);
+  if (measured + failed == 0) {
+    fmt::print(stderr, "no row has one of these words in \"problem: method\"\n");
+    return 2;
+  }
+  fmt::print("{} of {} rows drift{}\n", drifting, measured,
+             failed == 0 ? "" : fmt::format(", {} not measured", failed));
+  if (failed > 0) return 2;
   return drifting == 0 ? 0 : 1;
 }

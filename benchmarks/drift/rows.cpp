@@ -214,6 +214,8 @@ std::vector<Row> all_rows() {
         .name = fmt::format("soft chain of {}, h = 1", n), .model = soft_chain(n), .h = 1};
     add(rows, soft_at_one, "midpoint", {});
   }
+  const Problem soft_at_odd{.name = "soft chain of 2, h = 1.3", .model = soft_chain(2), .h = 1.3};
+  add(rows, soft_at_odd, "midpoint", {});
   for (const int n : {3, 6, 25}) {
     const Problem soft_at_two{
         .name = fmt::format("soft chain of {}, h = 2", n), .model = soft_chain(n), .h = 2};
