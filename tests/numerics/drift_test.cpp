@@ -83,9 +83,13 @@ TEST(Drift, AnAffineBlockNeedsWhatItsGradientLoses) {
                          {.model = soft_chain(1), .request = {}, .h = 1}, {.starts = 32});
 }
 
-TEST(Drift, LinearEquationsInLoopsNeedWhatTheirGradientLoses) {
-  expect_drift_only_with({{"lost[i] = -(left[i] + lost[i])", "lost[i] = 0"}},
-                         {.model = chain(25), .request = {}, .h = 1}, {.steps = 50'000});
+TEST(Drift, LinearEquationsInLoopsNeedWhatGradientsAndDifferencesLose) {
+  const Row row{.model = chain(25), .request = {}, .h = 1};
+  const Length length{.steps = 50'000};
+  expect_drift_only_with({{"lost[i] = -(left[i] + lost[i])", "lost[i] = 0"}}, row, length);
+  const Result mutant =
+      result_of(row, {{"= difference_error(", "= 0 * difference_error("}}, length);
+  EXPECT_TRUE(mutant.drifts()) << words(mutant);
 }
 
 // Of a large step what zbar - z loses is as much as what the equations lack.
