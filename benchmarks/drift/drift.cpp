@@ -52,8 +52,9 @@ int main(int count, char** arguments) {
   int drifting = 0;
   int measured = 0;
   int failed = 0;
-  fmt::print("{:30} {:34} {:>6} {:>10} {:>9} {:>7} {:>9} {:>8}  {}\n", "problem", "method",
-             "starts", "mean", "std error", "errors", "units", "ns/step", "verdict");
+  fmt::print("{:30} {:34} {:>6} {:>10} {:>9} {:>7} {:>9} {:>9} {:>8} {:>8}  {}\n", "problem",
+             "method", "starts", "mean", "std error", "errors", "units", "own rate", "chance",
+             "ns/step", "verdict");
   for (const Row& row : all_rows()) {
     if (!is_wanted(row, options.words)) continue;
     fmt::print("{:30} {:34} ", row.problem, row.name);
@@ -62,8 +63,9 @@ int main(int count, char** arguments) {
       ++measured;
       const bool drifts = r.drifts();
       if (drifts && !row.is_exempt) ++drifting;
-      fmt::print("{:6} {:10.2e} {:9.1e} {:7.1f} {:9.1e} {:8.1f}  {}\n", r.starts, r.mean,
-                 r.standard_error, r.mean / r.standard_error, r.units(), r.nanoseconds,
+      fmt::print("{:6} {:10.2e} {:9.1e} {:7.1f} {:9.1e} {:9.1e} {:8.1e} {:8.1f}  {}\n", r.starts,
+                 r.mean, r.standard_error, r.mean / r.standard_error, r.units(), r.own_rate,
+                 r.chance, r.nanoseconds,
                  row.is_exempt ? "exempt: not symplectic"
                  : drifts      ? "DRIFTS"
                                : "no drift");

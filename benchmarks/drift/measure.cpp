@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "benchmarks/emitted_program.hpp"
 #include "generator/base/source_text.hpp"
@@ -13,6 +15,8 @@
 namespace hamgen::drift {
 
 namespace {
+
+constexpr int kParts = 16;  // of a run
 
 // What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
 // seconds.
@@ -80,15 +84,14 @@ int main() {{
     std::memcpy(static_cast<void*>(&state), z, sizeof z);
     rounded::Propagator run(par, h, state);
     const Quad before = conserved(exact_par, h, run);
-    double errors[2];
-    for (double& error : errors) {{
+    for (int part = 0; part < {parts}; ++part) {{
       const double begin = now();
-      if (!run.advance(steps / 2).converged) return 1;
+      if (!run.advance(steps).converged) return 1;
       running += now() - begin;
       const Quad change = conserved(exact_par, h, run) - before;
-      error = double(change / (before < 0 ? -before : before));
+      std::printf("%.17g ", double(change / (before < 0 ? -before : before)));
     }}
-    std::printf("%.17g %.17g %.17g\n", errors[0], errors[1], running);
+    std::printf("%.17g\n", running);
   }}
 }}
 )";
@@ -119,6 +122,31 @@ std::string solver_of(const std::string& header) {
   return header.substr(begin + 15, header.find('\n', begin) - begin - 15);
 }
 
+// What the starts' errors after each of their parts say of random walks: of starts that have no
+// rate of their own the mean change of a part has, from start to start, the variance that the
+// changes of one start have over their number.
+void compare_starts(const std::vector<std::vector<double>>& errors, Result& result) {
+  double between = 0.0;
+  double within = 0.0;
+  for (const std::vector<double>& error : errors) {
+    const double rate = error.back() / kParts;
+    between += rate * rate / result.starts;
+    double last = 0.0;
+    for (const double now : error) {
+      const double off = now - last - rate;
+      within += off * off / (result.starts * (kParts - 1.0));
+      last = now;
+    }
+  }
+  if (!(within > 0.0)) return;
+  const boost::math::fisher_f_distribution<double> by_chance(result.starts,
+                                                             result.starts * (kParts - 1.0));
+  result.chance = boost::math::cdf(boost::math::complement(by_chance, kParts * between / within));
+  const double steps = static_cast<double>(result.steps) / kParts;
+  result.own_rate = std::sqrt(std::max(0.0, between - within / kParts)) /
+                    (std::numeric_limits<double>::epsilon() * steps);
+}
+
 }  // namespace
 
 double Result::units() const {
@@ -126,36 +154,43 @@ double Result::units() const {
 }
 
 bool Result::drifts() const {
-  return !(std::abs(mean) <= 4 * standard_error) && !(std::abs(units()) <= 1e-4);
+  const bool of_all = !(std::abs(mean) <= 4 * standard_error) && !(std::abs(units()) <= 1e-4);
+  // 4 standard errors of a normal distribution.
+  const bool of_each = own_rate > 1e-4 && chance < 6.3e-5;
+  return of_all || of_each;
 }
 
 Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit) {
   const std::string rounded = emitted_header(row.model, row.request, "double", "rounded");
   const std::size_t invariants =
       read_request(make_source("drift.ham", row.model), row.request).invariants.size();
+  const long long part = std::max<long long>(steps / kParts, 1);
   const std::string program =
       fmt::format("constexpr int exact_invariants = {};\n", std::max<std::size_t>(invariants, 1)) +
       fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
-                  fmt::arg("h", row.h), fmt::arg("steps", steps), fmt::arg("starts", starts),
-                  fmt::arg("seconds", seconds), fmt::arg("start", row.start));
+                  fmt::arg("h", row.h), fmt::arg("steps", part), fmt::arg("parts", kParts),
+                  fmt::arg("starts", starts), fmt::arg("seconds", seconds),
+                  fmt::arg("start", row.start));
   std::istringstream output(
       output_of_program({{"rounded.hpp", edit ? edit(rounded) : rounded},
                          {"exact.hpp", emitted_header(row.model, row.request, "quad", "exact")}},
                         program));
-  Result result{.steps = steps / 2 * 2, .solver = solver_of(rounded)};
+  Result result{.steps = part * kParts, .solver = solver_of(rounded)};
+  std::vector<std::vector<double>> errors;
   double squares = 0.0;
   double running = 0.0;
-  for (double half = 0.0, all = 0.0; output >> half >> all >> running; ++result.starts) {
-    result.first_mean += half;
-    result.mean += all;
-    squares += all * all;
+  for (std::vector<double> error(kParts);; errors.push_back(error), ++result.starts) {
+    for (double& value : error) output >> value;
+    if (!(output >> running)) break;
+    result.mean += error.back();
+    squares += error.back() * error.back();
   }
   if (result.starts < 2) throw std::runtime_error("too few starts");
-  result.first_mean /= result.starts;
   result.mean /= result.starts;
   const double variance = std::max(0.0, squares / result.starts - result.mean * result.mean);
   result.standard_error = std::sqrt(variance / (result.starts - 1));
   result.nanoseconds = 1e9 * running / (static_cast<double>(result.steps) * result.starts);
+  compare_starts(errors, result);
   return result;
 }
 

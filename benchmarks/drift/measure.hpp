@@ -37,11 +37,15 @@ struct Result {
   long long steps = 0;
   double mean = 0.0;            // of the error after all steps, relative to the quantity
   double standard_error = 0.0;  // of that mean
-  double first_mean = 0.0;      // after the first half of the steps
-  double nanoseconds = 0.0;     // of processor time a step
+  // Root mean square of the rates that each start has of its own, in units of rounding a step: that
+  // some go up and others down hides them in the mean.  And how likely random walks are to look so.
+  double own_rate = 0.0;
+  double chance = 1.0;
+  double nanoseconds = 0.0;  // of processor time a step
   std::string solver;
 
-  // |mean| <= 4 standard errors, or 1e-4 units of rounding a step.
+  // Is |mean| more than 4 standard errors and 1e-4 units of rounding a step, or the starts' own
+  // rate more than is as likely, and than 1e-4 units?
   [[nodiscard]] bool drifts() const;
   // Of rounding, a step.
   [[nodiscard]] double units() const;
