@@ -46,21 +46,12 @@ void StepBuilder::add_affine(const Block& block) {
   if (block.constant_matrix) multiply_out(newton, lack);
 }
 
-// How far what is torn out is from its rows, for its sum was rounded: where the equations use the
-// sum before that, for the step alone, and with a constant matrix.
+// How far what is torn out is from its rows with a constant matrix, for its sum was rounded.
 void StepBuilder::find_off(NewtonBlock& newton) {
+  if (!solves_constants_) return;
   for (const int t : newton.block.torn) {
-    const std::string name = "off(" + name_of(t) + ")";
-    if (const auto torn = torn_change_.find(t); torn != torn_change_.end()) {
-      const Expression taken =
-          name_value("taken(" + name_of(t) + ")",
-                     stage_value_[index(t)] - equations_.mechanics.variable(t), newton.outside);
-      newton.off[t] = name_value(name, torn->second - taken, newton.outside);
-      continue;
-    }
-    if (!solves_constants_) continue;
     const Expression lack = name_value("R(" + name_of(t) + ")", lack_of(newton, t), newton.where);
-    newton.off[t] = name_value(name, -(lack / own_slope(t)), newton.where);
+    newton.off[t] = name_value("off(" + name_of(t) + ")", -(lack / own_slope(t)), newton.where);
   }
 }
 
@@ -69,7 +60,7 @@ Expression StepBuilder::lack_of(NewtonBlock& newton, int i) {
   const Expression lack = lacking(i, stage_value_[index(i)], newton.where);
   return lack - chain(newton, i, [&](int v) {
            const auto off = newton.off.find(v);
-           return off == newton.off.end() || torn_change_.contains(v) ? Expression(0) : off->second;
+           return off == newton.off.end() ? Expression(0) : off->second;
          });
 }
 

@@ -100,18 +100,6 @@ void StepBuilder::add_matrix_row(NewtonBlock& newton, int x) {
   }
 }
 
-// Is dH/dz_t a constant times zbar_t, and no other component a function of that?
-bool StepBuilder::is_alone_in_gradient(int t) const {
-  const Expression factor = equations_.stage_hessian(t, t);
-  if (factor.is_zero() || depends_on_state(factor)) return false;
-  if (equations_.stage_gradient(t) != factor * equations_.stage(t)) return false;
-  for (int k = 0; k < 2 * n_; ++k) {
-    if (k != t && symbols(equations_.stage_gradient(k)).contains(equations_.stage(t).name()))
-      return false;
-  }
-  return true;
-}
-
 // Row t gives its variable, and the chain rule what it depends on.
 void StepBuilder::tear_out(NewtonBlock& newton, int t) {
   tear_value(newton, t);
@@ -131,10 +119,7 @@ Expression StepBuilder::own_slope(int t) const {
 void StepBuilder::tear_value(NewtonBlock& newton, int t) {
   if (!equations_.depends(t, t)) {
     for (const int k : equations_.row_gradients(t)) evaluate_gradient(newton, k);
-    // See Note [momenta before they are rounded].
-    const Expression change = change_of_row(t, newton.where);
-    if (!keeps_gradients_ && is_alone_in_gradient(t)) torn_change_.emplace(t, change);
-    define(stage_value_[index(t)], equations_.mechanics.variable(t) + change, newton.where);
+    define(stage_value_[index(t)], row(t, newton.where), newton.where);
     return;
   }
   // Affine in itself: solved for, and then for what its row lacks there, as in Note [affine
@@ -220,7 +205,6 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
       const bool is_ours = std::ranges::find(newton.evaluated, k) != newton.evaluated.end();
       if (is_ours) terms.push_back(weight(t, k) * correction_[index(k)].second);
     }
-    if (const auto off = newton.off.find(t); off != newton.off.end()) terms.push_back(off->second);
     moved[t] = Expression::sum(std::move(terms));
   }
   for (const int k : newton.evaluated) {
@@ -230,8 +214,6 @@ void StepBuilder::correct_solution(NewtonBlock& newton) {
     renew(stage_value_[index(v)], equations_.stage(v).name(), stage_value_[index(v)] + moved[v],
           newton.outside);
   }
-  // What the last iteration made of them is behind the solution from here on.
-  for (const int t : block.torn) torn_change_.erase(t);
 }
 
 // dH/dz_k as the last iteration evaluated it, and what the last increment adds.

@@ -10,10 +10,6 @@
 namespace hamgen {
 
 Expression StepBuilder::row(int i, int section) {
-  return equations_.mechanics.variable(i) + change_of_row(i, section);
-}
-
-Expression StepBuilder::change_of_row(int i, int section) {
   std::vector<Expression> terms{carry_symbol(i)};
   std::vector<Expression> small = terms;
   for (const int k : equations_.row_gradients(i)) {
@@ -24,7 +20,8 @@ Expression StepBuilder::change_of_row(int i, int section) {
   if (keeps_gradients_) {
     terms[0] = named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
   }
-  return named_rest(name_of(i), Expression::sum(std::move(terms)), section);
+  return equations_.mechanics.variable(i) +
+         named_rest(name_of(i), Expression::sum(std::move(terms)), section);
 }
 
 Expression StepBuilder::weight(int i, int k) const {
@@ -54,12 +51,6 @@ Expression StepBuilder::lacking(int i, const Expression& value, int section) {
   };
   subtract(equations_.mechanics.variable(i), components.empty());
   for (const int k : components) {
-    if (const auto torn = torn_change_.find(k); torn != torn_change_.end()) {
-      const Expression factor = weight(i, k) * equations_.stage_hessian(k, k);
-      subtract(factor * equations_.mechanics.variable(k), false);
-      subtract(factor * torn->second, k == components.back());
-      continue;
-    }
     const auto [large, lost] = row_terms(i, k, gradient_[index(k)], section);
     subtract(large, k == components.back());
     small.push_back(lost);

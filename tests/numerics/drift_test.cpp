@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "benchmarks/drift/rows.hpp"
@@ -49,7 +50,8 @@ Result result_of(const Row& row, const std::vector<Replacement>& edits = {},
 
 std::string words(const Result& result) {
   return "mean " + std::to_string(result.units()) + " units of rounding a step, " +
-         std::to_string(result.mean / result.standard_error) + " standard errors";
+         std::to_string(result.mean / result.standard_error) + " standard errors, own rates " +
+         std::to_string(result.own_rate);
 }
 
 // The row does not drift, and what the edits make of its text does.
@@ -109,6 +111,21 @@ TEST(Drift, ALargeStepOfNewtonMovesByWhatItsEquationsWereSolvedWith) {
   expect_drift_only_with({{"= carry.q[0] + h * change_H_p_1", "= carry.q[0]"},
                           {"= carry.q[1] + h * change_H_p_2", "= carry.q[1]"}},
                          {.model = soft_chain(6), .request = {}, .h = 1});
+}
+
+// Products with p and with its change are rounded otherwise than that which moves q: each start has
+// a rate of its own then, of which the mean over the starts knows nothing.
+TEST(Drift, TheEquationsHaveTheProductThatMovesTheStep) {
+  std::vector<Replacement> edits;
+  for (int i = 1; i <= 2; ++i) {
+    edits.push_back({fmt::format("q_{0}_gap + p_{0}_bar * k.c1", i),
+                     fmt::format("q_{0}_gap + p_{0} * k.c1 + rest_p_{0} * k.c1", i)});
+  }
+  const Row row{.model = soft_chain(2, "1"), .request = {}, .h = 1.3};
+  expect_drift_only_with(edits, row);
+  const Result mutant = result_of(row, edits);
+  EXPECT_GT(mutant.own_rate, 1e-3);
+  EXPECT_LT(std::abs(mutant.mean), 4 * mutant.standard_error);
 }
 
 TEST(Drift, AnExplicitStageIsRoundedOnce) {

@@ -42,7 +42,6 @@ TEST(Origins, OfDerivativesAreTheTermsWithTheirVariables) {
             R"(solve(par, k, h, z, carry, &start, &at, &dz, &rest):
 step                  |  q = z.q
 step                  |  p = z.p
-step                  |  #2 = p*#1
 step                  |  iterate with Newton's rule:
 iteration             |    if at.ready:
 iteration             |      bar(q) <- at.point[0]
@@ -54,16 +53,13 @@ iteration H 2 3       |    rest(p) = carry(p) + #1*H(q)
 iteration H 2 3       |    bar(p) = p + rest(p)
 iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
 iteration             |    q gap = bar(q) - q
-iteration             |    q gap 1 = #2 + q gap
-iteration H 2 3       |    q gap 2 = q gap 1 + #1*rest(p)
-iteration H 2 3       |    R(q) = -(carry(q) - q gap 2)
+iteration             |    q gap 1 = q gap + bar(p)*#1
+iteration             |    R(q) = -(carry(q) - q gap 1)
 iteration H 2 3       |    R(q,q) = 1 + #1*d(p)/d(q)
 iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
-step                  |  taken(p) = bar(p) - p
-step      H 2 3       |  off(p) = rest(p) - taken(p)
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
-step      H 2 3       |  change(H(p)) = off(p) + #1*change(H(q))
+step      H 2 3       |  change(H(p)) = #1*change(H(q))
 step      H 1         |  dz.q <- h*bar(p)
 step      H 1         |  rest.q <- carry(q) + h*change(H(p))
 step      H 2 3       |  dz.p <- -h*H(q)
