@@ -127,14 +127,19 @@ TEST(StiffAndLong, LinearModesTurnByTheExactAngleEvenAtAMillionRadiansAStep) {
   record("largest_error_in_ulp", worst);
 }
 
+// Of the state with its carry: rounding the state itself would change the error by as much as the
+// first steps do, and hide how that grows.
 Quad angular_momentum(const runtime::Integrator& run) {
   const std::vector<double> z = run.rounded_state();
-  return Quad(z[0]) * z[3] - Quad(z[1]) * z[2];
+  const std::vector<runtime::Wide> carry = run.carry();
+  const auto exact = [&](std::size_t i) { return Quad(z[i]) + carry[i].hi; };
+  return exact(0) * exact(3) - exact(1) * exact(2);
 }
 
 // The midpoint rule conserves L exactly, so only rounding is left: a random walk, whose rms grows
 // with the square root of the steps.  A bias of a thousandth of a rounding error would dominate at
-// the end and turn the exponent to 1.
+// the end and turn the exponent to 1.  Of true random walks, looked at like these, the exponent has
+// a standard deviation of 0.045 (4000 times 16 of them were drawn): four are allowed.
 TEST(StiffAndLong, TheAngularMomentumOfKeplerWalksAtRandom) {
   const Emitted kepler = Emitted::shipped("kepler", {});
   constexpr int starts = 16;
@@ -162,7 +167,7 @@ TEST(StiffAndLong, TheAngularMomentumOfKeplerWalksAtRandom) {
     slope += (look - 4) * 0.5 * std::log2(squares[static_cast<std::size_t>(look)]) / 60;
   }
   record("growth_exponent", slope);
-  EXPECT_NEAR(slope, 0.5, 0.1);
+  EXPECT_NEAR(slope, 0.5, 0.18);
 }
 
 // The rule is symmetric: with -h it goes the same way back, but for rounding.  Its errors of about
