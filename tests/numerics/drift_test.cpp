@@ -79,6 +79,15 @@ TEST(Drift, AnAffineBlockNeedsASumWithoutAnError) {
   EXPECT_GT(mutant.standard_error, 100 * result.standard_error);
 }
 
+TEST(Drift, AnAffineBlockKnowsWhatTheSumOfAMomentumLost) {
+  const Row row{.model = chain(2), .request = {.alpha = "3/10"}};
+  const Result result = result_of(row);
+  EXPECT_FALSE(result.drifts()) << words(result);
+  const Result mutant =
+      result_of(row, {{"- h * R_p_1 ", "- 0 * R_p_1 "}, {"- h * R_p_2 ", "- 0 * R_p_2 "}});
+  EXPECT_GT(mutant.standard_error, 100 * result.standard_error);
+}
+
 // Products of a linear gradient with its constants lose a pattern.
 TEST(Drift, AnAffineBlockNeedsWhatItsGradientLoses) {
   expect_drift_only_with({{"+ h * lost", "+ 0 * lost"}},
