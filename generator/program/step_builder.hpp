@@ -103,12 +103,13 @@ class StepBuilder {
   //
   // Note [a rounded momentum is the momentum]
   // A momentum that is torn out is rounded on the grid of p, and where the matrix varies no row is
-  // told what that lost.  The equations hold with the rounded one and the step moves q by the same
-  // product with it: rounding is part of dT/dp then, a function of pbar, and what the step keeps is
-  // another H, not less.  Whatever is not a function of the midpoint is worse.  With h/2 times p
-  // and h/2 times its change in the equations, which know more and need not wait for the sum, every
-  // start drifts at a rate of its own, of the soft chain of 2 at h = 1.3 by 4e-3 units of rounding
-  // a step, root mean square; with these two in the step as well by 9e-3.
+  // told what that lost.  The equations hold with the rounded one, and the step moves q by the same
+  // product with it: what is rounded is a function of pbar, a part of dT/dp, and the step is that
+  // of another H nearby.  Products with p and with its change, rounded apart, are no function of
+  // pbar.  Where the equations had these, h/2 times each, every start drifted at a rate of its own,
+  // of the soft chain of 2 at h = 1.3 by 4e-3 units of rounding a step, root mean square, and with
+  // both in the step as well by 9e-3.  What products inside of the gradient lose is not told either
+  // where the matrix varies: with h omega from 2 on it leaves up to 6e-4 (benchmarks/README.md).
   //
   // The term of row i with dH/dz_k, and what rounding took from it.
   [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k,
