@@ -816,9 +816,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x1b555514
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x77ccbe3b
 namespace fput::implicit_midpoint {
-inline namespace emitted_1b555514 {
+inline namespace emitted_77ccbe3b {
 
 namespace numerics = ::hamgen_186a1ac0::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -829,13 +829,21 @@ using Matrix = BandMatrix<32, 1>;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
-  Real half_h = 0.0;  // h/2
-  Real scale = 0.0;   // the matrix is I + scale V''
+  Real half_h = 0.0;     // h/2
+  Real h_high = 0.0;     // most of h, and no simple fraction
+  Real h_low = 0.0;      // what is left
+  Real half_high = 0.0;  // their halves
+  Real half_low = 0.0;
+  Real scale = 0.0;      // the matrix is I + scale V''
 };
 
 inline Coefficients prepare(const Parameters&, Real h) {
   Coefficients k;
   k.half_h = 0.5 * h;
+  k.h_high = 0.999999 * h;
+  k.h_low = h - k.h_high;
+  k.half_high = 0.5 * k.h_high;
+  k.half_low = 0.5 * k.h_low;
   k.scale = 0.25 * (h * h);
   return k;
 }
@@ -866,6 +874,22 @@ inline void evaluate(const Parameters& par, const Coefficients& k, const State& 
     start.slope[n + i] = p_i;
     const Real q_push = k.half_h * p_i;
     start.lack[i] = z.q[i] - start.value[i] + q_push + carry.q[i];
+  }
+}
+
+// grad H at the stage, whose momenta follow from its coordinates, and what the equations
+// lack there.
+inline void evaluate_in_parts(const Parameters& par, const Coefficients& k, const State& z,
+                              const State& carry, Start& __restrict start) {
+  potential_gradient(par, start.value, start.slope);
+  for (int i = 0; i < n; ++i) {
+    const Real p_push = k.half_h * start.slope[i];
+    const Real change = carry.p[i] - p_push;
+    const Real p_i = z.p[i] + change;
+    start.slope[n + i] = p_i;
+    const Real q_push = k.half_high * p_i;
+    const Real q_small = carry.q[i] + k.half_low * p_i;
+    start.lack[i] = z.q[i] - start.value[i] + q_push + q_small;
   }
 }
 
@@ -963,7 +987,7 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
   // Newton's iteration on what the equations lack.
   start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
-    evaluate(par, k, z, carry, start);
+    evaluate_in_parts(par, k, z, carry, start);
     differentiate(par, k, start.value, start.matrix);
     if (!start.matrix.factorise()) {
       report.iterations += iteration;
@@ -997,8 +1021,9 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
   potential_curvature(par, start.value, start.lack, start.change);
   for (int i = 0; i < n; ++i) start.value[i] += start.lack[i];
   for (int i = 0; i < n; ++i) {
-    dz.q[i] = h * start.slope[n + i];
-    rest.q[i] = carry.q[i] - h * k.half_h * start.change[i];
+    const Real q_small = carry.q[i] + k.h_low * start.slope[n + i];
+    dz.q[i] = k.h_high * start.slope[n + i];
+    rest.q[i] = q_small - h * k.half_h * start.change[i];
     dz.p[i] = -h * start.slope[i];
     rest.p[i] = carry.p[i] - h * start.change[i];
   }
@@ -1122,9 +1147,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_1b555514
+}  // namespace emitted_77ccbe3b
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x1b555514
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x77ccbe3b
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -221,6 +221,14 @@ std::vector<Row> all_rows() {
         .name = fmt::format("soft chain of {}, h = 2", n), .model = soft_chain(n), .h = 2};
     add(rows, soft_at_two, "midpoint", {});
   }
+  // Constants whose products have patterns that do most harm.
+  for (const int n : {2, 3, 25}) {
+    const std::string chain = fmt::format("soft chain of {}, k = ", n);
+    const Problem of_force{.name = chain + "0.9, h = 2", .model = soft_chain(n, "0.9"), .h = 2};
+    add(rows, of_force, "midpoint", {});
+    const Problem of_flow{.name = chain + "1, h = 1.8", .model = soft_chain(n, "1"), .h = 1.8};
+    add(rows, of_flow, "midpoint", {});
+  }
   const Problem soft_at_five{.name = "soft chain of 6, h = 5", .model = soft_chain(6), .h = 5};
   add(rows, soft_at_five, "midpoint", {});
   const Problem band_at_one{.name = "chain of 25, loops, h = 1", .model = chain(25), .h = 1};

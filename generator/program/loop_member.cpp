@@ -32,7 +32,8 @@ class LoopMember : LoopStage {
       }
     }
     add_start_record();
-    if (arrays_.reduced) code_.routines.push_back(evaluate());
+    if (arrays_.reduced) code_.routines.push_back(evaluate(in_parts() && !both()));
+    if (arrays_.reduced && in_parts() && both()) code_.routines.push_back(evaluate(true));
     if (arrays_.matrix) code_.routines.push_back(differentiate());
     if (is_sharp()) {
       code_.routines.push_back(curvature_routine(environment_, plan_.equations, curved_part()));
@@ -188,7 +189,7 @@ class LoopMember : LoopStage {
     Body each;
     add_stage(b, each);
     sweep.push_back(for_each(elements(), std::move(each)));
-    add_gradient_at_stage(sweep);
+    add_gradient_at_stage(sweep, false);
     b.body().push_back({Sweep{.count = *plan_.sweeps, .unknowns = {}, .body = std::move(sweep)}});
   }
 
@@ -208,10 +209,10 @@ class LoopMember : LoopStage {
   void add_start(RoutineBuilder& b) const {
     b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
   }
-  [[nodiscard]] Body iteration_body(RoutineBuilder& b) const {
+  [[nodiscard]] Body iteration_body(RoutineBuilder& b, bool in_parts) const {
     Body body;
-    add_gradient_at_stage(body);
-    if (!arrays_.reduced) body.push_back(for_each(elements(), lacks(b, slope(b))));
+    add_gradient_at_stage(body, in_parts);
+    if (!arrays_.reduced) body.push_back(for_each(elements(), lacks(b, slope(b), in_parts)));
     return body;
   }
 
@@ -220,7 +221,7 @@ class LoopMember : LoopStage {
   // rounding errors are not independent of what is rounded: by them the form of a soft chain of 25
   // at h = 1 drifts by 2e-3 units of rounding a step.
   void add_newton(RoutineBuilder& b) const {
-    Body body = iteration_body(b);
+    Body body = iteration_body(b, in_parts());
     add_matrix(body);
     body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
     IterateArray iterate{.rule = Rule::newton,
@@ -234,7 +235,7 @@ class LoopMember : LoopStage {
     const Expression value = b.at("start", "value", {affine("i")});
     Body last{{Accumulate{value.name(), b.at("start", "lack", {affine("i")})}}};
     b.body().push_back(for_each(counting("i", unknowns()), std::move(last)));
-    if (!is_sharp()) add_gradient_at_stage(b.body());
+    if (!is_sharp()) add_gradient_at_stage(b.body(), false);
   }
   void add_change_of_slope(Body& body) const {
     std::vector<Place> list = {{"par"}};
@@ -249,7 +250,7 @@ class LoopMember : LoopStage {
   [[nodiscard]] Part curved_part() const { return arrays_.reduced ? Part::potential : Part::all; }
 
   void add_fixed_point(RoutineBuilder& b) const {
-    Body body = iteration_body(b);
+    Body body = iteration_body(b, false);
     const Body refined = body;
     IterateArray iterate{.rule = Rule::fixed_point,
                          .name = "rule",

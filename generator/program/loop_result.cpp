@@ -45,6 +45,13 @@ void LoopStage::add_result(RoutineBuilder& b, bool refined) const {
     }
     Expression small = carry;
     Expression large = flow(refined ? "refinement.slope" : "slope");
+    if (!refined && !is_p && in_parts()) {
+      weights_.bind(b.routine());
+      const auto [high, low] =
+          StepWeights::flow_in_two_parts(b.at("start", "slope", {affine("i", n_)}));
+      large = high;
+      small = b.let(each, "q_small", carry + low);
+    }
     if (refined) small += flow("refinement.change");
     if (!refined && is_sharp()) small += change_of_flow(b, is_p);
     const bool tells_momenta = refined && knows_momentum_error();

@@ -96,18 +96,18 @@ void LoopStage::add_gradient(Body& body, const Place& q, const Place& p) const {
   body.push_back({Call{.routine = "kinetic_gradient", .arguments = {{"par"}, p, dp}}});
 }
 
-void LoopStage::add_gradient_at_stage(Body& body) const {
+void LoopStage::add_gradient_at_stage(Body& body, bool in_parts) const {
   if (arrays_.reduced) {
     const std::vector<Place> list = given(arguments(true));
-    body.push_back({Call{.routine = "evaluate", .arguments = list}});
+    body.push_back({Call{.routine = evaluation(in_parts), .arguments = list}});
   } else {
     add_gradient(body, {"start", "value"}, {"start", "value", {affine(n_)}});
   }
 }
 
-Routine LoopStage::evaluate() const {
+Routine LoopStage::evaluate(bool in_parts) const {
   RoutineBuilder b(
-      {.name = "evaluate",
+      {.name = evaluation(in_parts),
        .remark = {"grad H at the stage, whose momenta follow from its coordinates, and "
                   "what the equations",
                   "lack there."},
@@ -133,7 +133,7 @@ Routine LoopStage::evaluate() const {
     each.push_back({Assign{at.by_p.name(), velocity_there}, {}, {.terms = velocity_->terms}});
     // A number that is trivial needs no place to be read from.
     const Gradient there = {at.by_q, is_trivial(velocity_there) ? velocity_there : at.by_p};
-    for (Instruction& instruction : lacks(b, there)) each.push_back(std::move(instruction));
+    for (Instruction& instruction : lacks(b, there, in_parts)) each.push_back(std::move(instruction));
     b.body().push_back(for_each(elements(), std::move(each)));
     return b.take();
   }
@@ -142,7 +142,7 @@ Routine LoopStage::evaluate() const {
     set_stage(b, each, bar, z, carry, row, "change");
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(velocity);
-    b.body().push_back(for_each(elements(), lacks(b, at)));
+    b.body().push_back(for_each(elements(), lacks(b, at, in_parts)));
     return b.take();
   }
   const Expression own = own_share(b);
@@ -160,7 +160,7 @@ Routine LoopStage::evaluate() const {
   b.body().push_back(for_each(elements(), std::move(again)));
   b.body().back().remark = {"What their rows lack there, rounded as they are."};
   b.body().push_back(velocity);
-  b.body().push_back(for_each(elements(), lacks(b, at)));
+  b.body().push_back(for_each(elements(), lacks(b, at, in_parts)));
   return b.take();
 }
 
@@ -222,14 +222,16 @@ void LoopStage::add_stage(RoutineBuilder& b, Body& each) const {
   }
 }
 
-Body LoopStage::lacks(RoutineBuilder& b, const Gradient& at) const {
+Body LoopStage::lacks(RoutineBuilder& b, const Gradient& at, bool in_parts) const {
   Body each;
   for (const bool is_p : {false, true}) {
     if (is_p && arrays_.reduced) break;
     const char* field = is_p ? "p" : "q";
     const Expression z = state(b, "z", field);
     const Expression bar = is_p ? momentum(b) : coordinate(b);
-    const StageRow row = is_p ? weights_.row_of_p(b, each, at) : weights_.row_of_q(b, each, at);
+    const StageRow row = is_p       ? weights_.row_of_p(b, each, at)
+                         : in_parts ? weights_.row_of_q_in_parts(b, each, at)
+                                    : weights_.row_of_q(b, each, at);
     const Expression missing =
         lacking(b, each, z, bar, state(b, "carry", field), row, is_p ? "p_small" : "q_small");
     each.push_back({Assign{lack(b, is_p).name(), missing}});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/linear_terms.hpp"
 #include "generator/program/local_velocity.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
@@ -39,6 +40,8 @@ class LoopStage {
                       plan_.equations.has_exact_hessian()) {
     if (arrays_.reduced && !needs_drift() && !is_linear())
       velocity_ = local_velocity(mechanics_, "i");
+    const bool moves_q = weights_.q_by_p.has_value() && !weights_.shares;
+    if (is_sharp() && moves_q && !raised() && has_linear_forces(mechanics_)) weights_.split_flow();
   }
 
  protected:
@@ -82,7 +85,7 @@ class LoopStage {
   Expression own_share(RoutineBuilder& b) const;
   // start.slope = grad H at a stage.
   void add_gradient(Body& body, const Place& q, const Place& p) const;
-  void add_gradient_at_stage(Body& body) const;
+  void add_gradient_at_stage(Body& body, bool in_parts) const;
   // start.lost = H'' zbar - start.slope, what rounding took from a linear gradient.
   [[nodiscard]] Routine gradient_error() const;
   // z + carry + row - bar with all that it loses, for an element of q or p.
@@ -91,7 +94,15 @@ class LoopStage {
   void add_exact_result(RoutineBuilder& b) const;
   // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).  With
   // them start.slope = grad H at the stage, and start.lack.
-  [[nodiscard]] Routine evaluate() const;
+  [[nodiscard]] Routine evaluate(bool in_parts) const;
+  // Does Newton's iteration have h in two parts, where it moves q?
+  [[nodiscard]] bool in_parts() const { return weights_.splits_flow(); }
+  // Note [two evaluations]
+  // Newton's iteration has h in two parts where it needs them; the fixed point beside it does not,
+  // and would take 6 % longer on FPUT chains.
+  [[nodiscard]] const char* evaluation(bool in_parts) const {
+    return in_parts && both() ? "evaluate_in_parts" : "evaluate";
+  }
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
@@ -100,7 +111,7 @@ class LoopStage {
   // unknowns were refined.
   void add_result(RoutineBuilder& b, bool refined) const;
   // What the equations lack at the stage, where the gradient is this.
-  [[nodiscard]] Body lacks(RoutineBuilder& b, const Gradient& at) const;
+  [[nodiscard]] Body lacks(RoutineBuilder& b, const Gradient& at, bool in_parts) const;
 
   const Environment& environment_;
   const Mechanics& mechanics_;

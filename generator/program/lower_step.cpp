@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "generator/program/arithmetic.hpp"
+#include "generator/program/linear_terms.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/step_builder.hpp"
@@ -42,6 +44,42 @@ void build_splitting(LoweredStep& lowered, const Mechanics& mechanics) {
     (i < n ? lowered.potential_gradient : lowered.kinetic_gradient)
         .results.push_back(lowering.wanted(handles[static_cast<std::size_t>(i)]));
   }
+}
+
+// grad H, its linear terms with constants in two parts: see Note [constants in two parts] in
+// step_builder.hpp.
+Evaluation evaluate_in_parts(const Mechanics& mechanics) {
+  Lowering lowering({Section{}});
+  for (const Quantity& parameter : mechanics.parameters) lowering.declare(parameter.name, 0);
+  std::set<std::string> state;
+  for (int i = 0; i < 2 * mechanics.degrees_of_freedom; ++i) {
+    state.insert(mechanics.variable(i).name());
+    lowering.declare(mechanics.variable(i).name(), 0);
+  }
+  std::set<std::string> named;
+  const auto define = [&](const std::string& name, const Expression& value,
+                          Lowering::Keep keep = Lowering::Keep::no) {
+    if (named.insert(name).second) lowering.define(name, value, 0, keep);
+    return Expression::symbol(name, kRankOfTemporary);
+  };
+  const auto in_two_parts = [&](const Expression& constant) {
+    const std::string name = "(" + to_text(constant) + ")";
+    const Expression high = define("high" + name, kHighPart * constant, Lowering::Keep::apart);
+    return Parts{high, define("low" + name, constant - high)};
+  };
+  const LinearTerms terms(std::move(state));
+  std::vector<std::size_t> handles;
+  for (const Expression& value : mechanics.gradient) {
+    handles.push_back(lowering.want(
+        terms.split(value, {.in_two_parts = in_two_parts,
+                            .at_stage = [](const Expression& sum) { return sum; },
+                            .define = define}),
+        0));
+  }
+  lowering.run();
+  Evaluation evaluation{.statements = lowering.statements(0)};
+  for (const std::size_t handle : handles) evaluation.results.push_back(lowering.wanted(handle));
+  return evaluation;
 }
 
 // J grad H from grad H = (H_q, H_p).
@@ -134,7 +172,9 @@ LoweredStep lowered_step(const SolvePlan& plan) {
     lowered.gradient = evaluate_together(plan.equations.function ? plan.equations.energy_gradient
                                                                  : mechanics.gradient);
     if (std::holds_alternative<RungeKutta>(plan.equations.scheme.method)) {
-      lowered.vector_field = rotated(lowered.gradient);
+      lowered.vector_field =
+          rotated(plan.stage_solver && has_linear_forces(mechanics) ? evaluate_in_parts(mechanics)
+                                                                    : lowered.gradient);
     }
   }
   lowered.sequence = sequence_of(plan.equations.scheme);

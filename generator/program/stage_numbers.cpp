@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/arithmetic.hpp"
+#include "generator/program/linear_terms.hpp"
 #include "generator/program/routine_builder.hpp"
 
 namespace hamgen {
@@ -62,6 +64,7 @@ class StageNumbers {
         nodes_(std::get<RungeKutta>(lowered.plan.equations.scheme.method).c),
         order_(lowered.second_order),
         in_loops_(environment.arrays),
+        in_parts_(has_linear_forces(lowered.plan.equations.mechanics)),
         layout_(*lowered.stage_layout),
         stages_(layout_.stages),
         b_({.name = "prepare",
@@ -128,6 +131,11 @@ class StageNumbers {
     }
     b_.body()[remark].remark = {
         "h b_i, the same from both ends, with the sum h: the middle takes what rounding lost."};
+    for (int i = 0; in_parts_ && i < stages_; ++i) {
+      const Expression scaled = b_.at("k", "scaled", {affine(i)});
+      b_.body().push_back(
+          {Assign{b_.at("k", "scaled_high", {affine(i)}).name(), kHighPart * scaled}});
+    }
   }
 
   [[nodiscard]] std::vector<Field> fields() const {
@@ -139,6 +147,11 @@ class StageNumbers {
          .remark = turned ? "[j][i]: a_ij / b_j" : "a_ij / b_j"},
         {.name = "ahead", .sizes = square, .remark = "from L_j of a step to Y_i - z of the next"},
         {.name = "scaled", .sizes = {layout_.room()}, .remark = "h b_i"}};
+    if (in_parts_) {
+      list.push_back({.name = "scaled_high",
+                      .sizes = {layout_.room()},
+                      .remark = "most of h b_i, and no simple fractions"});
+    }
     if (!order_) return list;
     list.push_back({.name = "twice", .sizes = square, .remark = "[j][i]: h sum_m a_im a_mj / b_j"});
     list.push_back({.name = "node", .sizes = {layout_.room()}, .remark = "h c_i"});
@@ -187,6 +200,7 @@ class StageNumbers {
   const std::vector<Expression>& nodes_;
   const std::optional<SecondOrder>& order_;
   bool in_loops_;
+  bool in_parts_;
   StageLayout layout_;
   int stages_;
   RoutineBuilder b_;

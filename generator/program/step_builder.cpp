@@ -64,6 +64,11 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
       });
   keeps_losses_ = keeps_gradients_ && is_solved && !is_contracted && !plan_.sweeps;
   sums_exactly_ = keeps_losses_ || is_explicit_;
+  const auto is_newton = [](const Block& block) {
+    return block.kind == BlockKind::newton && !block.simplified;
+  };
+  splits_products_ = std::ranges::any_of(plan_.blocks, is_newton) && !solves_constants_ &&
+                     !is_contracted && !plan_.sweeps && has_linear_force();
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -124,7 +129,12 @@ std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
   const auto& [main, correction] = correction_[index(k)];
   const Expression& gradient = correction.is_zero() ? gradient_[index(k)] : main;
   std::vector<Expression> terms{carry_symbol(i)};
-  Expression large = sign * step_size() * gradient;
+  const Parts h = step_size_for(k);
+  Expression large = sign * h.high * gradient;
+  if (!h.low.is_zero()) {
+    terms[0] =
+        named_rest("beside d" + name_of(i), terms[0] + sign * h.low * gradient, straight());
+  }
   if (keeps_losses_) {
     const auto [flow, lost] = flow_of(k, gradient, straight());
     large = sign * flow;
@@ -168,7 +178,7 @@ Expression StepBuilder::name_once(const std::string& name, const Expression& val
 
 void StepBuilder::define_gradient(int k, int section) {
   known_gradient_[index(k)] = true;
-  lowering_.define(gradient_[index(k)].name(), value_of_gradient(k), section,
+  lowering_.define(gradient_[index(k)].name(), value_of_gradient(k, section), section,
                    keeps_gradients_ ? Lowering::Keep::yes : Lowering::Keep::no);
   find_lost_of_gradient(k, section);
 }

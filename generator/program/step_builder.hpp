@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "generator/program/linear_terms.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
 
@@ -108,8 +109,19 @@ class StepBuilder {
   // of another H nearby.  Products with p and with its change, rounded apart, are no function of
   // pbar.  Where the equations had these, h/2 times each, every start drifted at a rate of its own,
   // of the soft chain of 2 at h = 1.3 by 4e-3 units of rounding a step, root mean square, and with
-  // both in the step as well by 9e-3.  What products inside of the gradient lose is not told either
-  // where the matrix varies: with h omega from 2 on it leaves up to 6e-4 (benchmarks/README.md).
+  // both in the step as well by 9e-3.
+  //
+  // Note [constants in two parts]
+  // What a product with a constant loses is a pattern of its other factor where the constant is a
+  // simple fraction, and that factor may have digits that end early: a sum of two numbers of
+  // opposite signs is on their grid, not on its own.  Whether pbar is such a sum, of p and a force,
+  // depends on which way the motion goes, and so does qbar after a long increment: the mean of the
+  // pattern over those coarse numbers is a force or a velocity that knows the direction, and with
+  // h omega from 1 on it drifts by up to 6e-4 units (soft chains in benchmarks/README.md).  Of two
+  // parts of the constant, of which neither is a simple fraction, the larger product is rounded
+  // without a pattern and the smaller one loses nothing: one operation and a sum more.  Sums of
+  // other terms have all digits; so only products with sums of stage values are split, and h times
+  // those, in steps whose forces have such terms at all.
   //
   // The term of row i with dH/dz_k, and what rounding took from it.
   [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k,
@@ -125,7 +137,14 @@ class StepBuilder {
   };
   [[nodiscard]] std::optional<ConstantFactors> constant_factors(int k) const;
   Expression constant(const Expression& factor);
-  Expression value_of_gradient(int k);
+  Expression value_of_gradient(int k, int section);
+  // See Note [constants in two parts].
+  Parts in_two_parts(const Expression& constant);
+  [[nodiscard]] LinearTerms linear_terms() const;
+  [[nodiscard]] bool has_linear_force() const;
+  Expression with_split_products(const Expression& e, int section);
+  // h in two parts where this gradient asks for them, else as it is.
+  Parts step_size_for(int k);
   void find_lost_of_gradient(int k, int section);
   // Does dH/dz_k depend on the stage?
   [[nodiscard]] bool is_of_state(int k) const;
@@ -209,6 +228,7 @@ class StepBuilder {
   bool is_explicit_ = false;       // is nothing solved?
   bool sums_exactly_ = false;      // increments and their rests, see Note [affine blocks]
   bool keeps_gradients_ = false;   // each as a number, see Note [weights that sum to one]
+  bool splits_products_ = false;   // see Note [constants in two parts]
   std::set<std::string> named_;
 };
 

@@ -17,7 +17,7 @@ Expression StepBuilder::row(int i, int section) {
     terms.push_back(large);
     small.push_back(lost);
   }
-  if (keeps_gradients_) {
+  if (keeps_gradients_ || splits_products_) {
     terms[0] = named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
   }
   return equations_.mechanics.variable(i) +
@@ -65,7 +65,10 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
   // Of an iteration before this one, from its rounded end to the solution.
   const auto change = change_of_gradient_.find(k);
   const Expression later = change == change_of_gradient_.end() ? Expression(0) : change->second;
-  if (!keeps_gradients_) return {weight(i, k) * gradient, weight(i, k) * later};
+  if (!keeps_gradients_) {
+    const Parts h = step_size_for(k);
+    return {h.high * entry * gradient, h.low * entry * gradient + weight(i, k) * later};
+  }
   const std::string& of = gradient.name();
   const auto [flow, lost_of_flow] = flow_of(k, gradient, section);
   const Expression flow_lost = lost_of_flow + step_size() * later;
@@ -135,10 +138,12 @@ Expression StepBuilder::constant(const Expression& factor) {
 
 // One product is the very one whose loss is told: the same constant, made of the parameters in
 // another way, may be rounded otherwise.
-Expression StepBuilder::value_of_gradient(int k) {
+Expression StepBuilder::value_of_gradient(int k, int section) {
   const std::optional<ConstantFactors> sum = constant_factors(k);
-  if (!sum || sum->factors.size() != 1 || !sum->at_zero.is_zero())
-    return at_stage(equations_.stage_gradient(k));
+  if (!sum || sum->factors.size() != 1 || !sum->at_zero.is_zero()) {
+    const Expression& value = equations_.stage_gradient(k);
+    return at_stage(splits_products_ ? with_split_products(value, section) : value);
+  }
   const auto& [v, factor] = sum->factors.front();
   return constant(factor) * stage_value_[index(v)];
 }

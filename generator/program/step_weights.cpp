@@ -48,6 +48,22 @@ StepWeights::StepWeights(const FamilyParameters& parameters) : member(parameters
   q_by_q = named(member.gamma, "h_gamma", "h gamma");
 }
 
+void StepWeights::split_flow() {
+  splits_flow_ = true;
+  const Expression high = weight("h_high");
+  const Expression low = weight("h_low");
+  coefficients.push_back({"h_high", kHighPart * step_size(), "most of h, and no simple fraction"});
+  coefficients.push_back({"h_low", step_size() - high, "what is left"});
+  if (q_by_p == step_size()) return;
+  const Expression half(Rational(1, 2));
+  coefficients.push_back({"half_high", half * high, "their halves"});
+  coefficients.push_back({"half_low", half * low, ""});
+}
+
+std::pair<Expression, Expression> StepWeights::flow_in_two_parts(const Expression& slope) {
+  return {weight("h_high") * slope, weight("h_low") * slope};
+}
+
 bool StepWeights::uses_h() const {
   return std::ranges::any_of(std::initializer_list{q_by_p, p_by_q, p_by_p, q_by_q},
                              [](const auto& w) { return w && depends_on(*w, "h"); });
@@ -104,6 +120,16 @@ StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at
   bind(b.routine());
   add_share(b, body, row, true, at.by_p, exactly);
   if (q_by_q) add_product(b, body, row, "q_turn", Expression(1), *q_by_q, at.by_q, exactly);
+  return row;
+}
+
+StageRow StepWeights::row_of_q_in_parts(RoutineBuilder& b, Body& body, const Gradient& at) const {
+  StageRow row;
+  bind(b.routine());
+  const bool whole = q_by_p == step_size();
+  row.large.push_back(b.let(body, "q_push", weight(whole ? "h_high" : "half_high") * at.by_p));
+  row.small = weight(whole ? "h_low" : "half_low") * at.by_p;
+  if (q_by_q) add_product(b, body, row, "q_turn", Expression(1), *q_by_q, at.by_q, false);
   return row;
 }
 

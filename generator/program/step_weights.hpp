@@ -39,11 +39,18 @@ struct StepWeights {
   bool shares = false;
   bool q_takes_more = false;
   std::vector<NamedWeight> coefficients;
+  // What q moves by, h dH/dp, with h in two parts: see Note [constants in two parts] in
+  // program/step_builder.hpp.
+  void split_flow();
+  [[nodiscard]] bool splits_flow() const { return splits_flow_; }
+  // The larger part of h times `slope`, and the smaller one.
+  static std::pair<Expression, Expression> flow_in_two_parts(const Expression& slope);
   [[nodiscard]] bool uses_h() const;  // apart from the coefficients
   // Binds the symbols of the weights.
   void bind(Routine& routine) const;
 
-  // The row's products as locals of the body; `exactly`: all with their errors.
+  // The row's products as locals of the body; `exactly`: all with their errors. 
+  [[nodiscard]] StageRow row_of_q_in_parts(RoutineBuilder& b, Body& body, const Gradient& at) const;
   [[nodiscard]] StageRow row_of_q(RoutineBuilder& b, Body& body, const Gradient& at,
                                   bool exactly = false) const;
   [[nodiscard]] StageRow row_of_p(RoutineBuilder& b, Body& body, const Gradient& at,
@@ -53,6 +60,7 @@ struct StepWeights {
                                                    const Expression& slope);
 
  private:
+  bool splits_flow_ = false;
   void add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q, const Expression& slope,
                  bool exactly) const;
   // sign * weight * slope

@@ -184,7 +184,7 @@ TEST(LargePlan, TheProgramIsItsRecordsAndRoutines) {
   for (const char* line :
        {"record Start:\n  value[40]  (the coordinates of zbar)\n", "  matrix: Matrix\n",
         "potential_gradient(par, q, &dq):\n", "  for i = 1..39:\n    q[i+1] = ",
-        "  iterate with Newton's rule:\n    evaluate(par, k, z, carry, start)\n",
+        "  iterate with Newton's rule:\n    evaluate_in_parts(par, k, z, carry, start)\n",
         "    solve start.matrix x = start.lack\n"}) {
     EXPECT_TRUE(contains(text, line)) << line << text;
   }

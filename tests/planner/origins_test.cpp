@@ -49,21 +49,25 @@ iteration             |    if not at.ready:
 iteration             |      at.point[0] <- bar(q)
 iteration             |      derivatives(par, k, at)
 iteration             |    at.ready <- false
-iteration H 2 3       |    rest(p) = carry(p) + #1*H(q)
+iteration H 2 3       |    rest(beside p) = carry(p) + #1*H(q)
+iteration H 2 3       |    rest(p) = rest(beside p) + #2*H(q)
 iteration H 2 3       |    bar(p) = p + rest(p)
-iteration H 2 3       |    d(p)/d(q) = #1*H(q,q)
+iteration H 2 3       |    d(p)/d(q) = #3*H(q,q)
 iteration             |    q gap = bar(q) - q
-iteration             |    q gap 1 = q gap + bar(p)*#1
-iteration             |    R(q) = -(carry(q) - q gap 1)
-iteration H 2 3       |    R(q,q) = 1 + #1*d(p)/d(q)
+iteration             |    q gap 1 = q gap + bar(p)*#2
+iteration             |    rest(beside q) = carry(q) + bar(p)*#4
+iteration             |    R(q) = q gap 1 - rest(beside q)
+iteration H 2 3       |    R(q,q) = 1 + #3*d(p)/d(q)
 iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
-step      H 2 3       |  change(H(p)) = #1*change(H(q))
-step      H 1         |  dz.q <- h*bar(p)
-step      H 1         |  rest.q <- carry(q) + h*change(H(p))
-step      H 2 3       |  dz.p <- -h*H(q)
-step      H 2 3       |  rest.p <- carry(p) - h*change(H(q))
+step      H 2 3       |  change(H(p)) = #3*change(H(q))
+step                  |  rest(beside dq) = carry(q) + bar(p)*low(h)
+step      H 2 3       |  rest(beside dp) = carry(p) - H(q)*low(h)
+step      H 1         |  dz.q <- bar(p)*high(h)
+step      H 1         |  rest.q <- rest(beside dq) + h*change(H(p))
+step      H 2 3       |  dz.p <- -H(q)*high(h)
+step      H 2 3       |  rest.p <- rest(beside dp) - h*change(H(q))
 step                  |)");
 }
 
@@ -72,10 +76,18 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
   EXPECT_EQ(between(origins(kTwoForces), "prepare(", "solve("),
             R"(prepare(par, h):
 run                   |  #0 <- w^2
-step size             |  #1 <- -h/2
+run                   |  high(w^2) <- 999999*#0/1000000
+run                   |  low(w^2) <- #0 - high(w^2)
+step size             |  high(h) <- 999999*h/1000000
+step size             |  low(h) <- h - high(h)
+step size             |  #1 <- -low(h)/2
+step size             |  #2 <- -high(h)/2
+step size             |  #3 <- -h/2
+step size             |  #4 <- low(h)/2
 derivatives(par, k, &at):
 iteration             |  bar(q) = at.point[0]
-iteration H 2 3       |  H(q) = c*sin(bar(q)) + bar(q)*#0
+iteration H 2 3       |  (w^2)*(bar(q)) = bar(q)*high(w^2) + bar(q)*low(w^2)
+iteration H 2 3       |  H(q) = (w^2)*(bar(q)) + c*sin(bar(q))
 iteration H 2 3       |  H(q,q) = #0 + c*cos(bar(q))
 iteration H 2 3       |  at.H_q <- H(q)
 iteration H 2 3       |  at.H_q_q <- H(q,q)

@@ -1,0 +1,103 @@
+#include "generator/program/linear_terms.hpp"
+
+#include <algorithm>
+
+namespace hamgen {
+
+bool is_power_of_two(const Expression& factor) {
+  const auto is_power = [](const mpz_class& n) { return mpz_popcount(n.get_mpz_t()) == 1; };
+  if (!factor.is_number() || factor.is_zero()) return false;
+  const Rational magnitude = abs(factor.number());
+  return is_power(magnitude.get_num()) && is_power(magnitude.get_den());
+}
+
+bool LinearTerms::is_constant(const Expression& e) const {
+  return std::ranges::none_of(symbols(e), [&](const auto& name) { return state_.contains(name); });
+}
+
+bool LinearTerms::is_sum(const Expression& e) const {
+  const auto is_multiple = [&](const Expression& term) {
+    const auto [number, value] = term.split_coefficient();
+    return is_power_of_two(Expression(number)) && value.kind() == Kind::symbol &&
+           state_.contains(value.name());
+  };
+  const auto [number, rest] = e.split_coefficient();
+  if (rest.kind() != Kind::sum) return is_multiple(e);
+  return is_power_of_two(Expression(number)) && std::ranges::all_of(rest.operands(), is_multiple);
+}
+
+LinearTerms::Product LinearTerms::product(const Expression& e) const {
+  if (is_sum(e)) return {Expression(1), e, true};
+  if (e.kind() != Kind::product) return {};
+  std::vector<Expression> constants;
+  std::vector<Expression> others;
+  for (const Expression& factor : e.operands()) {
+    (is_constant(factor) ? constants : others).push_back(factor);
+  }
+  if (others.size() != 1) return {};
+  return {Expression::product(std::move(constants)), others[0], is_sum(others[0])};
+}
+
+bool LinearTerms::are_in(const Expression& e) const {
+  const auto in = [&](const Expression& term) { return are_in(term); };
+  if (e.kind() == Kind::sum && !is_sum(e)) return std::ranges::any_of(e.operands(), in);
+  const Product found = product(e);
+  return found.is_linear || (found.factor.kind() == Kind::sum && in(found.factor));
+}
+
+Expression LinearTerms::split(const Expression& e, const Definitions& definitions) const {
+  const auto split_term = [&](const Expression& term) { return split(term, definitions); };
+  if (e.kind() == Kind::sum && !is_sum(e)) {
+    std::vector<Expression> parts;
+    for (const Expression& term : e.operands()) parts.push_back(split_term(term));
+    return Expression::sum(std::move(parts));
+  }
+  const Product found = product(e);
+  if (!found.is_linear) {
+    return found.factor.kind() == Kind::sum ? found.constant * split_term(found.factor) : e;
+  }
+  const auto [number, symbol] = found.constant.split_coefficient();
+  const bool is_exact = is_power_of_two(Expression(number));
+  const Expression constant = is_exact ? symbol : found.constant;
+  if (is_power_of_two(constant)) return e;
+  const Expression x = definitions.at_stage(found.factor);
+  const auto [high, low] = definitions.in_two_parts(constant);
+  const Expression value = definitions.define("(" + to_text(constant) + ")*(" + to_text(x) + ")",
+                                              high * x + low * x);
+  return is_exact ? Expression(number) * value : value;
+}
+
+bool LinearTerms::may_be_all_of(const Expression& e) const {
+  const auto may = [&](const Expression& term) { return may_be_all_of(term); };
+  if (e.kind() == Kind::sum && !is_sum(e)) return std::ranges::all_of(e.operands(), may);
+  const Product found = product(e);
+  if (found.is_linear) return true;
+  if (found.factor.kind() == Kind::sum && may(found.factor)) return true;
+  // With a symbol among its factors that is none of the state.
+  return e.kind() == Kind::product && std::ranges::any_of(e.operands(), [&](const auto& factor) {
+           return is_constant(factor) && !factor.is_number();
+         });
+}
+
+bool has_linear_forces(const Mechanics& mechanics) {
+  std::set<std::string> names;
+  if (!mechanics.keeps_sums()) {
+    const int n = mechanics.degrees_of_freedom;
+    for (int i = 0; i < 2 * n; ++i) names.insert(mechanics.variable(i).name());
+    const LinearTerms terms(std::move(names));
+    return std::any_of(mechanics.gradient.begin(), mechanics.gradient.begin() + n,
+                       [&](const Expression& force) { return terms.are_in(force); });
+  }
+  for (const Kernel& kernel : mechanics.kernels) {
+    for (const Slot& slot : kernel.slots) names.insert(slot.symbol);
+  }
+  const LinearTerms terms(std::move(names));
+  return std::ranges::any_of(mechanics.kernels, [&](const Kernel& kernel) {
+    for (std::size_t i = 0; i < kernel.slots.size(); ++i) {
+      if (!kernel.slots[i].is_momentum && terms.are_in(kernel.gradient[i])) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace hamgen

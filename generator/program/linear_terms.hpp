@@ -1,0 +1,59 @@
+// Terms c x of a gradient: constants times sums of the state.  See Note [constants in two parts] in
+// program/step_builder.hpp.
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "generator/algebra/expression.hpp"
+#include "generator/mechanics/mechanics.hpp"
+
+namespace hamgen {
+
+// Is it one of floating-point numbers, whose products have no error?
+[[nodiscard]] bool is_power_of_two(const Expression& factor);
+
+// A constant is the sum of them, exactly.
+struct Parts {
+  Expression high;
+  Expression low;
+};
+
+class LinearTerms {
+ public:
+  // Of expressions whose symbols of the state are these.
+  explicit LinearTerms(std::set<std::string> state) : state_(std::move(state)) {}
+
+  // Is it a sum of symbols of the state, or of their doubles or halves?  It is on their grid then.
+  [[nodiscard]] bool is_sum(const Expression& e) const;
+  // {c, x} of c x with a constant c and such a sum x, {1, x} of x alone; of any other product of
+  // a constant with one factor that factor alone, and nothing of anything else.
+  struct Product {
+    Expression constant = {};
+    Expression factor = {};
+    bool is_linear = false;
+  };
+  [[nodiscard]] Product product(const Expression& e) const;
+  // Has it a term c x?
+  [[nodiscard]] bool are_in(const Expression& e) const;
+  // e with each c x, of which products have errors, as a value of its own, defined by these: the
+  // two parts of c, and the value of this name, of x with c in two parts.
+  struct Definitions {
+    std::function<Parts(const Expression& constant)> in_two_parts;
+    std::function<Expression(const Expression& sum)> at_stage;
+    std::function<Expression(const std::string& name, const Expression& value)> define;
+  };
+  [[nodiscard]] Expression split(const Expression& e, const Definitions& definitions) const;
+  // Is it a sum of such terms alone, or of others that a parameter may take away?
+  [[nodiscard]] bool may_be_all_of(const Expression& e) const;
+
+ private:
+  [[nodiscard]] bool is_constant(const Expression& e) const;
+  std::set<std::string> state_;
+};
+
+// Has a force of H such a term?
+[[nodiscard]] bool has_linear_forces(const Mechanics& mechanics);
+
+}  // namespace hamgen

@@ -1,0 +1,75 @@
+#include "generator/program/linear_terms.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/emitted_text.hpp"
+
+namespace hamgen {
+namespace {
+
+const Expression q = Expression::symbol("q");
+const Expression r = Expression::symbol("r");
+const Expression k = Expression::symbol("k");
+const Expression a = Expression::symbol("a");
+const LinearTerms kTerms({"q", "r"});
+
+std::string split(const Expression& e) {
+  const Expression result = kTerms.split(
+      e, {.in_two_parts =
+              [](const Expression& c) {
+                return Parts{Expression::symbol("high(" + to_text(c) + ")"),
+                             Expression::symbol("low(" + to_text(c) + ")")};
+              },
+          .at_stage = [](const Expression& sum) { return sum; },
+          .define = [](const std::string& name, const Expression&) {
+            return Expression::symbol("[" + name + "]");
+          }});
+  return to_text(result);
+}
+
+TEST(LinearTerms, AreConstantsTimesSumsOfTheState) {
+  EXPECT_TRUE(kTerms.are_in(q));
+  EXPECT_TRUE(kTerms.are_in(k * (q - r)));
+  EXPECT_TRUE(kTerms.are_in(q * q * a + k * q));
+  EXPECT_TRUE(kTerms.are_in(-(q * r + Expression(3) * (q - r))));
+  EXPECT_FALSE(kTerms.are_in(q * r));
+  EXPECT_FALSE(kTerms.are_in(k * a));
+  EXPECT_FALSE(kTerms.are_in(a * Expression::apply("sin", {q})));
+  EXPECT_FALSE(kTerms.are_in(k * (q + r * r) * q));
+}
+
+TEST(LinearTerms, HaveTheirConstantInTwoPartsUnlessItIsAPowerOfTwo) {
+  EXPECT_EQ(split(k * (q - r)), "[(k)*(q - r)]");
+  EXPECT_EQ(split(Expression(2) * k * q), "2*[(k)*(q)]");
+  EXPECT_EQ(split(Expression(3) * k * q), "[(3*k)*(q)]");
+  EXPECT_EQ(split(Expression(Rational(13, 10)) * q), "[(13/10)*(q)]");
+  EXPECT_EQ(split(Expression(Rational(1, 4)) * q), "q/4");
+  EXPECT_EQ(split(q - r), "q - r");
+  EXPECT_EQ(split(a * q * q + k * r), to_text(a * q * q + Expression::symbol("[(k)*(r)]")));
+  EXPECT_EQ(split(a * Expression::apply("sin", {q})), "a*sin(q)");
+}
+
+// Their sum may cancel, and what is left has few digits.
+TEST(LinearTerms, MayBeAllOfAForceWhereAParameterIsZero) {
+  EXPECT_TRUE(kTerms.may_be_all_of(k * q - r));
+  EXPECT_TRUE(kTerms.may_be_all_of(k * q + a * q * q));
+  EXPECT_FALSE(kTerms.may_be_all_of(k * q + Expression(2) * q * r));
+  EXPECT_FALSE(kTerms.may_be_all_of(Expression::apply("sin", {q})));
+}
+
+// Only forces that are linear in part, and whose equations are solved, have constants in two parts.
+TEST(LinearTerms, AreSplitWhereAForceHasThemAlone) {
+  const auto is_split = [](const std::string& hamiltonian, const std::string& scheme) {
+    const std::string text = planner_test::one + "parameter c = 1.3\nH = p^2/2 + " + hamiltonian;
+    const planner_test::Outcome made = planner_test::outcome(text + "\n", {.scheme = scheme});
+    return planner_test::contains(made.header, "= 0.999999 *");
+  };
+  for (const char* scheme : {"implicit-midpoint", "gauss-4"}) {
+    EXPECT_TRUE(is_split("c*q^2/2 + q^4/4", scheme)) << scheme;
+    EXPECT_FALSE(is_split("c*cos(q)", scheme)) << scheme;
+  }
+  EXPECT_FALSE(is_split("c*q^2/2 + q^4/4", "stormer-verlet"));
+}
+
+}  // namespace
+}  // namespace hamgen
