@@ -62,8 +62,8 @@ Expression LinearTerms::split(const Expression& e, const Definitions& definition
   if (is_power_of_two(constant)) return e;
   const Expression x = definitions.at_stage(found.factor);
   const auto [high, low] = definitions.in_two_parts(constant);
-  const Expression value = definitions.define("(" + to_text(constant) + ")*(" + to_text(x) + ")",
-                                              high * x + low * x);
+  const Expression value = definitions.define(
+      "linear (" + to_text(constant) + ")*(" + to_text(x) + ")", high * x + low * x);
   return is_exact ? Expression(number) * value : value;
 }
 
@@ -71,7 +71,7 @@ bool LinearTerms::may_be_all_of(const Expression& e) const {
   const auto may = [&](const Expression& term) { return may_be_all_of(term); };
   if (e.kind() == Kind::sum && !is_sum(e)) return std::ranges::all_of(e.operands(), may);
   const Product found = product(e);
-  if (found.is_linear) return true;
+  if (found.is_linear || is_constant(e)) return true;
   if (found.factor.kind() == Kind::sum && may(found.factor)) return true;
   // With a symbol among its factors that is none of the state.
   return e.kind() == Kind::product && std::ranges::any_of(e.operands(), [&](const auto& factor) {

@@ -45,7 +45,7 @@ class LinearTerms {
     std::function<Expression(const std::string& name, const Expression& value)> define;
   };
   [[nodiscard]] Expression split(const Expression& e, const Definitions& definitions) const;
-  // Is it a sum of such terms alone, or of others that a parameter may take away?
+  // Is it a sum of such terms and constants alone, or of others that a parameter may take away?
   [[nodiscard]] bool may_be_all_of(const Expression& e) const;
 
  private:

@@ -133,7 +133,8 @@ Routine LoopStage::evaluate(bool in_parts) const {
     each.push_back({Assign{at.by_p.name(), velocity_there}, {}, {.terms = velocity_->terms}});
     // A number that is trivial needs no place to be read from.
     const Gradient there = {at.by_q, is_trivial(velocity_there) ? velocity_there : at.by_p};
-    for (Instruction& instruction : lacks(b, there, in_parts)) each.push_back(std::move(instruction));
+    for (Instruction& instruction : lacks(b, there, in_parts))
+      each.push_back(std::move(instruction));
     b.body().push_back(for_each(elements(), std::move(each)));
     return b.take();
   }

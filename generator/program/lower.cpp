@@ -44,7 +44,9 @@ void Lowering::inline_trivial() {
     const Expression& value = definition.value;
     // A multiple of one symbol is cheaper used than stored.
     const auto [coefficient, rest] = value.split_coefficient();
-    if (is_trivial(value) || (rest.kind() == Kind::symbol && definition.keep == Keep::no)) {
+    const bool is_number_apart = value.is_number() && definition.keep == Keep::apart;
+    if ((is_trivial(value) && !is_number_apart) ||
+        (rest.kind() == Kind::symbol && definition.keep == Keep::no)) {
       replacements[definition.name] = value;
     } else {
       kept.push_back(std::move(definition));
@@ -269,8 +271,10 @@ void Lowering::run() {
       levels_[definition.name] = level(known->second);
       continue;
     }
-    const Expression value = rewrite_operands(definition.value, where);
-    if (is_trivial(value)) {
+    const bool is_number = definition.value.is_number();  // and apart, or it is inlined
+    const Expression value =
+        is_number ? definition.value : rewrite_operands(definition.value, where);
+    if (is_trivial(value) && !is_number) {
       aliases_[definition.name] = value;
       levels_[definition.name] = level(value);
       continue;

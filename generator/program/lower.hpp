@@ -20,7 +20,7 @@ struct WantedValue {
   Expression value;
   int section = 0;  // where it is wanted; it moves up if it depends on less
   // Of `yes` a number of its own, though it is a multiple of another; of `apart` one that has
-  // nothing to do with others of the same value.
+  // nothing to do with others of the same value, be it a number that the algebra knows.
   enum class Keep { no, yes, apart } keep = Keep::no;
 };
 

@@ -70,11 +70,11 @@ Evaluation evaluate_in_parts(const Mechanics& mechanics) {
   const LinearTerms terms(std::move(state));
   std::vector<std::size_t> handles;
   for (const Expression& value : mechanics.gradient) {
-    handles.push_back(lowering.want(
-        terms.split(value, {.in_two_parts = in_two_parts,
-                            .at_stage = [](const Expression& sum) { return sum; },
-                            .define = define}),
-        0));
+    handles.push_back(
+        lowering.want(terms.split(value, {.in_two_parts = in_two_parts,
+                                          .at_stage = [](const Expression& sum) { return sum; },
+                                          .define = define}),
+                      0));
   }
   lowering.run();
   Evaluation evaluation{.statements = lowering.statements(0)};

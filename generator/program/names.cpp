@@ -218,6 +218,7 @@ const std::string& Names::local(const std::string& symbol) {
     }
   }
   while (text.ends_with('_')) text.pop_back();
+  if (!text.empty() && text[0] >= '0' && text[0] <= '9') text = "of_" + text;
   return names_.emplace(symbol, unique(text + suffix)).first->second;
 }
 

@@ -32,10 +32,8 @@ Expression StepBuilder::with_split_products(const Expression& e, int section) {
   return linear_terms().split(
       e, {.in_two_parts = [&](const Expression& constant) { return in_two_parts(constant); },
           .at_stage = [&](const Expression& sum) { return at_stage(sum); },
-          .define =
-              [&](const std::string& name, const Expression& value) {
-                return name_once(name, value, section);
-              }});
+          .define = [&](const std::string& name,
+                        const Expression& value) { return name_once(name, value, section); }});
 }
 
 // Where the gradient may be no more than a sum of linear terms these may cancel.

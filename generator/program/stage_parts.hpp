@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/program/environment.hpp"
+#include "generator/program/linear_terms.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/routine_builder.hpp"
 
@@ -17,7 +18,8 @@ class StageParts {
       : layout_(*lowered.stage_layout),
         stages_(layout_.stages),
         dimension_(layout_.dimension),
-        n_(layout_.dimension / 2) {}
+        n_(layout_.dimension / 2),
+        in_parts_(has_linear_forces(lowered.plan.equations.mechanics)) {}
 
   // With those that are none of a stage.
   [[nodiscard]] int unknowns() const { return layout_.count(); }
@@ -53,6 +55,14 @@ class StageParts {
     return sum;
   }
 
+  // h b_i times this, see Note [constants in two parts] in step_builder.hpp.
+  Expression scaled(RoutineBuilder& b, const Expression& slope) const {
+    const Expression all = b.at("k", "scaled", {affine("i")});
+    if (!in_parts_) return all * slope;
+    const Expression high = b.at("k", "scaled_high", {affine("i")});
+    return high * slope + (all - high) * slope;
+  }
+
   // --- loops -------------------------------------------------------------------------------------
 
   [[nodiscard]] KernelRange all_stages() const { return counting("i", layout_.room()); }
@@ -86,6 +96,7 @@ class StageParts {
 
   StageLayout layout_;
   int stages_, dimension_, n_;
+  bool in_parts_;
 };
 
 }  // namespace hamgen

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "generator/program/linear_terms.hpp"
 #include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_matrix.hpp"
 #include "generator/program/stage_numbers.hpp"
@@ -122,15 +121,7 @@ class StageRoutines : StageParts {
 
   void add_slopes(RoutineBuilder& b) const {
     const Expression slope = of_start(b, "slope", row());
-    const Expression scaled = b.at("k", "scaled", {affine("i")});
-    Body scale;
-    Expression product = scaled * slope;
-    // See Note [constants in two parts] in step_builder.hpp.
-    if (has_linear_forces(lowered_.plan.equations.mechanics)) {
-      const Expression high = b.at("k", "scaled_high", {affine("i")});
-      product = high * slope + (scaled - high) * slope;
-    }
-    scale.push_back({Assign{slope.name(), product}});
+    Body scale{{Assign{slope.name(), scaled(b, slope)}}};
     if (by_component()) {
       b.body().push_back({Call{.routine = "vector_fields",
                                .arguments = {{"par"}, {"start", "value"}, {"start", "slope"}}}});

@@ -132,8 +132,7 @@ std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
   const Parts h = step_size_for(k);
   Expression large = sign * h.high * gradient;
   if (!h.low.is_zero()) {
-    terms[0] =
-        named_rest("beside d" + name_of(i), terms[0] + sign * h.low * gradient, straight());
+    terms[0] = named_rest("moving " + name_of(i), terms[0] + sign * h.low * gradient, straight());
   }
   if (keeps_losses_) {
     const auto [flow, lost] = flow_of(k, gradient, straight());

@@ -228,7 +228,7 @@ TEST(Shape, TheSystemComesFirstThenTheFixedBlocksThenTheMethod) {
 TEST(Shape, AQuantityKeepsItsNameAndTheArgumentMakesWay) {
   const std::string text = generate(make_source("named.ham", named), {}).at(0).text;
   for (const char* part : {"  const Real z = z_.z;\n", "  const Real k = z_.k;\n", "par_.carry",
-                           "k_.c1", "  dz_.z = h * par_bar;\n", "  rest.z = carry.z + "})
+                           "k_.c1", "  dz_.z = par_bar * k_.c", "  rest.z = rest_moving_z + "})
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 

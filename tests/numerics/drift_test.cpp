@@ -117,8 +117,8 @@ TEST(Drift, AnAffineBlockNeedsWhatProductsWithHLose) {
 // The momenta are those with which the equations hold, and what the last increment adds is beside
 // them: where they took it in, this row drifted by 3e-3 units.
 TEST(Drift, ALargeStepOfNewtonMovesByWhatItsEquationsWereSolvedWith) {
-  expect_drift_only_with({{"= rest_beside_dq_1 + h * change_H_p_1", "= rest_beside_dq_1"},
-                          {"= rest_beside_dq_2 + h * change_H_p_2", "= rest_beside_dq_2"}},
+  expect_drift_only_with({{"= rest_moving_q_1 + h * change_H_p_1", "= rest_moving_q_1"},
+                          {"= rest_moving_q_2 + h * change_H_p_2", "= rest_moving_q_2"}},
                          {.model = soft_chain(5), .request = {}, .h = 1});
 }
 

@@ -62,12 +62,12 @@ iteration H 2 3       |    delta(q) = -R(q)/R(q,q)
                       |    correct bar(q) by delta(q), from q
 step      H 2 3       |  change(H(q)) = delta(q)*H(q,q)
 step      H 2 3       |  change(H(p)) = #3*change(H(q))
-step                  |  rest(beside dq) = carry(q) + bar(p)*low(h)
-step      H 2 3       |  rest(beside dp) = carry(p) - H(q)*low(h)
+step                  |  rest(moving q) = carry(q) + bar(p)*low(h)
+step      H 2 3       |  rest(moving p) = carry(p) - H(q)*low(h)
 step      H 1         |  dz.q <- bar(p)*high(h)
-step      H 1         |  rest.q <- rest(beside dq) + h*change(H(p))
+step      H 1         |  rest.q <- rest(moving q) + h*change(H(p))
 step      H 2 3       |  dz.p <- -H(q)*high(h)
-step      H 2 3       |  rest.p <- rest(beside dp) - h*change(H(q))
+step      H 2 3       |  rest.p <- rest(moving p) - h*change(H(q))
 step                  |)");
 }
 
@@ -86,8 +86,8 @@ step size             |  #3 <- -h/2
 step size             |  #4 <- low(h)/2
 derivatives(par, k, &at):
 iteration             |  bar(q) = at.point[0]
-iteration H 2 3       |  (w^2)*(bar(q)) = bar(q)*high(w^2) + bar(q)*low(w^2)
-iteration H 2 3       |  H(q) = (w^2)*(bar(q)) + c*sin(bar(q))
+iteration H 2 3       |  linear (w^2)*(bar(q)) = bar(q)*high(w^2) + bar(q)*low(w^2)
+iteration H 2 3       |  H(q) = linear (w^2)*(bar(q)) + c*sin(bar(q))
 iteration H 2 3       |  H(q,q) = #0 + c*cos(bar(q))
 iteration H 2 3       |  at.H_q <- H(q)
 iteration H 2 3       |  at.H_q_q <- H(q,q)
