@@ -283,6 +283,19 @@ TEST(BatchHeader, OfIterationsCompilesWithoutAWarning) {
   for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
 }
 
+TEST(BatchHeader, GivesNewtonAsManyStepsAsOneTrajectoryDoes) {
+  const SourceText chain =
+      make_source("chain.ham",
+                  "system chain\nsize N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
+                  "momentum p[1..N]\n"
+                  "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^4/4)\n");
+  const std::string one = generate(chain, {})[0].text;
+  const std::string lanes = generate(chain, {.batch = 4})[0].text;
+  EXPECT_NE(one.find("start.patience = 32;"), std::string::npos);
+  EXPECT_NE(lanes.find("start.patience = select(start.turn.lanes, Real(32), start.patience);"),
+            std::string::npos);
+}
+
 TEST(BatchHeader, SaysThatItsTextIsProved) {
   Request request;
   request.scheme = "stormer-verlet";

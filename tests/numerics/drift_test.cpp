@@ -147,7 +147,7 @@ TEST(Drift, ConstantsOfLinearForcesAreInTwoParts) {
 TEST(Drift, AStepBesideLinearForcesIsInTwoParts) {
   expect_drift_only_with({{"= 0.999999 * h;", "= h;"}},
                          {.model = soft_chain(3, "1"), .request = {}, .h = 1.8},
-                         {.steps = 1'000'000, .starts = 16});
+                         {.steps = 500'000, .starts = 16});
 }
 
 TEST(Drift, AStepBesideLinearForcesInLoopsIsInTwoParts) {
