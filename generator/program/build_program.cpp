@@ -18,6 +18,7 @@
 #include "generator/program/propagator.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/solve_routine.hpp"
+#include "generator/program/split_constants.hpp"
 #include "generator/program/splitting_routine.hpp"
 #include "generator/program/stage_routines.hpp"
 #include "generator/program/tangent_routine.hpp"
@@ -90,21 +91,21 @@ void add_kernel_functions(Program& code, const Environment& environment,
                           const LoweredStep& lowered) {
   const SolvePlan& plan = lowered.plan;
   const Mechanics mechanics = plan.equations.of_energy();
-  const ArrayPlan& arrays = *plan.arrays;
   code.routines.push_back(kernel_energy(environment, mechanics));
+  const auto add_gradient = [&](const char* name, Part part) {
+    code.routines.push_back(
+        kernel_gradient(environment, mechanics, name, part, splits_constants(plan)));
+  };
   if (mechanics.is_separable()) {
-    code.routines.push_back(
-        kernel_gradient(environment, mechanics, "potential_gradient", Part::potential));
-    code.routines.push_back(
-        kernel_gradient(environment, mechanics, "kinetic_gradient", Part::kinetic));
+    add_gradient("potential_gradient", Part::potential);
+    add_gradient("kinetic_gradient", Part::kinetic);
     code.routines.push_back(both_gradients(environment));
   } else {
-    code.routines.push_back(kernel_gradient(environment, mechanics, "gradient", Part::all));
+    add_gradient("gradient", Part::all);
   }
   if (plan.equations.function)
     code.routines.push_back(kernel_generating_gradient(environment, plan.equations.mechanics));
-  const std::optional<StageLayout>& layout = lowered.stage_layout;
-  if (layout && layout->by_component()) {
+  if (const auto& layout = lowered.stage_layout; layout && layout->by_component()) {
     std::vector<Routine> leaves =
         mechanics.is_separable()
             ? std::vector{*code.routine("potential_gradient"), *code.routine("kinetic_gradient")}
@@ -119,7 +120,7 @@ void add_kernel_functions(Program& code, const Environment& environment,
     code.routines.push_back(array_vector_field(environment));
     code.routines.push_back(array_hessian(environment, mechanics));
   }
-  if (arrays.reduced && !arrays.mass)
+  if (plan.arrays->reduced && !plan.arrays->mass)
     code.routines.push_back(kernel_masses(environment, mechanics));
 }
 
@@ -204,9 +205,8 @@ void add_tangent(Program& code, const Environment& environment, const LoweredSte
   const SolvePlan& plan = lowered.plan;
   const Method& method = plan.equations.scheme.method;
   const auto add = [&](Routine routine) { code.routines.push_back(std::move(routine)); };
-  if (plan.arrays && code.routine("curvature") == nullptr) {
+  if (plan.arrays && code.routine("curvature") == nullptr)
     add(curvature_routine(environment, plan.equations));
-  }
   if (std::holds_alternative<Splitting>(method))
     return add(splitting_tangent(environment, lowered));
   if (std::holds_alternative<RungeKutta>(method)) {

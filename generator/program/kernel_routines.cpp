@@ -14,6 +14,7 @@
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/names.hpp"
+#include "generator/program/split_constants.hpp"
 
 namespace hamgen {
 
@@ -61,7 +62,7 @@ class KernelRoutine {
     return std::move(routine_);
   }
 
-  Routine gradient(std::string name) {
+  Routine gradient(std::string name, bool in_parts = false) {
     routine_.name = std::move(name);
     routine_.remark = {part_ == Part::potential ? "dq[i] = dH/dq_i."
                        : part_ == Part::kinetic ? "dp[i] = dH/dp_i."
@@ -71,6 +72,8 @@ class KernelRoutine {
     for (const Kernel& kernel : weighted_kernels(mechanics_)) {
       for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
     }
+    if (in_parts && part_ != Part::kinetic)
+      append(routine_.body, split_constants(kernels_, mechanics_));
     const std::array begins = {first_loop(kernels_, false, n_), first_loop(kernels_, true, n_)};
     add_target("dq", part_ != Part::kinetic, begins[0]);
     add_target("dp", part_ != Part::potential, begins[1]);
@@ -375,8 +378,8 @@ Routine kernel_energy(const Environment& environment, const Mechanics& mechanics
 }
 
 Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
-                        std::string name, Part part) {
-  return KernelRoutine(environment, mechanics, part).gradient(std::move(name));
+                        std::string name, Part part, bool in_parts) {
+  return KernelRoutine(environment, mechanics, part).gradient(std::move(name), in_parts);
 }
 
 Routine kernel_generating_gradient(const Environment& environment, const Mechanics& mechanics) {

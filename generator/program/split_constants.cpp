@@ -1,0 +1,45 @@
+#include "generator/program/split_constants.hpp"
+
+#include <algorithm>
+
+#include "generator/program/arithmetic.hpp"
+#include "generator/program/linear_terms.hpp"
+
+namespace hamgen {
+
+bool splits_constants(const SolvePlan& plan) {
+  const ArrayPlan& arrays = *plan.arrays;
+  const bool by_newton = arrays.method == ArrayMethod::newton || arrays.method == ArrayMethod::both;
+  return by_newton && !arrays.constant_matrix && !plan.equations.function;
+}
+
+std::vector<Statement> split_constants(std::vector<Kernel>& kernels, const Mechanics& mechanics) {
+  std::set<std::string> parameters;
+  for (const Quantity& parameter : mechanics.parameters) parameters.insert(parameter.name);
+  std::vector<Statement> statements;
+  std::set<std::string> named;
+  const auto define = [&](const std::string& name, const Expression& value) {
+    if (named.insert(name).second) statements.push_back({name, value});
+    return Expression::symbol(name, kRankOfTemporary);
+  };
+  const LinearTerms::Definitions definitions{
+      .in_two_parts =
+          [&](const Expression& constant) {
+            if (!std::ranges::includes(parameters, symbols(constant)))
+              return Parts{constant, Expression(0)};
+            const std::string text = "(" + to_text(constant) + ")";
+            const Expression high = define("high" + text, kHighPart * constant);
+            return Parts{high, define("low" + text, constant - high)};
+          },
+      .at_stage = [](const Expression& sum) { return sum; },
+      .define = [](const std::string&, const Expression& value) { return value; }};
+  for (Kernel& kernel : kernels) {
+    std::set<std::string> state;
+    for (const Slot& slot : kernel.slots) state.insert(slot.symbol);
+    const LinearTerms terms(std::move(state));
+    for (Expression& slope : kernel.gradient) slope = terms.split(slope, definitions);
+  }
+  return statements;
+}
+
+}  // namespace hamgen
