@@ -816,9 +816,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x77ccbe3b
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x59c2e76d
 namespace fput::implicit_midpoint {
-inline namespace emitted_77ccbe3b {
+inline namespace emitted_59c2e76d {
 
 namespace numerics = ::hamgen_186a1ac0::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -877,8 +877,7 @@ inline void evaluate(const Parameters& par, const Coefficients& k, const State& 
   }
 }
 
-// grad H at the stage, whose momenta follow from its coordinates, and what the equations
-// lack there.
+// The same with h in two parts, of which neither is a simple fraction, for Newton's iteration.
 inline void evaluate_in_parts(const Parameters& par, const Coefficients& k, const State& z,
                               const State& carry, Start& __restrict start) {
   potential_gradient(par, start.value, start.slope);
@@ -1147,9 +1146,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_77ccbe3b
+}  // namespace emitted_59c2e76d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x77ccbe3b
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x59c2e76d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

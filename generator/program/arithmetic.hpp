@@ -17,10 +17,6 @@ inline constexpr const char* kDifferenceError = "difference_error";
   return function == kProductError || function == kDifferenceError;
 }
 
-// A constant times this is most of it and no simple fraction: as near to 1 as the digits of float
-// allow.  See Note [constants in two parts] in program/step_builder.hpp.
-inline const Expression kHighPart{Rational(999999, 1000000)};
-
 // 1 or 1/2, with either sign: a product with it has no error.
 [[nodiscard]] bool multiplies_exactly(const Expression& factor);
 

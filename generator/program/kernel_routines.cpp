@@ -62,7 +62,7 @@ class KernelRoutine {
     return std::move(routine_);
   }
 
-  Routine gradient(std::string name, bool in_parts = false) {
+  Routine gradient(std::string name, bool in_parts) {
     routine_.name = std::move(name);
     routine_.remark = {part_ == Part::potential ? "dq[i] = dH/dq_i."
                        : part_ == Part::kinetic ? "dp[i] = dH/dp_i."
@@ -104,7 +104,7 @@ class KernelRoutine {
 
   Routine generating_gradient() {
     routine_.arguments.push_back({.name = "h"});
-    Routine result = gradient("generating_gradient");
+    Routine result = gradient("generating_gradient", false);
     result.remark = {"dq[i] = dK/dq_i, dp[i] = dK/dp_i of the K(z, h) that stands in for H."};
     return result;
   }

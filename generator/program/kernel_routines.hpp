@@ -18,7 +18,7 @@ enum class Part { all, potential, kinetic };
 
 [[nodiscard]] Routine kernel_energy(const Environment& environment, const Mechanics& mechanics);
 [[nodiscard]] Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
-                                      std::string name, Part part, bool in_parts = false);
+                                      std::string name, Part part, bool in_parts);
 // generating_gradient(par, h, q, p, dq, dp), of the mechanics that has K in its kernels.
 [[nodiscard]] Routine kernel_generating_gradient(const Environment& environment,
                                                  const Mechanics& mechanics);

@@ -11,6 +11,12 @@ bool is_power_of_two(const Expression& factor) {
   return is_power(magnitude.get_num()) && is_power(magnitude.get_den());
 }
 
+Parts in_two_parts(const Expression& constant, const Define& define) {
+  const std::string name = "(" + to_text(constant) + ")";
+  const Expression high = define("high" + name, kHighPart * constant, true);
+  return {high, define("low" + name, constant - high, false)};
+}
+
 bool LinearTerms::is_constant(const Expression& e) const {
   return std::ranges::none_of(symbols(e), [&](const auto& name) { return state_.contains(name); });
 }

@@ -14,11 +14,22 @@ namespace hamgen {
 // Is it one of floating-point numbers, whose products have no error?
 [[nodiscard]] bool is_power_of_two(const Expression& factor);
 
-// A constant is the sum of them, exactly.
+// Most of a constant, as a part of it: no simple fraction, and so near to 1 that what products with
+// the rest lose, a millionth of a rounding error, counts for nothing.  In the 24 digits of float
+// the pattern that is left still turns 16 times over the numbers between two powers of two.
+inline const Expression kHighPart{Rational(999999, 1000000)};
+
+// A constant is the sum of them, exactly: high is within a factor 2 of it, so the difference that
+// low is has no error (Sterbenz).
 struct Parts {
   Expression high;
   Expression low;
 };
+// Gives a value its name, once, and returns the symbol; `apart`: even a number that the algebra
+// could put in its place.
+using Define =
+    std::function<Expression(const std::string& name, const Expression& value, bool apart)>;
+[[nodiscard]] Parts in_two_parts(const Expression& constant, const Define& define);
 
 class LinearTerms {
  public:

@@ -108,9 +108,12 @@ void LoopStage::add_gradient_at_stage(Body& body, bool in_parts) const {
 Routine LoopStage::evaluate(bool in_parts) const {
   RoutineBuilder b(
       {.name = evaluation(in_parts),
-       .remark = {"grad H at the stage, whose momenta follow from its coordinates, and "
-                  "what the equations",
-                  "lack there."},
+       .remark = in_parts && both()
+                     ? std::vector<std::string>{"The same with h in two parts, of which neither is "
+                                                "a simple fraction, for Newton's iteration."}
+                     : std::vector<std::string>{"grad H at the stage, whose momenta follow from "
+                                                "its coordinates, and what the equations",
+                                                "lack there."},
        .arguments = arguments(true)});
   const Place p{"start", "momentum"};
   const Place dp{"start", "slope", {affine(n_)}};

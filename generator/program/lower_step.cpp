@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "generator/program/arithmetic.hpp"
 #include "generator/program/linear_terms.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
@@ -57,24 +56,20 @@ Evaluation evaluate_in_parts(const Mechanics& mechanics) {
     lowering.declare(mechanics.variable(i).name(), 0);
   }
   std::set<std::string> named;
-  const auto define = [&](const std::string& name, const Expression& value,
-                          Lowering::Keep keep = Lowering::Keep::no) {
+  const auto define = [&](const std::string& name, const Expression& value, bool apart = false) {
+    const Lowering::Keep keep = apart ? Lowering::Keep::apart : Lowering::Keep::no;
     if (named.insert(name).second) lowering.define(name, value, 0, keep);
     return Expression::symbol(name, kRankOfTemporary);
-  };
-  const auto in_two_parts = [&](const Expression& constant) {
-    const std::string name = "(" + to_text(constant) + ")";
-    const Expression high = define("high" + name, kHighPart * constant, Lowering::Keep::apart);
-    return Parts{high, define("low" + name, constant - high)};
   };
   const LinearTerms terms(std::move(state));
   std::vector<std::size_t> handles;
   for (const Expression& value : mechanics.gradient) {
-    handles.push_back(
-        lowering.want(terms.split(value, {.in_two_parts = in_two_parts,
-                                          .at_stage = [](const Expression& sum) { return sum; },
-                                          .define = define}),
-                      0));
+    handles.push_back(lowering.want(
+        terms.split(value,
+                    {.in_two_parts = [&](const Expression& c) { return in_two_parts(c, define); },
+                     .at_stage = [](const Expression& sum) { return sum; },
+                     .define = define}),
+        0));
   }
   lowering.run();
   Evaluation evaluation{.statements = lowering.statements(0)};

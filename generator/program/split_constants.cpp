@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "generator/program/arithmetic.hpp"
 #include "generator/program/linear_terms.hpp"
 
 namespace hamgen {
@@ -18,7 +17,7 @@ std::vector<Statement> split_constants(std::vector<Kernel>& kernels, const Mecha
   for (const Quantity& parameter : mechanics.parameters) parameters.insert(parameter.name);
   std::vector<Statement> statements;
   std::set<std::string> named;
-  const auto define = [&](const std::string& name, const Expression& value) {
+  const auto define = [&](const std::string& name, const Expression& value, bool) {
     if (named.insert(name).second) statements.push_back({name, value});
     return Expression::symbol(name, kRankOfTemporary);
   };
@@ -27,9 +26,7 @@ std::vector<Statement> split_constants(std::vector<Kernel>& kernels, const Mecha
           [&](const Expression& constant) {
             if (!std::ranges::includes(parameters, symbols(constant)))
               return Parts{constant, Expression(0)};
-            const std::string text = "(" + to_text(constant) + ")";
-            const Expression high = define("high" + text, kHighPart * constant);
-            return Parts{high, define("low" + text, constant - high)};
+            return in_two_parts(constant, define);
           },
       .at_stage = [](const Expression& sum) { return sum; },
       .define = [](const std::string&, const Expression& value) { return value; }};

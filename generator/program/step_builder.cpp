@@ -19,6 +19,13 @@ std::vector<Expression> terms_of(const Expression& e) {
   return terms;
 }
 
+std::set<std::string> stage_names(const StepEquations& equations) {
+  std::set<std::string> names;
+  for (int v = 0; v < 2 * equations.mechanics.degrees_of_freedom; ++v)
+    names.insert(equations.stage(v).name());
+  return names;
+}
+
 std::vector<Section> sections(const SolvePlan& plan) {
   std::vector<Section> result(4 + 3 * plan.blocks.size() + 3);
   for (std::size_t s = 0; 2 + 3 * s < result.size(); ++s) result[2 + 3 * s].is_loop = true;
@@ -31,6 +38,7 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
     : plan_(plan),
       equations_(plan.equations),
       n_(plan.equations.mechanics.degrees_of_freedom),
+      linear_terms_(stage_names(plan.equations)),
       lowering_(sections(plan)) {
   for (const Quantity& parameter : equations_.mechanics.parameters) {
     lowering_.declare(parameter.name, kCoefficients);

@@ -117,7 +117,7 @@ class StepBuilder {
   // opposite signs is on their grid, not on its own.  Whether pbar is such a sum, of p and a force,
   // depends on which way the motion goes, and so does qbar after a long increment: the mean of the
   // pattern over those coarse numbers is a force or a velocity that knows the direction, and with
-  // h omega from 1 on it drifts by up to 6e-4 units (soft chains in benchmarks/README.md).  Of two
+  // h omega from 1 on it drifts by up to 2e-3 units (soft chains in benchmarks/README.md).  Of two
   // parts of the constant, of which neither is a simple fraction, the larger product is rounded
   // without a pattern and the smaller one loses nothing: one operation and a sum more.  Sums of
   // other terms have all digits; so only products with sums of stage values are split, and h times
@@ -139,8 +139,7 @@ class StepBuilder {
   Expression constant(const Expression& factor);
   Expression value_of_gradient(int k, int section);
   // See Note [constants in two parts].
-  Parts in_two_parts(const Expression& constant);
-  [[nodiscard]] LinearTerms linear_terms() const;
+  Parts constant_in_two_parts(const Expression& constant);
   [[nodiscard]] bool has_linear_force() const;
   Expression with_split_products(const Expression& e, int section);
   // h in two parts where this gradient asks for them, else as it is.
@@ -208,6 +207,7 @@ class StepBuilder {
   const SolvePlan& plan_;
   const StepEquations& equations_;
   int n_;
+  LinearTerms linear_terms_;  // in the stage values
   Lowering lowering_;
   std::vector<Expression> stage_value_;
   std::vector<Expression> gradient_;

@@ -4,6 +4,7 @@
 
 #include "generator/equations/step_equations.hpp"
 #include "generator/program/arithmetic.hpp"
+#include "generator/program/linear_terms.hpp"
 
 namespace hamgen {
 

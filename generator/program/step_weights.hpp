@@ -49,7 +49,8 @@ struct StepWeights {
   // Binds the symbols of the weights.
   void bind(Routine& routine) const;
 
-  // The row's products as locals of the body; `exactly`: all with their errors.
+  // The row's products as locals of the body, the flow's as split_flow() has them; or `exactly`,
+  // all with their errors.
   [[nodiscard]] StageRow row_of_q_in_parts(RoutineBuilder& b, Body& body, const Gradient& at) const;
   [[nodiscard]] StageRow row_of_q(RoutineBuilder& b, Body& body, const Gradient& at,
                                   bool exactly = false) const;
