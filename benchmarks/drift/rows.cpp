@@ -37,6 +37,22 @@ std::string soft_chain(int n, const std::string& k) {
       n, k);
 }
 
+std::string list_of(int n, const std::string& value) {
+  std::string text = "[";
+  for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + value;
+  return text + "]";
+}
+
+// With a constant of its own for each spring.
+std::string uneven_chain(int n, const std::string& k) {
+  return fmt::format(
+      "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
+      "momentum p[1..N]\nparameter k[0..N] = {}\nparameter a = 0\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k[i]*(q[i+1] - q[i])^2/2 + a*(q[i+1] - "
+      "q[i])^3/3)\n",
+      n, list_of(n + 1, k));
+}
+
 std::string kepler() {
   return "system kepler\ncoordinate q1, q2\nmomentum p1, p2\nlet r = sqrt(q1^2 + q2^2)\n"
          "H = (p1^2 + p2^2)/2 - 1/r\ninvariant L = q1*p2 - q2*p1\n";
@@ -49,12 +65,6 @@ std::string planar_bodies(int n) {
       " + sum(i = 1..N, j = 1..i-1, sqrt(1 + (x[i] - x[j])^2 + (y[i] - y[j])^2))\n"
       "invariant L = sum(i = 1..N, x[i]*py[i] - y[i]*px[i])\n",
       n);
-}
-
-std::string list_of(int n, const std::string& value) {
-  std::string text = "[";
-  for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + value;
-  return text + "]";
 }
 
 namespace {
@@ -273,6 +283,12 @@ std::vector<Row> all_rows() {
     add(rows, soft_band, "midpoint, fixed point", {.solver = "fixed-point"});
     add(rows, soft_band, "midpoint, Newton", {.solver = "newton"});
     add(rows, soft_band, "alpha = 3/10", {.alpha = "3/10"});
+  }
+  for (const auto& [k, h] : {std::pair("1", 1.8), std::pair("1.3", 0.1), std::pair("0.9", 2.0)}) {
+    const Problem uneven{.name = fmt::format("uneven chain of 25, k = {}, h = {}", k, h),
+                         .model = uneven_chain(25, k),
+                         .h = h};
+    add(rows, uneven, "midpoint, Newton", {.solver = "newton"});
   }
   const Problem dense{.name = "all pairs of 30, loops, dense", .model = all_pairs(30)};
   add_members(rows, dense, 30);
