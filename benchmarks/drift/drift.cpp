@@ -60,6 +60,7 @@ int main(int count, char** arguments) {
     if (!is_wanted(row, options.words)) continue;
     ++wanted;
     fmt::print("{:30} {:34} ", row.problem, row.name);
+    std::fflush(stdout);
     try {
       const Result r = measure(row, options.steps, options.starts, options.seconds);
       ++measured;
