@@ -28,30 +28,32 @@ std::string pushed_chain(int n) {
       n);
 }
 
-std::string soft_chain(int n, const std::string& k) {
-  return fmt::format(
-      "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
-      "momentum p[1..N]\nparameter k = {}\nparameter a = 0\n"
-      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k*(q[i+1] - q[i])^2/2 + a*(q[i+1] - "
-      "q[i])^3/3)\n",
-      n, k);
-}
-
 std::string list_of(int n, const std::string& value) {
   std::string text = "[";
   for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + value;
   return text + "]";
 }
 
-// With a constant of its own for each spring.
-std::string uneven_chain(int n, const std::string& k) {
+namespace {
+
+// Springs of strength `strength` of their index i, a parameter that is declared so.
+std::string soft_chain_with(int n, const std::string& parameter, const std::string& strength) {
   return fmt::format(
       "system chain\nsize N = {}\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
-      "momentum p[1..N]\nparameter k[0..N] = {}\nparameter a = 0\n"
-      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, k[i]*(q[i+1] - q[i])^2/2 + a*(q[i+1] - "
+      "momentum p[1..N]\nparameter {}\nparameter a = 0\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, {}*(q[i+1] - q[i])^2/2 + a*(q[i+1] - "
       "q[i])^3/3)\n",
-      n, list_of(n + 1, k));
+      n, parameter, strength);
 }
+
+// With a constant of its own for each spring.
+std::string uneven_chain(int n, const std::string& k) {
+  return soft_chain_with(n, "k[0..N] = " + list_of(n + 1, k), "k[i]");
+}
+
+}  // namespace
+
+std::string soft_chain(int n, const std::string& k) { return soft_chain_with(n, "k = " + k, "k"); }
 
 std::string kepler() {
   return "system kepler\ncoordinate q1, q2\nmomentum p1, p2\nlet r = sqrt(q1^2 + q2^2)\n"
