@@ -55,7 +55,8 @@ int run_certify(const CertifyOptions& options) {
   const PluginSource plugin = generate_plugin(setting.source, setting.request);
   const runtime::LoadedPlugin loaded =
       options.interpret ? interpreted_integrator(setting.source, setting.request, plugin)
-                        : load_integrator(plugin, options.compiler, &interrupt_flag());
+                        : load_integrator(plugin, options.compiler, &interrupt_flag(),
+                                          static_cast<double>(*scene.steps));
   const runtime::InitialValues start = initial_values(plugin, scene, *loaded.library);
   const Certificate certificate = certify(
       {.plugin = &plugin,

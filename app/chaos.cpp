@@ -86,7 +86,8 @@ struct Loaded {
 
 // The step with its tangent map, of all of the model: a deviation need not stay where the orbit
 // does.
-Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std::string>& names) {
+Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std::string>& names,
+            double orbits) {
   Loaded loaded;
   loaded.setting = std::move(setting);
   loaded.scene = complete_scene(loaded.setting.model, loaded.setting.scene);
@@ -101,7 +102,10 @@ Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std:
         fmt::format("chaos is measured with the step's tangent map, and there is none: "
                     "{}\nhelp: another --scheme",
                     loaded.plugin.without_tangent));
-  loaded.library = load_integrator(loaded.plugin, options.compiler, &interrupt_flag());
+  // The tangent map is that of so many deviations.
+  const double steps = orbits * static_cast<double>(*loaded.scene.steps) *
+                       static_cast<double>(1 + 2 * loaded.scene.q.size());
+  loaded.library = load_integrator(loaded.plugin, options.compiler, &interrupt_flag(), steps);
   return loaded;
 }
 
@@ -220,7 +224,9 @@ int run_chaos(const ChaosOptions& options) {
         fmt::format("--over: {} orbits, more than the {} of a map\n"
                     "help: smaller COUNTs: a picture of 1000 by 1000 is a fine one",
                     axes[0].values.size() * axes[1].values.size(), most));
-  const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()});
+  double orbits = 1.0;
+  for (const ChaosAxis& axis : axes) orbits *= static_cast<double>(axis.values.size());
+  const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()}, orbits);
   return axes.empty() ? run_orbit(options, loaded, frequencies)
                       : run_map(options, loaded, indicator, axes);
 }

@@ -252,7 +252,9 @@ int run_section(const SectionOptions& options) {
   specialise(scene_options, scene, varied, Observing::as_the_scene, setting);
 
   const PluginSource plugin = generate_plugin(setting.source, setting.request);
-  const runtime::LoadedPlugin loaded = load_integrator(plugin, options.compiler, &interrupt_flag());
+  const double steps = std::max(1, request.orbits) * static_cast<double>(*scene.steps);
+  const runtime::LoadedPlugin loaded =
+      load_integrator(plugin, options.compiler, &interrupt_flag(), steps);
   request.plugin = &plugin;
   request.library = loaded.library;
   request.start = initial_values(plugin, scene, *loaded.library);

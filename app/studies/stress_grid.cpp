@@ -44,7 +44,9 @@ StressGrid::StressGrid(const StressRequest& asked) : setting_(asked.setting), ax
         "initial state), alpha, beta and gamma",
         axis.label, setting_.source.path, near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  loaded_ = load_integrator(plugin_, {}, asked.limits.stop);
+  double steps = static_cast<double>(asked.limits.steps);
+  for (const StressAxis& axis : axes_) steps *= static_cast<double>(axis.values.size());
+  loaded_ = load_integrator(plugin_, {}, asked.limits.stop, steps);
   const std::vector<Scene>& scenes = plugin_.model.scenes;
   scene_name_ = !setting_.scene.scene.empty() ? setting_.scene.scene
                 : scenes.empty()              ? ""

@@ -54,8 +54,9 @@ void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, 
   };
   for (const Kernel& kernel : mechanics.kernels) {
     if (kernel.hessian.empty() || (reduced && uses_momenta(kernel))) continue;
+    std::vector<int> at;
     for_each_instance(kernel.ranges, [&](const std::vector<long>& indices) {
-      std::vector<int> at;
+      at.clear();
       for (const Slot& slot : kernel.slots) {
         at.push_back(static_cast<int>(value_at(slot.position, kernel.ranges, indices)));
       }
@@ -73,13 +74,15 @@ std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const Famil
                                          bool reduced, bool eigen) {
   const int size = (reduced ? 1 : 2) * mechanics.degrees_of_freedom;
   std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size}};
-  for (const int arrays : {1, equal_arrays(mechanics, size)}) {
-    for (const bool folded : {false, true}) {
-      if (arrays == 1 && !folded) continue;
-      orders.push_back(orders.front());
-      orders.back().arrays = arrays;
-      orders.back().folded = folded;
-    }
+  const auto add_order = [&](int arrays, bool folded) {
+    orders.push_back(orders.front());
+    orders.back().arrays = arrays;
+    orders.back().folded = folded;
+  };
+  add_order(1, true);
+  if (const int arrays = equal_arrays(mechanics, size); arrays > 1) {
+    add_order(arrays, false);
+    add_order(arrays, true);
   }
   const auto rows = static_cast<std::size_t>(size);
   const bool maybe_dense = size <= kLargestDense;

@@ -61,9 +61,17 @@ std::optional<Expression> uniform_mass(const Mechanics& mechanics) {
           std::ranges::any_of(kernel.parameters,
                               [&](const ParameterSlot& p) { return used.contains(p.symbol); });
       if (varies) return std::nullopt;
+      // Of most sums the one before was the same.
+      Expression before;
+      Expression after = value;
       for_each_instance(kernel.ranges, [&](const std::vector<long>& indices) {
         const long place = value_at(kernel.slots[slots.first].position, kernel.ranges, indices) - n;
-        masses[static_cast<std::size_t>(place)] += value;
+        Expression& mass = masses[static_cast<std::size_t>(place)];
+        if (mass != before) {
+          before = mass;
+          after = mass + value;
+        }
+        mass = after;
       });
     }
   }

@@ -31,25 +31,29 @@ Derivatives::Derivatives(const Mechanics& mechanics, const Expression& hamiltoni
   const bool is_sum = hamiltonian.kind() == Kind::sum;
   const std::span<const Expression> terms =
       is_sum ? hamiltonian.operands() : std::span(&hamiltonian, 1);
-  std::vector<GiNaC::exvector> parts(size);
+  std::vector<GiNaC::exvector> slopes(size);
+  std::map<std::pair<int, int>, GiNaC::exvector> curvatures;
   for (const Expression& term : terms) {
     const GiNaC::ex value = to_ginac(term, table);
+    std::vector<std::size_t> of_term;
     for (const std::string& name : symbols(term)) {
-      const auto place = places.find(name);
-      if (place == places.end()) continue;
-      parts[place->second].push_back(value.diff(variables[place->second]));
+      if (const auto place = places.find(name); place != places.end())
+        of_term.push_back(place->second);
+    }
+    for (const std::size_t i : of_term) {
+      const GiNaC::ex slope = value.diff(variables[i]);
+      slopes[i].push_back(slope);
+      for (const std::size_t j : of_term) {
+        if (j >= i) curvatures[{i, j}].push_back(slope.diff(variables[j]));
+      }
     }
   }
-  for (std::size_t i = 0; i < size; ++i) {
-    const GiNaC::ex slope = GiNaC::add(parts[i]);
-    gradient_.push_back(unless_zero(from_ginac(slope, table)));
-    for (const std::string& name : symbols(gradient_.back())) {
-      const auto place = places.find(name);
-      if (place == places.end() || place->second < i) continue;
-      const Expression entry = unless_zero(from_ginac(slope.diff(variables[place->second]), table));
-      if (entry.is_zero()) continue;
-      hessian_.emplace(std::pair(static_cast<int>(i), static_cast<int>(place->second)), entry);
-    }
+  const auto sum_of = [&](const GiNaC::exvector& parts) {
+    return unless_zero(from_ginac(GiNaC::add(parts), table));
+  };
+  for (const GiNaC::exvector& parts : slopes) gradient_.push_back(sum_of(parts));
+  for (const auto& [at, parts] : curvatures) {
+    if (const Expression entry = sum_of(parts); !entry.is_zero()) hessian_.emplace(at, entry);
   }
 }
 

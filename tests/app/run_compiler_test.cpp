@@ -61,6 +61,36 @@ TEST(Run, AsksTheCompilerForWhatTheNumberOfStepsRepays) {
   static_cast<void>(state_with("-O2", "two", {"--steps", "400000", "--scheme", "gauss-4"}));
 }
 
+// All steps of all orbits count.
+TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
+  const Scratch scratch;
+  const std::string model = scratch.write("pendulum.ham", pendulum);
+  const std::string words = scratch.path("words");
+  const std::string compiler =
+      scratch.write("compiler", "#!/bin/sh\nfor word; do case $word in -O*) echo $word >>" + words +
+                                    ";; esac; done\nexec g++ \"$@\"\n");
+  std::filesystem::permissions(compiler, std::filesystem::perms::owner_all);
+  const auto asked_by = [&](const std::vector<std::string>& command, const std::string& steps) {
+    const std::string of =
+        command[0] == "section" ? HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham" : model;
+    std::vector<std::string> all = {command.front(), of, "--steps", steps};
+    all.insert(all.end(), command.begin() + 1, command.end());
+    std::filesystem::remove(words);
+    const Result result = hamgen(
+        all, {"HAMGEN_CACHE=" + scratch.path("cache" + command[0] + steps), "CXX=" + compiler});
+    EXPECT_EQ(result.status, 0) << command.front() << result.err;
+    return read(words);
+  };
+  EXPECT_EQ(asked_by({"certify"}, "10"), "-O0\n");
+  EXPECT_EQ(asked_by({"chaos"}, "100"), "-O0\n");
+  EXPECT_EQ(asked_by({"section", "--orbits", "0"}, "1000"), "-O0\n");
+  const std::string table = scratch.path("table.csv");
+  EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "q=0:1:10"}, "100"), "-O0\n");
+  EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "q=0:1:1000"}, "100"), "-O1\n");
+  EXPECT_EQ(asked_by({"stress", "--vary", "h=0.1:1:4", "--reference-seconds", "0"}, "100"),
+            "-O0\n");
+}
+
 // The same steps, in an object of their own.
 TEST(Run, CompilesForThisProcessorUnlessItIsPortable) {
   const Scratch scratch;
