@@ -51,7 +51,7 @@ std::string emitted_header(const std::string& model, Request request, const std:
                            const std::string& name_space) {
   request.scalar = scalar;
   request.name_space = name_space;
-  return generate(make_source("benchmark.ham", model), request).at(0).text;
+  return emit(make_source("benchmark.ham", model), request).at(0).text;
 }
 
 std::string output_of_sources(const std::vector<ProgramFile>& files,

@@ -71,6 +71,15 @@ EmitOptions emit_options(const SourceText& source, const Stages& stages, const R
           .library_functions = request.math->of_library};
 }
 
+// Throws UsageError if there is no tangent map and the request wants one.
+EmitOptions options_with_tangent(const SourceText& source, const Stages& stages,
+                                 const Request& request) {
+  EmitOptions options = emit_options(source, stages, request);
+  if (request.tangent && !options.tangent)
+    throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.plan));
+  return options;
+}
+
 // The first of the files, and what it includes of the others.
 ReadBack read_files(const OutputFiles& files, const Stages& stages, const Request& request) {
   EmittedFile file{.text = files.front().text,
@@ -139,12 +148,14 @@ ReadBack read_file(const std::optional<EmittedHeader>& there, const SourceText& 
 
 OutputFiles generate(const SourceText& source, const Request& request) {
   const Stages stages = run_stages(source, request);
-  EmitOptions options = emit_options(source, stages, request);
-  if (request.tangent && !options.tangent) {
-    throw UsageError("--tangent: no linearised step: " + *without_tangent(stages.plan));
-  }
+  EmitOptions options = options_with_tangent(source, stages, request);
   add_proof(source, stages, request, files_of(stages, options, request), options);
   return files_of(stages, options, request);
+}
+
+OutputFiles emit(const SourceText& source, const Request& request) {
+  const Stages stages = run_stages(source, request);
+  return files_of(stages, options_with_tangent(source, stages, request), request);
 }
 
 std::string show_stage(const SourceText& source, const Request& request, const std::string& stage) {

@@ -31,6 +31,9 @@ namespace hamgen {
 // Throws ProofError if something required does not hold.
 [[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
 
+// The same but for the lines that say what is proved: nothing is.
+[[nodiscard]] OutputFiles emit(const SourceText& source, const Request& request);
+
 // The value of one stage as text: "model", "mechanics", "equations", "plan", "program",
 // "origins": the program with what each of its lines is there for.
 [[nodiscard]] std::string show_stage(const SourceText& source, const Request& request,

@@ -54,10 +54,10 @@ int main() {
 )";
 
 TEST(EmittedAhead, WhatIsReadyHasTheDigitsOfWhatIsEvaluated) {
-  const std::string header = generate(make_source("model.ham",
-                                                  "system model\ncoordinate q\nmomentum p\n"
-                                                  "H = p^2/2 - cos(q) - sqrt(4 - q^2)/8\n"),
-                                      {.name_space = "model"})
+  const std::string header = emit(make_source("model.ham",
+                                              "system model\ncoordinate q\nmomentum p\n"
+                                              "H = p^2/2 - cos(q) - sqrt(4 - q^2)/8\n"),
+                                  {.name_space = "model"})
                                  .at(0)
                                  .text;
   EXPECT_EQ(count(header, "derivatives ahead"), 1);

@@ -20,9 +20,7 @@ const std::string kRegisters = "numbers must not be kept in wider registers";
 std::string pendulum_header(const std::string& scalar = "double") {
   const fs::path model = fs::path(HAMGEN_SOURCE_DIR) / "hamiltonians/pendulum.ham";
   return without_pragma(
-      generate(read_source(model.string()), {.scalar = scalar, .name_space = "emitted"})
-          .at(0)
-          .text);
+      emit(read_source(model.string()), {.scalar = scalar, .name_space = "emitted"}).at(0).text);
 }
 
 std::string said(const std::string& compiler, const std::string& flag,

@@ -204,7 +204,7 @@ std::string batch_header(const BatchCase& test, int lanes, const std::string& ma
   request.batch = lanes;
   request.math = math;
   request.name_space = fmt::format("lanes{}::method", lanes);
-  return without_pragma(generate(make_source(test.name + ".ham", test.model), request)[0].text);
+  return without_pragma(emit(make_source(test.name + ".ham", test.model), request)[0].text);
 }
 
 std::string batch_program(const BatchCase& test, const std::vector<int>& widths,

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, BatchSweep, testing::ValuesIn(swept_cases()),
 TEST_P(BatchSweep, IsBitForBitTheTrajectoryAlone) {
   const BatchCase& test = GetParam();
   try {
-    static_cast<void>(generate(make_source("m.ham", test.model), test.request));
+    static_cast<void>(emit(make_source("m.ham", test.model), test.request));
   } catch (const UsageError& error) {
     GTEST_SKIP() << error.what();
   }
@@ -81,7 +81,7 @@ TEST_P(ExplicitBatch, IsBitForBitTheHeaderOfOneTrajectoryWithFunctionsOfTheLibra
   Request request = test.request;
   request.name_space = "one::method";
   const std::string one =
-      without_pragma(generate(make_source(test.name + ".ham", test.model), request)[0].text);
+      without_pragma(emit(make_source(test.name + ".ham", test.model), request)[0].text);
   std::string program = batch_program(test, {4}, "libm");
   const std::string alone = fmt::format(
       R"(  for (int i = 0; i < 8; ++i) {{
@@ -108,9 +108,8 @@ TEST(BatchHeader, AgreesWithTheHeaderOfOneTrajectoryToRoundingWhereItIterates) {
   const BatchCase test = implicit_cases()[0];
   Request request = test.request;
   request.name_space = "one::method";
-  const std::string text =
-      without_pragma(generate(make_source("l.ham", test.model), request)[0].text) +
-      batch_header(test, 4, "libm") + R"(
+  const std::string text = without_pragma(emit(make_source("l.ham", test.model), request)[0].text) +
+                           batch_header(test, 4, "libm") + R"(
 #include <cstdio>
 int main() {
   const double q[] = {1, 0.5, 1.5, 0.7}, p[] = {0, 1, 0.5, 0.7};
@@ -187,7 +186,7 @@ int main() {
 
 std::string refusal(Request request, const std::string& model = functions_model()) {
   try {
-    (void)generate(make_source("cubic.ham", model), request);
+    (void)emit(make_source("cubic.ham", model), request);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -237,7 +236,7 @@ TEST(BatchHeader, StandsBesideTheHeaderOfOneTrajectoryAndOtherWidths) {
     Request request;
     request.scheme = "stormer-verlet";
     request.batch = lanes;
-    text += without_pragma(generate(make_source("f.ham", functions_model()), request)[0].text);
+    text += without_pragma(emit(make_source("f.ham", functions_model()), request)[0].text);
   }
   text += "functions::batch_8::State z; functions::State one; functions::batch_2::State two;\n";
   for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
@@ -266,7 +265,7 @@ TEST(BatchHeader, TakesNoNameFromTheUser) {
         std::pair(gauss, iterated)}) {
     Request lanes = request;
     lanes.batch = 2;
-    const std::string header = generate(make_source("lanes.ham", text), lanes)[0].text;
+    const std::string header = emit(make_source("lanes.ham", text), lanes)[0].text;
     EXPECT_EQ(messages("g++", without_pragma(header)), "");
   }
 }
@@ -278,7 +277,7 @@ TEST(BatchHeader, OfIterationsCompilesWithoutAWarning) {
     Request request = test.request;
     request.batch = 4;
     request.name_space = test.name + "::method";
-    text += without_pragma(generate(make_source("m.ham", test.model), request)[0].text);
+    text += without_pragma(emit(make_source("m.ham", test.model), request)[0].text);
   }
   for (const std::string& compiler : compilers()) EXPECT_EQ(messages(compiler, text), "");
 }
@@ -289,8 +288,8 @@ TEST(BatchHeader, GivesNewtonAsManyStepsAsOneTrajectoryDoes) {
                   "system chain\nsize N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\n"
                   "momentum p[1..N]\n"
                   "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^4/4)\n");
-  const std::string one = generate(chain, {})[0].text;
-  const std::string lanes = generate(chain, {.batch = 4})[0].text;
+  const std::string one = emit(chain, {})[0].text;
+  const std::string lanes = emit(chain, {.batch = 4})[0].text;
   EXPECT_NE(one.find("start.patience = 32;"), std::string::npos);
   EXPECT_NE(lanes.find("start.patience = select(start.turn.lanes, Real(32), start.patience);"),
             std::string::npos);

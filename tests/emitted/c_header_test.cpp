@@ -65,7 +65,7 @@ std::string c_program() {
     Request request = method.request;
     request.format = "c-header";
     request.name_space = fmt::format("m{}", number);
-    text += without_pragma(generate(shipped(method.model), request).at(0).text);
+    text += without_pragma(emit(shipped(method.model), request).at(0).text);
     calls += fmt::format(R"(  {{
     m{0}_State z;
     {1}* x = ({1}*)&z;
@@ -102,7 +102,7 @@ std::string cpp_program() {
   for (const Method& method : methods()) {
     Request request = method.request;
     request.name_space = fmt::format("m{}", number);
-    text += without_pragma(generate(shipped(method.model), request).at(0).text);
+    text += without_pragma(emit(shipped(method.model), request).at(0).text);
     calls += fmt::format(
         "  if (!run<m{0}::Propagator, m{0}::State, m{0}::Real>({0}, {1}, [](const auto& "
         "par, const auto& z) {{ return m{0}::energy(par, z); }}, "
@@ -155,7 +155,7 @@ TEST(CHeader, TakesTheStepsOfTheHeaderInCppToTheLastBit) {
 TEST(CHeader, MeetsOthersOfItsSystem) {
   const auto header = [](Request request) {
     request.format = "c-header";
-    return without_pragma(generate(shipped("pendulum"), request).at(0).text);
+    return without_pragma(emit(shipped("pendulum"), request).at(0).text);
   };
   const std::string three = header({}) + header({.scheme = "stormer-verlet"}) + header({});
   EXPECT_EQ(messages("gcc", three + header({.scalar = "float"}), {"-x", "c", "-std=c11", "-Wall"}),
@@ -172,7 +172,7 @@ TEST(CHeader, RefusesWhatItHasNoBlocksForAndSaysWhatItHas) {
         Request{.scalar = "quad"}, Request{.alpha = "alpha"}, Request{.support = "shared"}}) {
     request.format = "c-header";
     try {
-      static_cast<void>(generate(shipped("pendulum"), request));
+      static_cast<void>(emit(shipped("pendulum"), request));
       ADD_FAILURE() << request.scheme.text() << request.solver.text() << request.scalar.text();
     } catch (const UsageError& error) {
       const std::string what = error.what();
@@ -180,7 +180,7 @@ TEST(CHeader, RefusesWhatItHasNoBlocksForAndSaysWhatItHas) {
       EXPECT_EQ(what.find("--scheme"), std::string::npos) << what;  // which this H may not suit
     }
   }
-  EXPECT_THROW(static_cast<void>(generate(shipped("fput"), {.format = "c-header"})), UsageError);
+  EXPECT_THROW(static_cast<void>(emit(shipped("fput"), {.format = "c-header"})), UsageError);
 }
 
 }  // namespace

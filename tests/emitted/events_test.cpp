@@ -16,7 +16,7 @@ constexpr const char* kWatchedKepler =
 
 std::string watched_header(const std::string& model, Request request) {
   request.events = true;
-  return without_pragma(generate(make_source("model.ham", model), request).at(0).text);
+  return without_pragma(emit(make_source("model.ham", model), request).at(0).text);
 }
 
 const std::vector<std::string>& watched_schemes() {
@@ -237,12 +237,11 @@ int use(Watched& watched) {
 
 TEST(EmittedEvents, AreNotThereUnlessAskedFor) {
   const SourceText source = make_source("model.ham", kWatchedKepler);
-  const std::string header = generate(source, {}).at(0).text;
+  const std::string header = emit(source, {}).at(0).text;
   for (const char* name : {"events", "Crossing", "bracketed_root", "r0 = "})
     EXPECT_EQ(header.find(name), std::string::npos) << name;
   for (const char* format : {"c-header", "cpp-plugin"})
-    EXPECT_THROW(static_cast<void>(generate(source, {.format = format, .events = true})),
-                 UsageError);
+    EXPECT_THROW(static_cast<void>(emit(source, {.format = format, .events = true})), UsageError);
   EXPECT_THROW(static_cast<void>(generate(
                    read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/pendulum.ham"),
                    {.events = true})),

@@ -9,7 +9,7 @@ namespace {
 
 std::string header(const std::string& text, Request request) {
   request.name_space = "model";
-  return generate(make_source("model.ham", "system model\n" + text), request).at(0).text;
+  return emit(make_source("model.ham", "system model\n" + text), request).at(0).text;
 }
 
 // Steps until one fails; prints nothing unless something is wrong.

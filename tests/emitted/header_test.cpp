@@ -33,7 +33,7 @@ std::string shipped_header(const std::filesystem::path& model, const Variant& va
   std::string suffix = scalar;
   std::erase(suffix, '-');
   request.name_space = "shipped_" + model.stem().string() + "_" + suffix + "::" + variant.name;
-  return generate(read_source(model.string()), request).at(0).text;
+  return emit(read_source(model.string()), request).at(0).text;
 }
 
 // All of them as one translation unit, with a use of everything in it.
@@ -117,7 +117,7 @@ TEST_P(EmittedHeader, OfALargeSystemCompilesWithoutAWarning) {
       variant.request.name_space = name + "::" + variant.name;
       const SourceText source = make_source(name + ".ham", "system " + name + "\n" + model);
       text += "#line 1 \"" + name + "_" + variant.name + ".hpp\"\n";
-      text += without_pragma(generate(source, variant.request).at(0).text);
+      text += without_pragma(emit(source, variant.request).at(0).text);
     }
   }
   EXPECT_EQ(messages(GetParam(), text), "");
@@ -167,7 +167,7 @@ TEST_P(EmittedHeader, OfNothingToSolveCompilesWithoutAWarning) {
     for (Variant& variant : all) {
       variant.request.name_space = "n" + std::to_string(number++);
       text += "#line 1 \"" + std::string(h) + " " + variant.name + "\"\n" +
-              without_pragma(generate(source, variant.request).at(0).text);
+              without_pragma(emit(source, variant.request).at(0).text);
     }
   }
   EXPECT_EQ(messages(GetParam(), text), "");

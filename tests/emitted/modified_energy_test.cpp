@@ -11,7 +11,7 @@ namespace {
 
 std::string header_of(const std::string& model, const Request& request) {
   return without_pragma(
-      generate(read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + model), request)
+      emit(read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + model), request)
           .at(0)
           .text);
 }

@@ -33,7 +33,7 @@ class Project {
   }
   // What `hamgen generate` writes, into a folder.
   void generate_into(const std::string& folder, const SourceText& model, const Request& request) {
-    for (const OutputFile& file : generate(model, request)) {
+    for (const OutputFile& file : emit(model, request)) {
       add((std::filesystem::path(folder) / file.path).string(), file.text);
     }
   }
@@ -179,7 +179,7 @@ int size_of_the_other() {
 // What is not the same must not be taken for it: the compiler says what to do.
 TEST(Shape, AnotherSystemOrMethodOfTheSameNameIsAnError) {
   const auto header = [](const std::string& text, const Request& request) {
-    return without_pragma(generate(make_source("m.ham", text), request).at(0).text);
+    return without_pragma(emit(make_source("m.ham", text), request).at(0).text);
   };
   const std::string first = header(chain, {});
   const std::string other = header(chain + "invariant total = sum(i = 1..N, p[i])\n", {});
@@ -196,12 +196,12 @@ TEST(Shape, AnotherSystemOrMethodOfTheSameNameIsAnError) {
 // Where an element has another number than in the model.
 TEST(Shape, AnArrayTellsItsElements) {
   const std::string text =
-      generate(make_source("m.ham",
-                           "coordinate q\nmomentum p\nparameter A[1..5] = [1, 2, 3, 4, 5]\n"
-                           "parameter m[1..3] = [1, 2, 3]  # masses\n"
-                           "parameter c[0..2] = [1, 2, 3]\nH = p^2/2 + A[3]*q^2/2 + A[5]*q^4"
-                           " + (m[1] + m[2]*q + m[3]*q^3)/(c[0] + c[1] + c[2])\n"),
-               {})
+      emit(make_source("m.ham",
+                       "coordinate q\nmomentum p\nparameter A[1..5] = [1, 2, 3, 4, 5]\n"
+                       "parameter m[1..3] = [1, 2, 3]  # masses\n"
+                       "parameter c[0..2] = [1, 2, 3]\nH = p^2/2 + A[3]*q^2/2 + A[5]*q^4"
+                       " + (m[1] + m[2]*q + m[3]*q^3)/(c[0] + c[1] + c[2])\n"),
+           {})
           .at(0)
           .text;
   for (const char* words : {"A[2] = {3.0, 5.0};", "// A[3], A[5]\n", "// m[1..3]: masses\n"})
@@ -210,7 +210,7 @@ TEST(Shape, AnArrayTellsItsElements) {
 }
 
 TEST(Shape, TheSystemComesFirstThenTheFixedBlocksThenTheMethod) {
-  const std::string text = generate(pendulum(), {}).at(0).text;
+  const std::string text = emit(pendulum(), {}).at(0).text;
   std::size_t last = 0;
   for (const char* part :
        {"//   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2",
@@ -226,23 +226,22 @@ TEST(Shape, TheSystemComesFirstThenTheFixedBlocksThenTheMethod) {
 }
 
 TEST(Shape, AQuantityKeepsItsNameAndTheArgumentMakesWay) {
-  const std::string text = generate(make_source("named.ham", named), {}).at(0).text;
+  const std::string text = emit(make_source("named.ham", named), {}).at(0).text;
   for (const char* part : {"  const Real z = z_.z;\n", "  const Real k = z_.k;\n", "par_.carry",
                            "k_.c1", "  dz_.z = par_bar * k_.c", "  rest.z = rest_moving_z + "})
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 
 TEST(Shape, SharedBlocksLeaveTheHeader) {
-  const OutputFiles files = generate(pendulum(), {.support = "shared"});
+  const OutputFiles files = emit(pendulum(), {.support = "shared"});
   ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[1].path, "hamgen_support.hpp");
   EXPECT_EQ(files[0].text.find("struct NewtonRule"), std::string::npos);
   EXPECT_NE(files[1].text.find("struct NewtonRule"), std::string::npos);
-  EXPECT_EQ(generate(pendulum(), {.scheme = "gauss-4", .support = "shared"})[1], files[1]);
-  EXPECT_THROW(static_cast<void>(generate(pendulum(), {.support = "none"})), UsageError);
-  EXPECT_THROW(
-      static_cast<void>(generate(pendulum(), {.format = "cpp-plugin", .support = "shared"})),
-      UsageError);
+  EXPECT_EQ(emit(pendulum(), {.scheme = "gauss-4", .support = "shared"})[1], files[1]);
+  EXPECT_THROW(static_cast<void>(emit(pendulum(), {.support = "none"})), UsageError);
+  EXPECT_THROW(static_cast<void>(emit(pendulum(), {.format = "cpp-plugin", .support = "shared"})),
+               UsageError);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 std::string staged_header(const std::string& hamiltonian, const Request& request) {
   const std::string text = "system one\ncoordinate q\nmomentum p\nH = " + hamiltonian + "\n";
-  return without_pragma(generate(make_source("one.ham", text), request).front().text);
+  return without_pragma(emit(make_source("one.ham", text), request).front().text);
 }
 
 Request gauss(const std::string& scheme) {
@@ -66,7 +66,7 @@ TEST(StagesInLanes, AreThoseOfModelsWhateverTheirNames) {
   const auto proved = [](const std::string& text, const std::string& scheme) {
     Request request = gauss(scheme);
     request.require = "emitted-code";
-    return generate(make_source("one.ham", "system one\n" + text), request).front().text;
+    return emit(make_source("one.ham", "system one\n" + text), request).front().text;
   };
   const std::string masses =
       "coordinate q\nmomentum p\nparameter half = 2\nH = p^2/(2*half) - cos(q)\n";
@@ -78,7 +78,7 @@ TEST(StagesInLanes, AreThoseOfModelsWhateverTheirNames) {
       "size N = 30\ncoordinate q[1..N]\nmomentum p[1..N]\nparameter sum_1 = 2\n"
       "H = sum(i = 1..N, p[i]^2/2) + sum_1*sum(i = 1..N, cos(q[i]))^2/(2*N)\n";
   const std::string header =
-      generate(make_source("one.ham", "system one\n" + sums), gauss("gauss-4")).front().text;
+      emit(make_source("one.ham", "system one\n" + sums), gauss("gauss-4")).front().text;
   EXPECT_EQ(messages("g++", without_pragma(header)), "");
   EXPECT_NE(header.find("par.sum_1 * "), std::string::npos);
 }

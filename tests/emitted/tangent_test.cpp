@@ -42,7 +42,7 @@ double largest_error(const std::string& scheme) {
   std::string text;
   for (const auto& [scalar, name] : {std::pair("double", "rounded"), std::pair("quad", "exact")}) {
     const Request request{.scheme = scheme, .scalar = scalar, .name_space = name, .tangent = true};
-    text += without_pragma(generate(make_source("solenoid.ham", kSolenoid), request).front().text);
+    text += without_pragma(emit(make_source("solenoid.ham", kSolenoid), request).front().text);
   }
   const std::string output = run_program(text + kLargestError, {"-ffp-contract=off"});
   EXPECT_NE(output, "") << scheme;

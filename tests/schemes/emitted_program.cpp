@@ -21,7 +21,7 @@ runtime::ProcessResult run(std::vector<std::string> command) {
 
 std::string header(const std::string& model, Request request, const std::string& name_space) {
   request.name_space = name_space;
-  std::string text = generate(make_source("model.ham", model), request).at(0).text;
+  std::string text = emit(make_source("model.ham", model), request).at(0).text;
   const std::string pragma = "#pragma once\n";
   text.erase(text.find(pragma), pragma.size());
   return text;
