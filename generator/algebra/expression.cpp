@@ -85,20 +85,19 @@ class Expression::Pool {
 
   std::shared_ptr<const Node> intern(std::shared_ptr<const Node> node) {
     const std::scoped_lock lock(mutex_);
-    if (size_ > 2 * alive_ + 4096) sweep();
-    auto& bucket = buckets_[node->hash];
+    if (known_.size() > 2 * alive_ + 4096) sweep();
     std::weak_ptr<const Node>* free = nullptr;
-    for (std::weak_ptr<const Node>& candidate : bucket) {
-      const auto known = candidate.lock();
+    const auto [first, last] = known_.equal_range(node->hash);
+    for (auto it = first; it != last; ++it) {
+      const auto known = it->second.lock();
       if (known && same(*known, *node)) return known;
-      if (!known) free = &candidate;
+      if (!known) free = &it->second;
     }
     if (free != nullptr) {  // what is made and dropped over and over does not pile up
       *free = node;
-      return node;
+    } else {
+      known_.emplace_hint(first, node->hash, node);
     }
-    bucket.push_back(node);
-    ++size_;
     return node;
   }
 
@@ -109,18 +108,12 @@ class Expression::Pool {
                               &Expression::identity);
   }
   void sweep() {
-    size_ = 0;
-    for (auto it = buckets_.begin(); it != buckets_.end();) {
-      std::erase_if(it->second, [](const auto& candidate) { return candidate.expired(); });
-      size_ += it->second.size();
-      it = it->second.empty() ? buckets_.erase(it) : std::next(it);
-    }
-    alive_ = size_;
+    std::erase_if(known_, [](const auto& candidate) { return candidate.second.expired(); });
+    alive_ = known_.size();
   }
 
   std::mutex mutex_;
-  std::unordered_map<std::size_t, std::vector<std::weak_ptr<const Node>>> buckets_;
-  std::size_t size_ = 0;
+  std::unordered_multimap<std::size_t, std::weak_ptr<const Node>> known_;  // by hash
   std::size_t alive_ = 0;
 };
 

@@ -1,4 +1,6 @@
 // Symbols of an expression, found and replaced.
+#include <unordered_set>
+
 #include "generator/algebra/expression.hpp"
 #include "generator/base/budget.hpp"
 
@@ -6,7 +8,7 @@ namespace hamgen {
 
 namespace {
 
-void collect_unseen(const Expression& e, std::set<const void*>& seen,
+void collect_unseen(const Expression& e, std::unordered_set<const void*>& seen,
                     std::set<std::string>& names) {
   spend(Resource::work, 1);
   if (!seen.insert(e.identity()).second) return;
@@ -17,7 +19,7 @@ void collect_unseen(const Expression& e, std::set<const void*>& seen,
 }  // namespace
 
 void collect_symbols(const Expression& e, std::set<std::string>& names) {
-  std::set<const void*> seen;
+  std::unordered_set<const void*> seen;
   collect_unseen(e, seen, names);
 }
 
@@ -33,8 +35,8 @@ bool depends_on(const Expression& e, const std::string& symbol) {
 
 std::set<std::string> non_polynomial_symbols(const Expression& e) {
   std::set<std::string> names;
-  std::set<const void*> seen;
-  std::set<const void*> seen_below;  // a function, a root or a reciprocal
+  std::unordered_set<const void*> seen;
+  std::unordered_set<const void*> seen_below;  // a function, a root or a reciprocal
   auto visit = [&](auto&& self, const Expression& node) -> void {
     spend(Resource::work, 1);
     if (!seen.insert(node.identity()).second) return;

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/algebra/functions.hpp"
@@ -131,7 +132,7 @@ class Search {
         test(inside, times);
       }
       if (inside.kind() != Kind::sum) return;
-      for (const auto& [inner, m] : even_factors(inside)) test(inner, times * m);
+      for (const auto& [inner, m] : factors_of(inside)) test(inner, times * m);
     };
     if (base.kind() == Kind::product) {
       for (const Expression& factor : base.operands()) of_factor(factor);
@@ -140,8 +141,16 @@ class Search {
     }
   }
 
+  // H and its derivatives have several powers of one sum.
+  const std::vector<std::pair<Expression, int>>& factors_of(const Expression& sum) {
+    const auto [known, is_new] = factors_.try_emplace(sum.identity());
+    if (is_new) known->second = even_factors(sum);
+    return known->second;
+  }
+
   std::vector<Corner>& found_;
-  std::set<const void*> seen_;
+  std::unordered_set<const void*> seen_;
+  std::unordered_map<const void*, std::vector<std::pair<Expression, int>>> factors_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "generator/base/diagnostic.hpp"
@@ -125,6 +126,19 @@ class TextValue {
   }
 
   Precise number() {
+    const auto [known, is_new] = numbers_.try_emplace(at_);
+    if (is_new) known->second = read_number();
+    at_ = known->second.end;
+    return known->second.value;
+  }
+
+  // A number of the text, and where it ends.
+  struct Number {
+    Precise value;
+    std::size_t end = 0;
+  };
+
+  Number read_number() {
     Integer digits = 0;
     long behind_point = 0;
     bool point = false;
@@ -149,7 +163,7 @@ class TextValue {
         exponent = 10 * exponent + (text_[at_] - '0');
       if (negative) exponent = -exponent;
     }
-    return precise(digits * power_of_ten(exponent - behind_point));
+    return {precise(digits * power_of_ten(exponent - behind_point)), at_};
   }
 
   std::string word() {
@@ -218,15 +232,45 @@ class TextValue {
         }
       }
     }
-    return at_point(fmt::format("{}[{}]", name, subscript));
+    return at_point(name + '[' + std::to_string(subscript) + ']');
   }
 
   // Of a subscript or an end of a range.
   long integer() {
+    const std::size_t begin = at_;
+    if (const std::optional<long> value = sum_of_integers()) return *value;
+    at_ = begin;
     counts_ = true;
     const long value = to_long(sum());
     counts_ = false;
     return value;
+  }
+
+  // Indices, sizes and digits with signs between them, up to what ends an integer: nearly all are
+  // so.
+  std::optional<long> sum_of_integers() {
+    long value = 0;
+    for (bool minus = accept('-');; minus = accept('-')) {
+      const std::optional<long> term = simple_integer();
+      if (!term) return std::nullopt;
+      value += minus ? -*term : *term;
+      const char c = next();
+      if (c == ']' || c == ',' || c == '.') return value;
+      if (c != '-' && !accept('+')) return std::nullopt;
+      if (c == '+' && next() == '-') return std::nullopt;
+    }
+  }
+
+  std::optional<long> simple_integer() {
+    const std::string text = word();
+    if (text.empty() || text.size() > 9) return std::nullopt;
+    if (std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; }))
+      return std::stol(text);
+    if (const auto index = indices_.find(text); index != indices_.end()) return index->second;
+    for (const Size& size : model_.sizes) {
+      if (size.name == text) return size.value;
+    }
+    return std::nullopt;
   }
 
   // sum(i = 1..N, j = i+1..N, body)
@@ -275,6 +319,7 @@ class TextValue {
   std::map<std::string, long> indices_;
   bool counts_ = false;  // inside a subscript or an end of a range
   std::size_t at_ = 0;
+  std::map<std::size_t, Number> numbers_;  // by where they begin
   Precise largest_ = precise(0);
 };
 

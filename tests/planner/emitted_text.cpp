@@ -15,7 +15,7 @@ Outcome outcome(const std::string& text, const Request& request) {
   const SourceText source = model(text);
   Outcome result;
   result.plan = show_stage(source, request, "plan");
-  result.header = generate(source, request).at(0).text;
+  result.header = emit(source, request).at(0).text;
   // A system in loops has its step in the class Propagator alone.
   if (contains(result.header, "StepReport solve(")) {
     result.solve = function_text(result.header, "StepReport solve(");

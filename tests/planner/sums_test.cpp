@@ -70,7 +70,7 @@ TEST(Sums, OfASceneThatNeedsFewerDegreesOfFreedomAreWrittenOut) {
 }
 
 TEST(Sums, TheStateOfLoopsSaysWhoseElementsStandWhere) {
-  const std::string header = generate(shipped("outer_solar_system"), {})[0].text;
+  const std::string header = emit(shipped("outer_solar_system"), {})[0].text;
   EXPECT_TRUE(contains(header, "  Real q[18] = {};  // x[0..5], y[0..5], z[0..5]\n"));
   EXPECT_TRUE(contains(header, "  Real p[18] = {};  // px[0..5], py[0..5], pz[0..5]\n"));
 }
