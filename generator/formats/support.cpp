@@ -124,9 +124,8 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
   std::string list;
   for (const FixedBlock& block : all_blocks()) {
     if (block.events && !events_) continue;
-    for (const std::string& name : names_of(block)) {
+    for (const std::string& name : names_of(block))
       if (words.contains(name)) list += (list.empty() ? "" : ", ") + alias + "::" + name;
-    }
   }
   if (list.empty()) return;
   out.line(fmt::format("namespace {} = ::{};", alias, name_space()));
@@ -134,12 +133,12 @@ void Support::write_names(CodeWriter& out, std::string_view code) const {
   out.line();
 }
 
-std::string Support::digest() const {
+const std::string& Support::digest() const {
+  if (!digest_.empty()) return digest_;
   std::string all;
-  for (const FixedBlock& block : all_blocks()) {
+  for (const FixedBlock& block : all_blocks())
     if (events_ || !block.events) all += text(block.name);
-  }
-  return short_digest(all);
+  return digest_ = short_digest(all);
 }
 
 std::string Support::name_space() const { return fmt::format("hamgen_{}::{}", digest(), space()); }

@@ -46,7 +46,7 @@ class Support {
   // The names of the blocks that the code uses, made known to the namespace it stands in.
   void write_names(CodeWriter& out, std::string_view code) const;
   // What tells these texts from all others.
-  [[nodiscard]] std::string digest() const;
+  [[nodiscard]] const std::string& digest() const;
 
  private:
   [[nodiscard]] std::string name_space() const;
@@ -61,6 +61,7 @@ class Support {
   int lanes_;
   bool packs_ = false;
   std::set<std::string_view> blocks_;
+  mutable std::string digest_;  // from when it is first asked for
 };
 
 // The text once however many headers have it, and an error where another `kind` of this name is.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string>
+#include <string_view>
+#include <unordered_set>
 
 namespace hamgen {
 
@@ -209,14 +210,35 @@ constexpr std::string_view kPlugin =
     "invariants_of plugin "
     "read_parameters read_state restore_run save_run tangent_of ";
 
-bool has_word(std::string_view list, std::string_view word) {
-  return list.find(" " + std::string(word) + " ") != std::string_view::npos;
+using Words = std::unordered_set<std::string_view>;
+
+Words words_of(std::string_view list) {
+  Words words;
+  for (std::size_t begin = 1; begin < list.size();) {
+    const std::size_t end = list.find(' ', begin);
+    words.insert(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+struct Lists {
+  Words macros = words_of(kMacros);
+  Words macro_families = words_of(kMacroFamilies);
+  Words globals = words_of(kGlobals);
+  Words global_families = words_of(kGlobalFamilies);
+  Words plugin = words_of(kPlugin);
+};
+
+const Lists& lists() {
+  static const Lists all;
+  return all;
 }
 
 // Is a beginning of the name in the list?
-bool is_of_family(std::string_view list, std::string_view name) {
+bool is_of_family(const Words& list, std::string_view name) {
   for (std::size_t length = 1; length < name.size(); ++length) {
-    if (has_word(list, name.substr(0, length))) return true;
+    if (list.contains(name.substr(0, length))) return true;
   }
   return false;
 }
@@ -234,16 +256,16 @@ std::string_view stem_of_variant(std::string_view name) {
 
 bool is_macro(std::string_view name) {
   const auto is_small = [](char c) { return 'a' <= c && c <= 'z'; };
-  return has_word(kMacros, name) ||
-         (std::ranges::none_of(name, is_small) && is_of_family(kMacroFamilies, name)) ||
+  return lists().macros.contains(name) ||
+         (std::ranges::none_of(name, is_small) && is_of_family(lists().macro_families, name)) ||
          (name.starts_with("M_") && stem_of_variant(name) != name &&
           std::ranges::none_of(stem_of_variant(name), is_small));
 }
 
 bool is_global(std::string_view name) {
-  return is_macro(name) || has_word(kGlobals, name) || has_word(kPlugin, name) ||
-         is_of_family(kGlobalFamilies, name) || has_word(kGlobals, stem_of_variant(name)) ||
-         name.ends_with("_t");
+  return is_macro(name) || lists().globals.contains(name) || lists().plugin.contains(name) ||
+         is_of_family(lists().global_families, name) ||
+         lists().globals.contains(stem_of_variant(name)) || name.ends_with("_t");
 }
 
 }  // namespace hamgen
