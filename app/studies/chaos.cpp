@@ -8,8 +8,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "generator/verify/linear_eigenvalues.hpp"
-
 namespace hamgen::app {
 namespace {
 
@@ -91,7 +89,7 @@ class Deviations {
             .megno = megno_mean_,
             .fli = longest_,
             .sali = std::min(sum.norm(), difference.norm()),
-            .gali = singular_values(columns_).prod()};
+            .gali = volume()};
   }
   [[nodiscard]] int count() const { return static_cast<int>(columns_.cols()); }
 
@@ -111,6 +109,12 @@ class Deviations {
     weighted_ += (k - 0.5) * logarithm;
     const double megno = 2.0 * weighted_ / k;
     megno_mean_ += (megno - megno_mean_) / k;
+  }
+
+  // That the deviations span.
+  [[nodiscard]] double volume() const {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(columns_);
+    return std::abs(factors.matrixQR().diagonal().prod());
   }
 
   // The frame stays orthonormal; what it is stretched by is collected.

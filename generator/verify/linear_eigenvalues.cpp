@@ -1,7 +1,7 @@
 #include "generator/verify/linear_eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,6 @@ namespace hamgen {
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
   return {values.begin(), values.end()};
-}
-
-Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix) {
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {

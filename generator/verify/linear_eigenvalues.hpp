@@ -1,5 +1,5 @@
-// Eigenvalues and singular values of a real matrix in doubles, and how far a step's eigenvalues are
-// from leaving the circle.
+// Eigenvalues of a real matrix in doubles, and how far a step's eigenvalues are from leaving the
+// circle.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,6 @@
 namespace hamgen {
 
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
-// From the largest on.
-[[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
 // The largest of the eigenvalues' absolute values.
 [[nodiscard]] double spectral_radius(const Eigen::MatrixXd& matrix);
 

@@ -1,6 +1,7 @@
 #include "generator/verify/linear_modes.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -54,7 +55,8 @@ std::optional<std::vector<Matrix2d>> common_planes(const MatrixXd& s) {
 }
 
 // Is a frequency there more often than A^2 + w^2 has planes for it?  A double eigenvalue splits by
-// the root of the rounding unit where that is so, and by the unit where not.
+// the root of the rounding unit where that is so, and by the unit where not.  How many planes there
+// are, a pivoted QR factorisation shows.
 bool has_jordan_block(const MatrixXd& a, const std::vector<double>& frequencies) {
   constexpr double kSame = 1e-6;
   for (std::size_t first = 0; first < frequencies.size();) {
@@ -64,9 +66,10 @@ bool has_jordan_block(const MatrixXd& a, const std::vector<double>& frequencies)
     const auto count = static_cast<Eigen::Index>(2 * (last - first));
     if (count > 2) {
       const MatrixXd square = a * a + w * w * MatrixXd::Identity(a.rows(), a.cols());
-      const VectorXd singular = singular_values(square);
-      const double zero = 10 * kSame * std::max(singular[0], w * w);
-      if ((singular.array() <= zero).count() < count) return true;
+      const Eigen::ColPivHouseholderQR<MatrixXd> factors(square);
+      const double zero = 10 * kSame * std::max(factors.maxPivot(), w * w);
+      const auto sizes = factors.matrixQR().diagonal().array().abs();
+      if ((sizes <= zero).count() < count) return true;
     }
     first = last;
   }
