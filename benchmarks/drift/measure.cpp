@@ -160,7 +160,8 @@ bool Result::drifts() const {
   return of_all || of_each;
 }
 
-Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit) {
+Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit,
+               const std::vector<std::string>& flags) {
   const std::string rounded = emitted_header(row.model, row.request, "double", "rounded");
   const std::size_t invariants =
       read_request(make_source("drift.ham", row.model), row.request).invariants.size();
@@ -174,7 +175,7 @@ Result measure(const Row& row, long long steps, int starts, double seconds, cons
   std::istringstream output(
       output_of_program({{"rounded.hpp", edit ? edit(rounded) : rounded},
                          {"exact.hpp", emitted_header(row.model, row.request, "quad", "exact")}},
-                        program));
+                        program, flags));
   Result result{.steps = part * kParts, .solver = solver_of(rounded)};
   std::vector<std::vector<double>> errors;
   double squares = 0.0;

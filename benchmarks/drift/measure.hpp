@@ -54,8 +54,9 @@ struct Result {
 using Edit = std::function<std::string(const std::string&)>;
 
 // At least four starts, no more after so many seconds of processor time.  `edit` changes the
-// emitted header in double.  Throws std::runtime_error with the compiler's or the program's words.
+// emitted header in double, `flags` come after those of `hamgen run`.  Throws std::runtime_error
+// with the compiler's or the program's words.
 [[nodiscard]] Result measure(const Row& row, long long steps, int starts, double seconds,
-                             const Edit& edit = {});
+                             const Edit& edit = {}, const std::vector<std::string>& flags = {});
 
 }  // namespace hamgen::drift

@@ -42,10 +42,12 @@ struct Length {
 };
 Result result_of(const Row& row, const std::vector<Replacement>& edits = {},
                  const Length& length = {}) {
-  return measure(row, length.steps, length.starts, 60, [&](std::string header) {
-    for (const Replacement& edit : edits) header = replaced(std::move(header), edit);
+  const auto edit = [&](std::string header) {
+    for (const Replacement& each : edits) header = replaced(std::move(header), each);
     return header;
-  });
+  };
+  // The same bits by any optimisation, and these are compiled in half of the time.
+  return measure(row, length.steps, length.starts, 60, edit, {"-O1"});
 }
 
 std::string words(const Result& result) {

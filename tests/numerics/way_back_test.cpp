@@ -58,7 +58,7 @@ double gap_of(const std::string& model, const std::string& scheme, const std::st
   header.replace(header.find(hidden, header.find("class Propagator {")), hidden.size(),
                  " public:\n");
   if (!line.empty()) header.erase(header.find(line), line.size());
-  return std::stod(output_of_program({{"there.hpp", header}}, kThereAndBack));
+  return std::stod(output_of_program({{"there.hpp", header}}, kThereAndBack, {"-O1"}));
 }
 
 TEST(WayBack, OfStormerVerletEndsWhereItBegan) {

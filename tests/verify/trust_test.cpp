@@ -19,11 +19,15 @@ SourceText of_one(const std::string& h, const std::string& more = "") {
   return model("coordinate q\nmomentum p\nH = " + h + "\n" + more);
 }
 
-Finding finding(const SourceText& source, const Request& request, const std::string& property) {
-  for (const Finding& f : verify_step(source, request)) {
+Finding finding_of(const Proof& proof, const std::string& property) {
+  for (const Finding& f : proof) {
     if (f.property == property) return f;
   }
   return {"missing", Verdict::measured};
+}
+
+Finding finding(const SourceText& source, const Request& request, const std::string& property) {
+  return finding_of(verify_step(source, request), property);
 }
 
 Verdict verdict_of(const SourceText& source, const Request& request, const std::string& property) {
@@ -248,8 +252,9 @@ TEST(TrueOrders, AreFoundInUnitsOfAnySize) {
       "coordinate q\nmomentum p\nH = p^2/2 + q^4/4\n"
       "scene s { q = 1e100; p = -3e199; h = 1e-102; steps = 10 }\n");
   for (const SourceText& source : {small, large}) {
-    EXPECT_EQ(verdict_of(source, {.order = 4}, "order 4"), Verdict::tested);
-    EXPECT_EQ(verdict_of(source, {.order = 4}, "program"), Verdict::tested);
+    const Proof proof = verify_step(source, {.order = 4});
+    EXPECT_EQ(finding_of(proof, "order 4").verdict, Verdict::tested);
+    EXPECT_EQ(finding_of(proof, "program").verdict, Verdict::tested);
     EXPECT_NE(finding(source, {.solver = "sweeps:2"}, "symplectic").detail.find("`O(h^4)`, by"),
               std::string::npos);
   }
