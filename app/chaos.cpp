@@ -103,8 +103,9 @@ Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std:
                     "{}\nhelp: another --scheme",
                     loaded.plugin.without_tangent));
   // The tangent map is that of so many deviations.
-  const double steps = orbits * static_cast<double>(*loaded.scene.steps) *
-                       static_cast<double>(1 + 2 * loaded.scene.q.size());
+  const auto columns = static_cast<double>(1 + 2 * loaded.scene.q.size());
+  const double steps =
+      columns * steps_of_all(loaded.setting.model, loaded.setting.scene, loaded.scene, orbits);
   loaded.library = load_integrator(loaded.plugin, options.compiler, &interrupt_flag(), steps);
   return loaded;
 }

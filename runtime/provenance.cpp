@@ -24,10 +24,11 @@ std::string processor_name() {
 
 }  // namespace
 
-Provenance provenance_of(const Compiler& compiler, const std::atomic<bool>* stop) {
+Provenance provenance_of(const Compiler& compiler, const std::atomic<bool>* stop,
+                         const CompileOptions& options) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::vector<std::string> flags(compiler.command.begin() + 1, compiler.command.end());
-  const std::vector<std::string> always = compile_flags({}, compiler, {});
+  const std::vector<std::string> always = compile_flags({}, compiler, options);
   flags.insert(flags.end(), always.begin(), always.end());
   return {.machine =
               fmt::format("{}, {} threads", processor_name(), std::thread::hardware_concurrency()),

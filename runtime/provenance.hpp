@@ -4,6 +4,7 @@
 #include <atomic>
 #include <string>
 
+#include "runtime/compile.hpp"
 #include "runtime/compiler.hpp"
 
 namespace hamgen::runtime {
@@ -17,6 +18,7 @@ struct Provenance {
 
 // Does not wait for the compiler to say its version any longer once `stop` is set, if given.
 [[nodiscard]] Provenance provenance_of(const Compiler& compiler,
-                                       const std::atomic<bool>* stop = nullptr);
+                                       const std::atomic<bool>* stop = nullptr,
+                                       const CompileOptions& options = {});
 
 }  // namespace hamgen::runtime

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/language/check_names.hpp"
 #include "generator/language/model.hpp"
 #include "runtime/arithmetic.hpp"
 
@@ -101,10 +102,25 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
 // any level.  What a step computes is the same: no flag lets the optimiser change the arithmetic.
 std::string optimisation_for(const PluginSource& plugin, double steps) {
   const double operations = steps * plugin.operations_per_step;
-  if (operations < 1e6) return "-O0";
+  // Eigen's eliminations are not counted.
+  if (operations < 1e6 && !plugin.needs_eigen) return "-O0";
   if (operations < 1e8 || plugin.needs_quadmath) return "-O1";
   if (plugin.has_stages && operations < 5e9) return "-O2";
   return "-O3";
+}
+
+double steps_of_all(const Model& model, const SceneRequest& request, const SceneValues& scene,
+                    double orbits) {
+  const auto found = std::ranges::find(model.scenes, scene.name, &Scene::name);
+  const auto is_fixed = [&](const std::optional<std::string>& said, NodePtr Scene::*place) {
+    if (said || found == model.scenes.end()) return true;
+    const NodePtr& node = (*found).*place;
+    return node == nullptr || names_in(node).empty();
+  };
+  const bool same =
+      request.time ? is_fixed(request.h, &Scene::h) : is_fixed(request.steps, &Scene::steps);
+  return same ? orbits * static_cast<double>(*scene.steps)
+              : std::numeric_limits<double>::infinity();
 }
 
 runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const CompilerChoice& compiler,

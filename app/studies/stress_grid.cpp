@@ -46,6 +46,8 @@ StressGrid::StressGrid(const StressRequest& asked) : setting_(asked.setting), ax
   }
   double steps = static_cast<double>(asked.limits.steps);
   for (const StressAxis& axis : axes_) steps *= static_cast<double>(axis.values.size());
+  constexpr double of_bound = 1e6;  // which takes gradients at some ten thousand places
+  if (asked.with_bound && axes_.size() == 2) steps += of_bound;
   loaded_ = load_integrator(plugin_, {}, asked.limits.stop, steps);
   const std::vector<Scene>& scenes = plugin_.model.scenes;
   scene_name_ = !setting_.scene.scene.empty() ? setting_.scene.scene

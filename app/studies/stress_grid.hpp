@@ -21,6 +21,8 @@ class StressGrid {
   [[nodiscard]] const PluginSource& plugin() const { return plugin_; }
   [[nodiscard]] const std::string& scene_name() const { return scene_name_; }
   [[nodiscard]] std::shared_ptr<const runtime::Library> library() const { return loaded_.library; }
+  // What the compiler was asked for: "-O1".
+  [[nodiscard]] const std::string& optimisation() const { return loaded_.optimisation; }
 
   // The scene with the axes' values in place of its own.  Throws ModelError where an expression of
   // the scene is not defined for them.

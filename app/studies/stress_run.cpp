@@ -20,7 +20,8 @@ namespace {
 constexpr unsigned kThreads = 2;
 
 StressMap empty_map(const StressGrid& grid, const StressLimits& limits) {
-  const runtime::Provenance made_by = runtime::provenance_of(chosen_compiler({}));
+  const runtime::Provenance made_by =
+      runtime::provenance_of(chosen_compiler({}), nullptr, {.optimisation = grid.optimisation()});
   StressMap map{.model = grid.plugin().model.name,
                 .scene = grid.scene_name(),
                 .method = grid.plugin().scheme_name,

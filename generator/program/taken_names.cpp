@@ -215,7 +215,7 @@ using Words = std::unordered_set<std::string_view>;
 Words words_of(std::string_view list) {
   Words words;
   for (std::size_t begin = 1; begin < list.size();) {
-    const std::size_t end = list.find(' ', begin);
+    const std::size_t end = std::min(list.find(' ', begin), list.size());
     words.insert(list.substr(begin, end - begin));
     begin = end + 1;
   }

@@ -28,13 +28,13 @@ Derivatives::Derivatives(const Mechanics& mechanics, const Expression& hamiltoni
     variables.push_back(
         GiNaC::ex_to<GiNaC::symbol>(table.symbol(name, kRankOfVariable + static_cast<int>(i))));
   }
-  const bool is_sum = hamiltonian.kind() == Kind::sum;
-  const std::span<const Expression> terms =
-      is_sum ? hamiltonian.operands() : std::span(&hamiltonian, 1);
+  const auto [factor, inside] = hamiltonian.split_coefficient();
+  const bool is_sum = inside.kind() == Kind::sum;
+  const std::span<const Expression> terms = is_sum ? inside.operands() : std::span(&inside, 1);
   std::vector<GiNaC::exvector> slopes(size);
   std::map<std::pair<int, int>, GiNaC::exvector> curvatures;
   for (const Expression& term : terms) {
-    const GiNaC::ex value = to_ginac(term, table);
+    const GiNaC::ex value = to_ginac(Expression(factor) * term, table);
     std::vector<std::size_t> of_term;
     for (const std::string& name : symbols(term)) {
       if (const auto place = places.find(name); place != places.end())
@@ -44,7 +44,9 @@ Derivatives::Derivatives(const Mechanics& mechanics, const Expression& hamiltoni
       const GiNaC::ex slope = value.diff(variables[i]);
       slopes[i].push_back(slope);
       for (const std::size_t j : of_term) {
-        if (j >= i) curvatures[{i, j}].push_back(slope.diff(variables[j]));
+        if (j < i) continue;
+        const GiNaC::ex curvature = slope.diff(variables[j]);
+        if (!curvature.is_zero()) curvatures[{i, j}].push_back(curvature);
       }
     }
   }

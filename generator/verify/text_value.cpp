@@ -255,7 +255,7 @@ class TextValue {
       if (!term) return std::nullopt;
       value += minus ? -*term : *term;
       const char c = next();
-      if (c == ']' || c == ',' || c == '.') return value;
+      if (c == ']' || c == ',' || text_.compare(at_, 2, "..") == 0) return value;
       if (c != '-' && !accept('+')) return std::nullopt;
       if (c == '+' && next() == '-') return std::nullopt;
     }

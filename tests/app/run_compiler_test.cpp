@@ -74,6 +74,7 @@ TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
     const std::string of =
         command[0] == "section" ? HAMGEN_SOURCE_DIR "/hamiltonians/henon_heiles.ham" : model;
     std::vector<std::string> all = {command.front(), of, "--steps", steps};
+    if (steps.empty()) all = {command.front(), scratch.path("own.ham")};
     all.insert(all.end(), command.begin() + 1, command.end());
     std::filesystem::remove(words);
     const Result result = hamgen(
@@ -87,6 +88,11 @@ TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
   const std::string table = scratch.path("table.csv");
   EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "q=0:1:10"}, "100"), "-O0\n");
   EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "q=0:1:1000"}, "100"), "-O1\n");
+  // Each may have a number of its own.
+  std::string own(pendulum);
+  own.replace(own.find("steps = 1000"), 12, "steps = 1000*eps");
+  static_cast<void>(scratch.write("own.ham", own));
+  EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "eps=0.01:0.03:3"}, ""), "-O3\n");
   EXPECT_EQ(asked_by({"stress", "--vary", "h=0.1:1:4", "--reference-seconds", "0"}, "100"),
             "-O0\n");
 }

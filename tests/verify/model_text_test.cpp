@@ -44,6 +44,23 @@ TEST(ModelText, IsWhatIsDerived) {
   }
 }
 
+// Most are sums of names and digits; these are what such a sum may be taken for.
+TEST(ModelText, HasSubscriptsAndEndsOfEveryKind) {
+  for (const std::string subscript : {"1.0", "2*1", "0.5*2", "(i)", "1/1", "2^1 - 1", "i + 1 - 1",
+                                      "-i + 2*i", "N - 2*1", "1e0", "+i", "i - -0", "N+1-N"}) {
+    const std::string formula = "p^2/2 + sum(i = 1..1, x[" + subscript + "]^3*u[i])";
+    const Finding found = read_as(formula, formula);
+    EXPECT_EQ(found.verdict, Verdict::tested) << formula << ": " << found.detail;
+  }
+  for (const std::string range : {"1.0..N", "1..2.0", "1..0.5*4", "1. ..N", "1 .. N", "N - 2..N",
+                                  "-1 + 2..2*1", "3 - N + 1..N"}) {
+    const std::string formula = "p^2/2 + sum(i = " + range + ", x[i]^3*u[i])";
+    const Finding found = read_as(formula, formula);
+    EXPECT_EQ(found.verdict, Verdict::tested) << formula << ": " << found.detail;
+    EXPECT_EQ(read_as(formula, "p^2/2 + x[2]^3*u[2]").verdict, Verdict::refuted) << formula;
+  }
+}
+
 TEST(ModelText, IsNotWhatAFaultyFrontEndReads) {
   const std::pair<const char*, const char*> misread[] = {
       {"p^2/2 - q^2/(1 + q^2)", "p^2/2 + (-q)^2/(1 + q^2)"},  // -q^2 as (-q)^2
