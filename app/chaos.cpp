@@ -87,7 +87,7 @@ struct Loaded {
 // The step with its tangent map, of all of the model: a deviation need not stay where the orbit
 // does.
 Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std::string>& names,
-            double orbits) {
+            const std::vector<ChaosAxis>& axes) {
   Loaded loaded;
   loaded.setting = std::move(setting);
   loaded.scene = complete_scene(loaded.setting.model, loaded.setting.scene);
@@ -103,9 +103,14 @@ Loaded load(const ChaosOptions& options, Setting setting, const std::vector<std:
                     "{}\nhelp: another --scheme",
                     loaded.plugin.without_tangent));
   // The tangent map is that of so many deviations.
-  const auto columns = static_cast<double>(1 + 2 * loaded.scene.q.size());
+  auto orbits = static_cast<double>(1 + 2 * loaded.scene.q.size());
+  std::vector<std::string> varied;
+  for (const ChaosAxis& axis : axes) {
+    orbits *= static_cast<double>(axis.values.size());
+    varied.push_back(axis.name);
+  }
   const double steps =
-      columns * steps_of_all(loaded.setting.model, loaded.setting.scene, loaded.scene, orbits);
+      steps_of_all(loaded.setting.model, loaded.setting.scene, loaded.scene, varied, orbits);
   loaded.library = load_integrator(loaded.plugin, options.compiler, &interrupt_flag(), steps);
   return loaded;
 }
@@ -225,9 +230,7 @@ int run_chaos(const ChaosOptions& options) {
         fmt::format("--over: {} orbits, more than the {} of a map\n"
                     "help: smaller COUNTs: a picture of 1000 by 1000 is a fine one",
                     axes[0].values.size() * axes[1].values.size(), most));
-  double orbits = 1.0;
-  for (const ChaosAxis& axis : axes) orbits *= static_cast<double>(axis.values.size());
-  const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()}, orbits);
+  const Loaded loaded = load(options, std::move(setting), {names.begin(), names.end()}, axes);
   return axes.empty() ? run_orbit(options, loaded, frequencies)
                       : run_map(options, loaded, indicator, axes);
 }

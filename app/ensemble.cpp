@@ -58,8 +58,9 @@ void prepare(const EnsembleOptions& options, Prepared& prepared) {
   specialise(options.scene, request.values, request.plan.names(), Observing::as_the_scene, setting);
   prepared.plugin = generate_plugin(setting.source, setting.request);
   request.plugin = &prepared.plugin;
-  const double steps = steps_of_all(setting.model, setting.scene, request.values,
-                                    static_cast<double>(request.plan.count()));
+  const double steps =
+      steps_of_all(setting.model, setting.scene, request.values, request.plan.names(),
+                   static_cast<double>(request.plan.count()));
   prepared.loaded = load_integrator(prepared.plugin, options.compiler, &interrupt_flag(), steps);
   request.library = prepared.loaded.library;
   request.stop = &interrupt_flag();

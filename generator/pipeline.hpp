@@ -31,7 +31,8 @@ namespace hamgen {
 // Throws ProofError if something required does not hold.
 [[nodiscard]] OutputFiles generate(const SourceText& source, const Request& request);
 
-// The same but for the lines that say what is proved: nothing is.
+// The same but for the lines that say what is proved: nothing is, and nothing that is required is
+// looked at.
 [[nodiscard]] OutputFiles emit(const SourceText& source, const Request& request);
 
 // The value of one stage as text: "model", "mechanics", "equations", "plan", "program",

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "generator/base/diagnostic.hpp"
-#include "generator/language/check_names.hpp"
 #include "generator/language/model.hpp"
+#include "generator/language/scene.hpp"
 #include "runtime/arithmetic.hpp"
 
 namespace hamgen::app {
@@ -110,17 +110,10 @@ std::string optimisation_for(const PluginSource& plugin, double steps) {
 }
 
 double steps_of_all(const Model& model, const SceneRequest& request, const SceneValues& scene,
-                    double orbits) {
-  const auto found = std::ranges::find(model.scenes, scene.name, &Scene::name);
-  const auto is_fixed = [&](const std::optional<std::string>& said, NodePtr Scene::*place) {
-    if (said || found == model.scenes.end()) return true;
-    const NodePtr& node = (*found).*place;
-    return node == nullptr || names_in(node).empty();
-  };
-  const bool same =
-      request.time ? is_fixed(request.h, &Scene::h) : is_fixed(request.steps, &Scene::steps);
-  return same ? orbits * static_cast<double>(*scene.steps)
-              : std::numeric_limits<double>::infinity();
+                    const std::vector<std::string>& varied, double orbits) {
+  if (names_computed_from(model, request, varied).contains("steps"))
+    return std::numeric_limits<double>::infinity();
+  return orbits * static_cast<double>(*scene.steps);
 }
 
 runtime::LoadedPlugin load_integrator(const PluginSource& plugin, const CompilerChoice& compiler,

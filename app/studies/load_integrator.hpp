@@ -27,9 +27,10 @@ struct CompilerChoice {
 // What the compiler is asked for if so many steps are all that is taken: "-O0" to "-O3".
 [[nodiscard]] std::string optimisation_for(const PluginSource& plugin, double steps);
 
-// Of so many orbits together; infinite if each may have a number of steps of its own.
+// Of so many orbits together; infinite if their number of steps is computed from what varies.
 [[nodiscard]] double steps_of_all(const Model& model, const SceneRequest& request,
-                                  const SceneValues& scene, double orbits);
+                                  const SceneValues& scene, const std::vector<std::string>& varied,
+                                  double orbits);
 
 // Compiles the plugin, or takes it from the cache, and loads it; `stop` gives up the compilation.
 // Few steps are not worth the time of an optimiser.  Throws ToolError, and what chosen_compiler

@@ -93,6 +93,9 @@ TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
   own.replace(own.find("steps = 1000"), 12, "steps = 1000*eps");
   static_cast<void>(scratch.write("own.ham", own));
   EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "eps=0.01:0.03:3"}, ""), "-O3\n");
+  EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "q=0:1:3"}, "10*2"), "-O0\n");
+  EXPECT_EQ(asked_by({"ensemble", "-o", table, "--over", "eps=1:2:2"}, "100*eps"), "-O3\n");
+  EXPECT_EQ(asked_by({"chaos", "--over", "eps=1:2:2"}, "100*eps"), "-O3\n");
   EXPECT_EQ(asked_by({"stress", "--vary", "h=0.1:1:4", "--reference-seconds", "0"}, "100"),
             "-O0\n");
 }

@@ -46,7 +46,7 @@ Result result_of(const Row& row, const std::vector<Replacement>& edits = {},
     for (const Replacement& each : edits) header = replaced(std::move(header), each);
     return header;
   };
-  // The same bits by any optimisation, and these are compiled in half of the time.
+  // The same bits by any optimisation, and the compiler takes less time.
   return measure(row, length.steps, length.starts, 60, edit, {"-O1"});
 }
 

@@ -42,6 +42,20 @@ TEST(LargePlan, TheMidpointRuleOnALongChainIsNewtonOfSizeN) {
   EXPECT_TRUE(contains(small.plan, "momenta torn out")) << small.plan;
 }
 
+TEST(LargePlan, MassesOfSeveralSumsAreOneNumberIfAllAreEqual) {
+  const auto plan_of = [](const std::string& second) {
+    return outcome(
+               "size N = 40\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+               "H = sum(i = 1..N, p[i]^2/4) + sum(" +
+               second + ") + sum(i = 1..N, (q[i+1] - q[i])^4/4)\n")
+        .plan;
+  };
+  const std::string all = plan_of("i = 0..N-1, p[i+1]^2/8");
+  EXPECT_TRUE(contains(all, "masses as an array: all are 3/4\n")) << all;
+  for (const char* part : {"i = 0..N-2, p[i+1]^2/8", "i = 1..N, p[i]^2/8*i"})
+    EXPECT_FALSE(contains(plan_of(part), "masses as an array")) << part;
+}
+
 // The fixed point is what a step begins with where the matrix is more work than another evaluation.
 TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
   const Outcome both = outcome(chain(64));
