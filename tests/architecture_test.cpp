@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -26,11 +26,39 @@ using architecture::free_of_ginac;
 using architecture::Include;
 using architecture::violation;
 
-std::vector<Include> includes_of(const std::string& text) {
-  static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]*)[>"])re");
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    lines.push_back(text.substr(0, text.find('\n')));
+    text.remove_prefix(std::min(lines.back().size() + 1, text.size()));
+  }
+  return lines;
+}
+
+// Takes a word from the start of the line.
+bool take(std::string_view& line, std::string_view word) {
+  if (!line.starts_with(word)) return false;
+  line.remove_prefix(word.size());
+  return true;
+}
+
+void skip_blanks(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+}
+
+std::vector<Include> includes_of(std::string_view text) {
   std::vector<Include> found;
-  for (std::sregex_iterator match(text.begin(), text.end(), line), end; match != end; ++match) {
-    found.push_back({.name = (*match)[2], .angled = (*match)[1] == "<"});
+  for (std::string_view line : lines_of(text)) {
+    skip_blanks(line);
+    if (!take(line, "#")) continue;
+    skip_blanks(line);
+    if (!take(line, "include")) continue;
+    skip_blanks(line);
+    const bool angled = line.starts_with("<");
+    if (!take(line, "<") && !take(line, "\"")) continue;
+    const std::size_t end = line.find_first_of("\">");
+    if (end == line.npos) continue;
+    found.push_back({.name = std::string(line.substr(0, end)), .angled = angled});
   }
   return found;
 }
@@ -43,8 +71,12 @@ std::map<std::string, std::string> read_texts() {
     if (!fs::exists(root / folder)) continue;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string name = entry.path().filename().string();
-      static const std::regex source(R"(.*\.(h|hpp|cpp|h\.in|hpp\.in|cpp\.in))");
-      if (!entry.is_regular_file() || !std::regex_match(name, source)) continue;
+      const std::string_view stem =
+          name.ends_with(".in") ? std::string_view(name).substr(0, name.size() - 3) : name;
+      if (!entry.is_regular_file() ||
+          !(stem.ends_with(".h") || stem.ends_with(".hpp") || stem.ends_with(".cpp"))) {
+        continue;
+      }
       std::ifstream in(entry.path());
       texts[entry.path().lexically_relative(root).generic_string()] =
           std::string(std::istreambuf_iterator<char>(in), {});
@@ -61,17 +93,27 @@ std::map<std::string, std::vector<Include>> read_tree() {
 
 // The types a header defines at namespace scope, with their namespace: "hamgen::Model".  A
 // specialisation of a template is no type of its own.
-std::vector<std::string> types_of(const std::string& text) {
-  static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]+) \{|)"
-                               R"((?:struct|class|enum class|enum) (\w+)\b(?!<|::)[^;\n]*\{))");
+std::vector<std::string> types_of(std::string_view text) {
   std::vector<std::string> found;
   std::string space;
-  for (std::sregex_iterator match(text.begin(), text.end(), line), end; match != end; ++match) {
-    if ((*match)[1].matched) {
-      space = (*match)[1];
-    } else {
-      found.push_back(space + "::" + (*match)[2].str());
+  for (std::string_view line : lines_of(text)) {
+    if (take(line, "namespace ")) {
+      const std::string_view name = line.substr(0, line.find(' '));
+      if (line.substr(name.size()).starts_with(" {")) space = name;
+      continue;
     }
+    if (!take(line, "struct ") && !take(line, "class ") && !take(line, "enum class ") &&
+        !take(line, "enum ")) {
+      continue;
+    }
+    const auto ends = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_';
+    };
+    const std::string_view name(line.begin(), std::ranges::find_if(line, ends));
+    line.remove_prefix(name.size());
+    if (name.empty() || line.starts_with("<") || line.starts_with("::")) continue;
+    const std::size_t open = line.find('{');
+    if (open < line.find(';')) found.push_back(space + "::" + std::string(name));
   }
   return found;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/verify/numerator.hpp"
 #include "generator/verify/precise.hpp"
 #include "generator/verify/sums_of_step.hpp"
 
@@ -70,19 +71,18 @@ struct SquareRoots {
   }
 };
 
-// The numerator with s^(2k) = b^k and s^(2k+1) = s b^k: zero if it vanishes so.
-bool vanishes_with_roots(GiNaC::ex numerator, const SquareRoots& roots, SymbolTable& table) {
+// The sum, a polynomial, with s^(2k) = b^k and s^(2k+1) = s b^k: zero if it vanishes so.
+bool vanishes_with_roots(GiNaC::ex sum, const SquareRoots& roots, SymbolTable& table) {
   for (const auto& [base, symbol] : roots.symbols) {
     const GiNaC::ex s = table.symbol(symbol.name(), 0);
-    const GiNaC::ex b = to_ginac(base, table).normal();
-    numerator = numerator.expand();
+    const GiNaC::ex b = to_ginac(base, table);
     GiNaC::ex reduced = 0;
-    for (int k = numerator.ldegree(s); k <= numerator.degree(s); ++k) {
-      reduced += numerator.coeff(s, k) * GiNaC::pow(b, k / 2) * (k % 2 == 0 ? GiNaC::ex(1) : s);
+    for (int k = sum.ldegree(s); k <= sum.degree(s); ++k) {
+      reduced += sum.coeff(s, k) * GiNaC::pow(b, k / 2) * (k % 2 == 0 ? GiNaC::ex(1) : s);
     }
-    numerator = reduced.normal().numer();
+    sum = numerator(reduced);
   }
-  return numerator.expand().is_zero();
+  return sum.is_zero();
 }
 
 // Is it not zero at some point?  Cheaper than any algebra.
@@ -330,8 +330,8 @@ bool is_zero_by_algebra(const Expression& e) {
   SquareRoots roots;
   const Expression rational = roots.replace(plain);
   try {
-    return vanishes_with_roots(to_ginac(rational, table).normal().numer(), roots, table);
-  } catch (const std::exception&) {  // GiNaC met a denominator that vanishes identically
+    return vanishes_with_roots(numerator(to_ginac(rational, table)), roots, table);
+  } catch (const std::exception&) {  // a denominator that vanishes identically
     return false;
   }
 }
