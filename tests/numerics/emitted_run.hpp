@@ -13,15 +13,16 @@ namespace hamgen::numerics_test {
 using Quad = __float128;
 using Vector = std::vector<long double>;
 
-// What few steps show of many methods is interpreted, one of them at a time: that compiled code
-// takes the same steps is the matter of tests/interpreter.  With HAMGEN_COMPILE_STEPS set, it is
-// compiled too.
+// What few steps show is interpreted, one integrator of a scalar at a time: that compiled code takes
+// the same steps is the matter of tests/interpreter.  With HAMGEN_COMPILE_STEPS set, it is compiled
+// too.
 enum class Steps { compiled, interpreted };
 
 class Emitted {
  public:
-  // The model's text without its first line, or a shipped model by its name: shipped("kepler").
-  Emitted(const std::string& text, const Request& request, Steps steps = Steps::compiled);
+  // The model's text without its first line.
+  Emitted(const std::string& text, const Request& request, Steps steps = Steps::interpreted);
+  // A shipped model by its name, shipped("kepler"), compiled.
   [[nodiscard]] static Emitted shipped(const std::string& name, const Request& request);
 
   // Default parameters, unless given in the interface's order; state is q then p.

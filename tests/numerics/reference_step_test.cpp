@@ -180,8 +180,7 @@ TEST_P(ReferenceStep, IsWhatEveryMemberGives) {
   for (const MemberCase& member : members()) {
     SCOPED_TRACE(member.name);
     const Problem here = problem();
-    const Emitted emitted(here.text, request_for(member, here.start.size() / 2),
-                          Steps::interpreted);
+    const Emitted emitted(here.text, request_for(member, here.start.size() / 2));
     // 32 steps over t = 2: each adds about one unit in the last place, 1.1e-16 for values about 1
     // and at most 5 here, and the flow stretches differences by less than a hundred.
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-14L);
@@ -194,7 +193,7 @@ TEST_P(ReferenceStep, IsWhatTheGeneralMemberGivesInLongDouble) {
     const Problem here = problem();
     Request request = request_for(member, here.start.size() / 2);
     request.scalar = "long-double";
-    const Emitted emitted(here.text, request, Steps::interpreted);
+    const Emitted emitted(here.text, request);
     // As above with 2^-64; the reference rounds as much.
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-17L);
   }
@@ -206,7 +205,7 @@ TEST_P(ReferenceStep, IsWhatTheFixedPointGives) {
     const Problem here = problem();
     Request request = request_for(member, here.start.size() / 2);
     request.solver = "fixed-point";
-    const Emitted emitted(here.text, request, Steps::interpreted);
+    const Emitted emitted(here.text, request);
     EXPECT_LT(distance(emitted.after(kSteps, here.start, kStep), by_hand(here, member)), 2e-14L);
   }
 }
@@ -220,7 +219,7 @@ TEST_P(ReferenceStep, OfAlgorithm1IsWhatSweepsGive) {
       Request request = request_for(member, n);
       request.solver = "sweeps:" + std::to_string(kappa);
       request.scalar = "long-double";
-      const Emitted emitted(here.text, request, Steps::interpreted);
+      const Emitted emitted(here.text, request);
       Vector z = here.start;
       for (int i = 0; i < kSteps; ++i) {
         z = algorithm_1<long double>(here.hamiltonian, values_for(member, n, kStep), kStep, z,
@@ -233,7 +232,7 @@ TEST_P(ReferenceStep, OfAlgorithm1IsWhatSweepsGive) {
 
 TEST_P(ReferenceStep, StartsFromTheGradientOfH) {
   const Problem here = problem();
-  const Emitted emitted(here.text, {}, Steps::interpreted);
+  const Emitted emitted(here.text, {});
   std::vector<double> z;
   for (const long double value : here.start) z.push_back(static_cast<double>(value));
   const J jet = jet_of<long double>(here.hamiltonian, Vector(z.begin(), z.end()));

@@ -179,9 +179,8 @@ TEST(Loops, AgreeWithTheWrittenOutSystem) {
     Vector start(128);
     for (int i = 0; i < 64; ++i)
       start[static_cast<std::size_t>(i)] = std::sin(half_pi * 2 * (i + 1) / 65);
-    EXPECT_LT(distance(Emitted(text, request).after(100, start, 0.1L),
-                       Emitted(text, written_out).after(100, start, 0.1L)),
-              1e-12L)
+    const Vector in_loops = Emitted(text, request).after(100, start, 0.1L);
+    EXPECT_LT(distance(in_loops, Emitted(text, written_out).after(100, start, 0.1L)), 1e-12L)
         << request.alpha.text();
   }
 }
