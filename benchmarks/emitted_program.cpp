@@ -60,7 +60,7 @@ std::string output_of_sources(const std::vector<ProgramFile>& files,
   runtime::ProcessRequest compile{.command = runtime::find_compiler().command,
                                   .working_directory = directory.path(),
                                   .time_limit = std::chrono::minutes(20)};
-  for (const char* flag : {"-std=gnu++20", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno",
+  for (const char* flag : {"-std=gnu++17", "-O3", "-w", "-ffp-contract=off", "-fno-math-errno",
                            "-isystem", "/usr/include/eigen3"}) {
     compile.command.emplace_back(flag);
   }

@@ -72,12 +72,12 @@ void print_other(const double* numbers, int count) {
   std::printf("\n");
 }
 template <class T>
-double carried(const T& method, int lane, bool q) {
-  if constexpr (requires { method.carry(); }) {
-    return q ? method.carry().Q[lane] : method.carry().P[lane];
-  } else {
-    return 0;
-  }
+auto carried(const T& method, int lane, bool q, int) -> decltype(+method.carry().Q[lane]) {
+  return q ? method.carry().Q[lane] : method.carry().P[lane];
+}
+template <class T>
+double carried(const T&, int, bool, long) {
+  return 0;
 }
 template <class Propagator, class Parameters, class State>
 void run(const Start* starts, int count, double h, int steps, bool compare_reports) {
@@ -94,7 +94,7 @@ void run(const Start* starts, int count, double h, int steps, bool compare_repor
     for (int lane = 0; lane < W; ++lane) {
       if (report.converged[lane] != method.running()[lane]) std::printf("another report\n");
       print(i + lane, method.running()[lane], method.time()[lane], method.state().Q[lane],
-            method.state().P[lane], carried(method, lane, true), carried(method, lane, false));
+            method.state().P[lane], carried(method, lane, true, 0), carried(method, lane, false, 0));
       const double other[] = {report.iterations[lane], report.increment[lane]};
       print_other(other, compare_reports ? 2 : 0);
     }

@@ -52,7 +52,7 @@ std::string run_program(const std::string& text, const std::vector<std::string>&
   const std::filesystem::path source = directory.path() / "program.cpp";
   const std::filesystem::path program = directory.path() / "program";
   std::ofstream(source) << text;
-  std::vector<std::string> command = {"g++", "-std=gnu++20", "-O0", "-isystem",
+  std::vector<std::string> command = {"g++", "-std=gnu++17", "-O0", "-isystem",
                                       "/usr/include/eigen3"};
   command.insert(command.end(), flags.begin(), flags.end());
   command.insert(command.end(), {source.string(), "-o", program.string(), "-lquadmath"});

@@ -22,7 +22,7 @@ namespace hamgen::emitted_test {
                                    const std::vector<std::string>& flags = strict_flags(),
                                    const std::string& action = "-fsyntax-only");
 
-// Compiles and runs a program with g++ -O0 -std=gnu++20, and these flags, of which the last -O
+// Compiles and runs a program with g++ -O0 -std=gnu++17, and these flags, of which the last -O
 // counts, and returns its output.
 [[nodiscard]] std::string run_program(const std::string& text,
                                       const std::vector<std::string>& flags = {});

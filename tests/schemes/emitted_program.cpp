@@ -33,7 +33,7 @@ std::string output_of(const std::string& text) {
   const std::filesystem::path program = directory.path() / "program";
   std::ofstream(source) << text;
   const auto compiled =
-      run({"g++", "-std=gnu++20", "-O0", source.string(), "-o", program.string(), "-lquadmath"});
+      run({"g++", "-std=gnu++17", "-O0", source.string(), "-o", program.string(), "-lquadmath"});
   if (!compiled.succeeded()) throw std::runtime_error("does not compile:\n" + compiled.output);
   const auto ran = run({program.string()});
   if (!ran.succeeded()) throw std::runtime_error("does not run:\n" + ran.output);
