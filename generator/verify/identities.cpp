@@ -331,7 +331,7 @@ bool is_zero_by_algebra(const Expression& e) {
   const Expression rational = roots.replace(plain);
   try {
     return vanishes_with_roots(numerator(to_ginac(rational, table)), roots, table);
-  } catch (const std::exception&) {  // a denominator that vanishes identically
+  } catch (const std::exception&) {  // a denominator that vanishes identically, or too many terms
     return false;
   }
 }

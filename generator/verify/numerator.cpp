@@ -10,96 +10,135 @@ namespace {
 
 using DenominatorPowers = std::map<GiNaC::ex, int, GiNaC::ex_is_less>;
 
-struct Fraction {
-  GiNaC::ex numerator = 1;
-  DenominatorPowers denominator;  // irreducible as far as it is seen: symbols, and sums without a factor
+struct LessPowers {
+  bool operator()(const DenominatorPowers& a, const DenominatorPowers& b) const {
+    const GiNaC::ex_is_less less;
+    return std::ranges::lexicographical_compare(a, b, [&](const auto& x, const auto& y) {
+      return less(x.first, y.first) || (!less(y.first, x.first) && x.second < y.second);
+    });
+  }
 };
 
-GiNaC::ex of_factors(const DenominatorPowers& powers) {
-  GiNaC::ex result = 1;
-  for (const auto& [base, exponent] : powers) result *= GiNaC::pow(base, exponent);
-  return result;
-}
+struct Fraction {
+  GiNaC::ex numerator = 1;
+  DenominatorPowers denominator;  // of symbols, atoms, and sums whose first coefficient is 1
+};
 
-Fraction fraction(const GiNaC::ex& e);
+// Of all products together: more take seconds, and what is proved here has a twentieth.
+constexpr std::size_t kMostTerms = 20'000;
+constexpr int kLargestPower = 100;  // of a sum
 
-// 1 / polynomial: a product gives its factors, a sum is divided by its first coefficient, so that
-// x - y and 2 y - 2 x are one denominator.
-void divide(Fraction& f, const GiNaC::ex& polynomial, int times) {
-  if (polynomial.is_zero()) throw std::overflow_error("a denominator is identically zero");
-  if (GiNaC::is_a<GiNaC::numeric>(polynomial)) {
-    f.numerator *= GiNaC::pow(polynomial, -times);
-  } else if (GiNaC::is_a<GiNaC::mul>(polynomial)) {
-    for (const GiNaC::ex& factor : polynomial) divide(f, factor, times);
-  } else if (GiNaC::is_a<GiNaC::power>(polynomial) &&
-             polynomial.op(1).info(GiNaC::info_flags::posint)) {
-    divide(f, polynomial.op(0), times * GiNaC::ex_to<GiNaC::numeric>(polynomial.op(1)).to_int());
-  } else if (GiNaC::is_a<GiNaC::add>(polynomial)) {
-    GiNaC::ex first = 1;
-    for (const GiNaC::ex& factor : GiNaC::is_a<GiNaC::mul>(polynomial.op(0))
-                                       ? polynomial.op(0)
-                                       : GiNaC::ex(GiNaC::lst{polynomial.op(0)})) {
-      if (GiNaC::is_a<GiNaC::numeric>(factor)) first *= factor;
+std::size_t terms_of(const GiNaC::ex& sum) { return GiNaC::is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
+
+class Fractions {
+ public:
+  Fraction fraction(const GiNaC::ex& e) {
+    if (GiNaC::is_a<GiNaC::add>(e)) return sum(e);
+    if (GiNaC::is_a<GiNaC::mul>(e)) {
+      Fraction result;
+      for (const GiNaC::ex& factor : e) {
+        const Fraction f = fraction(factor);
+        result.numerator = product(result.numerator, f.numerator);
+        for (const auto& [base, exponent] : f.denominator) result.denominator[base] += exponent;
+      }
+      return result;
     }
-    f.numerator *= GiNaC::pow(first, -times);
-    f.denominator[(polynomial / first).expand()] += times;
-  } else {
-    f.denominator[polynomial] += times;
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
+      const GiNaC::numeric exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1));
+      if (abs(exponent) > 1'000'000) throw std::length_error("a power too large");
+      return power(e.op(0), exponent.to_int());
+    }
+    if (e.nops() == 0) return {.numerator = e};
+    return {.numerator = e.map([](const GiNaC::ex& x) { return x.normal(); })};
   }
-}
 
-Fraction sum(const GiNaC::ex& e) {
-  std::vector<Fraction> terms;
-  Fraction result{.numerator = 0};
-  for (const GiNaC::ex& term : e) {
-    for (const auto& [base, exponent] : terms.emplace_back(fraction(term)).denominator) {
-      int& largest = result.denominator[base];
-      largest = std::max(largest, exponent);
+ private:
+  GiNaC::ex product(const GiNaC::ex& a, const GiNaC::ex& b) {
+    terms_ += terms_of(a) * terms_of(b);
+    if (terms_ > kMostTerms) throw std::length_error("products of many terms");
+    return (a * b).expand();
+  }
+
+  // a base^exponent
+  GiNaC::ex times_power(GiNaC::ex a, const GiNaC::ex& base, int exponent) {
+    if (terms_of(base) == 1) return product(a, GiNaC::pow(base, exponent));
+    if (exponent > kLargestPower) throw std::length_error("a power of many terms");
+    for (int k = 0; k < exponent; ++k) a = product(a, base);
+    return a;
+  }
+
+  // 1 / polynomial: a product gives its factors, a sum is divided by its first coefficient, so that
+  // x - y and 2 y - 2 x are one denominator.
+  void divide(Fraction& f, const GiNaC::ex& polynomial, int times) {
+    if (polynomial.is_zero()) throw std::overflow_error("a denominator is identically zero");
+    if (GiNaC::is_a<GiNaC::numeric>(polynomial)) {
+      f.numerator *= GiNaC::pow(polynomial, -times);
+    } else if (GiNaC::is_a<GiNaC::mul>(polynomial)) {
+      for (const GiNaC::ex& factor : polynomial) divide(f, factor, times);
+    } else if (GiNaC::is_a<GiNaC::power>(polynomial) &&
+               polynomial.op(1).info(GiNaC::info_flags::posint)) {
+      divide(f, polynomial.op(0), times * GiNaC::ex_to<GiNaC::numeric>(polynomial.op(1)).to_int());
+    } else if (GiNaC::is_a<GiNaC::add>(polynomial)) {
+      const GiNaC::ex term = polynomial.op(0);
+      GiNaC::ex first = 1;
+      for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(term) && i < term.nops(); ++i) {
+        if (GiNaC::is_a<GiNaC::numeric>(term.op(i))) first *= term.op(i);
+      }
+      f.numerator *= GiNaC::pow(first, -times);
+      f.denominator[(polynomial / first).expand()] += times;
+    } else {
+      f.denominator[polynomial] += times;
     }
   }
-  for (const Fraction& term : terms) {
-    DenominatorPowers missing = result.denominator;
-    for (const auto& [base, exponent] : term.denominator) missing[base] -= exponent;
-    result.numerator += (term.numerator * of_factors(missing)).expand();
-  }
-  return result;
-}
 
-Fraction power(const GiNaC::ex& base, int exponent) {
-  const Fraction f = fraction(base);
-  const int times = std::abs(exponent);
-  Fraction result;
-  if (exponent > 0) {
-    result.numerator = GiNaC::pow(f.numerator, times).expand();
-    for (const auto& [b, k] : f.denominator) result.denominator[b] = k * times;
-  } else {
-    result.numerator = GiNaC::pow(of_factors(f.denominator), times).expand();
-    divide(result, f.numerator, times);
-  }
-  return result;
-}
-
-Fraction fraction(const GiNaC::ex& e) {
-  if (GiNaC::is_a<GiNaC::add>(e)) return sum(e);
-  if (GiNaC::is_a<GiNaC::mul>(e)) {
-    Fraction result;
-    for (const GiNaC::ex& factor : e) {
-      const Fraction f = fraction(factor);
-      result.numerator *= f.numerator;
-      for (const auto& [base, exponent] : f.denominator) result.denominator[base] += exponent;
+  // Terms over the same denominators are added first: what cancels asks for no common one.
+  Fraction sum(const GiNaC::ex& e) {
+    std::map<DenominatorPowers, GiNaC::ex, LessPowers> numerators;
+    for (const GiNaC::ex& term : e) {
+      const Fraction f = fraction(term);
+      numerators[f.denominator] += f.numerator;
     }
-    result.numerator = result.numerator.expand();
+    for (auto it = numerators.begin(); it != numerators.end();) {
+      it->second = it->second.expand();
+      it = it->second.is_zero() ? numerators.erase(it) : std::next(it);
+    }
+    Fraction result{.numerator = 0};
+    for (const auto& [denominator, numerator] : numerators) {
+      for (const auto& [base, exponent] : denominator) {
+        int& largest = result.denominator[base];
+        largest = std::max(largest, exponent);
+      }
+    }
+    for (const auto& [denominator, numerator] : numerators) {
+      DenominatorPowers missing = result.denominator;
+      for (const auto& [base, exponent] : denominator) missing[base] -= exponent;
+      GiNaC::ex term = numerator;
+      for (const auto& [base, exponent] : missing) term = times_power(term, base, exponent);
+      result.numerator += term;
+    }
     return result;
   }
-  if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
-    return power(e.op(0), GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int());
+
+  Fraction power(const GiNaC::ex& base, int exponent) {
+    const Fraction f = fraction(base);
+    const int times = std::abs(exponent);
+    Fraction result;
+    if (exponent > 0) {
+      result.numerator = times_power(1, f.numerator, times);
+      for (const auto& [b, k] : f.denominator) result.denominator[b] = k * times;
+    } else {
+      for (const auto& [b, k] : f.denominator)
+        result.numerator = times_power(result.numerator, b, k * times);
+      divide(result, f.numerator, times);
+    }
+    return result;
   }
-  if (e.nops() == 0) return {.numerator = e};
-  return {.numerator = e.map([](const GiNaC::ex& x) { return x.normal(); })};
-}
+
+  std::size_t terms_ = 0;
+};
 
 }  // namespace
 
-GiNaC::ex numerator(const GiNaC::ex& e) { return fraction(e).numerator.expand(); }
+GiNaC::ex numerator(const GiNaC::ex& e) { return Fractions().fraction(e).numerator.expand(); }
 
 }  // namespace hamgen
