@@ -51,6 +51,11 @@ TEST(Numerator, IsTheFractionTimesItsDenominators) {
   // Of 2 (x + y) one factor, of (x + y)^2 the larger power.
   const ex found = numerator(1 / (2 * x + 2 * y) + z / pow(x + y, 2));
   EXPECT_TRUE((found - ((x + y) / 2 + z).expand()).is_zero()) << found;
+  // A denominator has 1 before its first term, whichever that is.
+  const ex of_two = numerator(1 / (2 * x + 3 * y) + z / x);
+  const ex wanted = (x + z * (2 * x + 3 * y)).expand();
+  EXPECT_TRUE((of_two - wanted / 2).expand().is_zero() || (of_two - wanted / 3).expand().is_zero())
+      << of_two;
 }
 
 TEST(Numerator, IsNoneWhereADenominatorVanishes) {
