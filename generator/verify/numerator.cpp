@@ -27,6 +27,30 @@ struct Fraction {
 // Of all products together: more take seconds, and what is proved here has a twentieth.
 constexpr std::size_t kMostTerms = 20'000;
 constexpr int kLargestPower = 100;  // of a sum
+constexpr long long kLargestExponent = 1'000'000;
+
+void add_power(DenominatorPowers& powers, const GiNaC::ex& base, long long exponent) {
+  if (exponent + powers[base] > kLargestExponent) throw std::length_error("a power too large");
+  powers[base] += static_cast<int>(exponent);
+}
+
+// base^-2, base^(-1/3), base^(-2 a).
+bool is_inverse(const GiNaC::ex& e) {
+  if (!GiNaC::is_a<GiNaC::power>(e)) return false;
+  const GiNaC::ex exponent = e.op(1);
+  if (!GiNaC::is_a<GiNaC::mul>(exponent)) return exponent.info(GiNaC::info_flags::negative);
+  return std::any_of(exponent.begin(), exponent.end(), [](const GiNaC::ex& factor) {
+    return factor.info(GiNaC::info_flags::negative) && GiNaC::is_a<GiNaC::numeric>(factor);
+  });
+}
+
+bool has_inverses(const GiNaC::ex& sum) {
+  const auto of_term = [](const GiNaC::ex& term) {
+    return is_inverse(term) ||
+           (GiNaC::is_a<GiNaC::mul>(term) && std::any_of(term.begin(), term.end(), is_inverse));
+  };
+  return GiNaC::is_a<GiNaC::add>(sum) ? std::any_of(sum.begin(), sum.end(), of_term) : of_term(sum);
+}
 
 std::size_t terms_of(const GiNaC::ex& sum) { return GiNaC::is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
 
@@ -39,20 +63,28 @@ class Fractions {
       for (const GiNaC::ex& factor : e) {
         const Fraction f = fraction(factor);
         result.numerator = product(result.numerator, f.numerator);
-        for (const auto& [base, exponent] : f.denominator) result.denominator[base] += exponent;
+        for (const auto& [base, exponent] : f.denominator)
+          add_power(result.denominator, base, exponent);
       }
       return result;
     }
     if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
       const GiNaC::numeric exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1));
-      if (abs(exponent) > 1'000'000) throw std::length_error("a power too large");
+      if (abs(exponent) > kLargestExponent) throw std::length_error("a power too large");
       return power(e.op(0), exponent.to_int());
     }
+    if (is_inverse(e)) {
+      Fraction result;  // of a root
+      divide(result, GiNaC::pow(e.op(0), -e.op(1)).map(normal), 1);
+      return result;
+    }
     if (e.nops() == 0) return {.numerator = e};
-    return {.numerator = e.map([](const GiNaC::ex& x) { return x.normal(); })};
+    return {.numerator = e.map(normal)};
   }
 
  private:
+  static GiNaC::ex normal(const GiNaC::ex& e) { return e.normal(); }
+
   GiNaC::ex product(const GiNaC::ex& a, const GiNaC::ex& b) {
     terms_ += terms_of(a) * terms_of(b);
     if (terms_ > kMostTerms) throw std::length_error("products of many terms");
@@ -60,19 +92,21 @@ class Fractions {
   }
 
   // a base^exponent
-  GiNaC::ex times_power(GiNaC::ex a, const GiNaC::ex& base, int exponent) {
-    if (terms_of(base) == 1) return product(a, GiNaC::pow(base, exponent));
-    if (exponent > kLargestPower) throw std::length_error("a power of many terms");
+  GiNaC::ex times_power(GiNaC::ex a, const GiNaC::ex& base, long long exponent) {
+    if (exponent > (terms_of(base) == 1 ? kLargestExponent : kLargestPower))
+      throw std::length_error("a power too large");
+    if (terms_of(base) == 1)
+      return product(a, GiNaC::pow(base, GiNaC::numeric(static_cast<long>(exponent))));
     for (int k = 0; k < exponent; ++k) a = product(a, base);
     return a;
   }
 
   // 1 / polynomial: a product gives its factors, a sum is divided by its first coefficient, so that
   // x - y and 2 y - 2 x are one denominator.
-  void divide(Fraction& f, const GiNaC::ex& polynomial, int times) {
+  void divide(Fraction& f, const GiNaC::ex& polynomial, long long times) {
     if (polynomial.is_zero()) throw std::overflow_error("a denominator is identically zero");
     if (GiNaC::is_a<GiNaC::numeric>(polynomial)) {
-      f.numerator *= GiNaC::pow(polynomial, -times);
+      f.numerator *= GiNaC::pow(polynomial, -GiNaC::numeric(static_cast<long>(times)));
     } else if (GiNaC::is_a<GiNaC::mul>(polynomial)) {
       for (const GiNaC::ex& factor : polynomial) divide(f, factor, times);
     } else if (GiNaC::is_a<GiNaC::power>(polynomial) &&
@@ -84,10 +118,10 @@ class Fractions {
       for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(term) && i < term.nops(); ++i) {
         if (GiNaC::is_a<GiNaC::numeric>(term.op(i))) first *= term.op(i);
       }
-      f.numerator *= GiNaC::pow(first, -times);
-      f.denominator[(polynomial / first).expand()] += times;
+      f.numerator *= GiNaC::pow(first, -GiNaC::numeric(static_cast<long>(times)));
+      add_power(f.denominator, (polynomial / first).expand(), times);
     } else {
-      f.denominator[polynomial] += times;
+      add_power(f.denominator, polynomial, times);
     }
   }
 
@@ -125,10 +159,11 @@ class Fractions {
     Fraction result;
     if (exponent > 0) {
       result.numerator = times_power(1, f.numerator, times);
-      for (const auto& [b, k] : f.denominator) result.denominator[b] = k * times;
+      for (const auto& [b, k] : f.denominator)
+        add_power(result.denominator, b, static_cast<long long>(k) * times);
     } else {
       for (const auto& [b, k] : f.denominator)
-        result.numerator = times_power(result.numerator, b, k * times);
+        result.numerator = times_power(result.numerator, b, static_cast<long long>(k) * times);
       divide(result, f.numerator, times);
     }
     return result;
@@ -139,6 +174,14 @@ class Fractions {
 
 }  // namespace
 
-GiNaC::ex numerator(const GiNaC::ex& e) { return Fractions().fraction(e).numerator.expand(); }
+// What is made of roots may become fractions when it is multiplied.
+GiNaC::ex numerator(const GiNaC::ex& e) {
+  GiNaC::ex result = e;
+  for (int pass = 0; pass < 5; ++pass) {
+    result = Fractions().fraction(result).numerator.expand();
+    if (!has_inverses(result)) return result;
+  }
+  throw std::length_error("fractions within fractions");
+}
 
 }  // namespace hamgen

@@ -29,8 +29,34 @@ TEST(Numerator, OfWhatIsZeroIsZero) {
       pow(x, ex(1) / 3) / y * pow(x, ex(2) / 3) - x / y,
       sin(1 / x + 1 / y) - sin((x + y) / (x * y)),
       pow(pow(x, 100000) * y, -1) - pow(x, -100000) / y,
+      // Roots in denominators, and powers that add up to whole ones.
+      (pow(x, 2) + pow(y, 2)) * pow(pow(x, 2) + pow(y, 2), -ex(1) / 3) -
+          pow(pow(x, 2) + pow(y, 2), ex(2) / 3),
+      pow(x, 2) * pow(pow(x, 2) + pow(y, 2), -ex(1) / 3) +
+          pow(y, 2) * pow(pow(x, 2) + pow(y, 2), -ex(1) / 3) -
+          pow(pow(x, 2) + pow(y, 2), ex(2) / 3),
+      pow(x, -z) * (pow(x, z) + 1) - 1 - pow(x, -z),
+      pow(x * y, -x / (x + z) - z / (x + z)) - 1 / (x * y),
   };
   for (const ex& e : zeros) EXPECT_TRUE(numerator(e).is_zero()) << e << " gives " << numerator(e);
+}
+
+// Its powers are counted, not lost in 32 bits.
+TEST(Numerator, OfPowersOfPowersIsRefusedWhereTheyAreTooLarge) {
+  const ex inverse = (y + 1) / pow(x, 65536) - y / pow(x, 65536);
+  EXPECT_THROW((void)numerator(pow(inverse, 65536) - 1), std::length_error);
+  EXPECT_THROW((void)numerator(pow(inverse, -65536) - 1), std::length_error);
+  EXPECT_FALSE(numerator(pow(inverse, 10) - 1).is_zero());
+}
+
+// A polynomial: no power is negative, as those who look for powers of roots want it.
+TEST(Numerator, HasNoNegativePowers) {
+  for (const ex& e : {pow(x * y, -x / (x + z) - z / (x + z)) - x / y,
+                      exp(log(1 / x) + 1 / (y + 1) + y / (y + 1) - 1) - x}) {
+    const ex found = numerator(e);
+    EXPECT_GE(found.ldegree(x), 0) << found;
+    EXPECT_GE(found.ldegree(y), 0) << found;
+  }
 }
 
 TEST(Numerator, OfWhatIsNotZeroIsNot) {
@@ -42,6 +68,10 @@ TEST(Numerator, OfWhatIsNotZeroIsNot) {
       1 / (1 + 1 / x) - x / (x - 1),
       sin(x) / cos(y) - sin(y) / cos(x),
       pow(x / (x + y) - 1, 3) - pow(y / (x + y), 3),
+      pow(x * y, -x / (x + z) - z / (x + z)) - x / y,
+      (pow(x * y, ex(1) / 3) + 1) * (pow(x * y, -ex(4) / 3) + 1) - pow(x * y, ex(1) / 3) -
+          pow(x * y, -ex(4) / 3) - 1 - x / y,
+      exp(log(1 / x) + 1 / (y + 1) + y / (y + 1) - 1) - x,
   };
   for (const ex& e : others) EXPECT_FALSE(numerator(e).is_zero()) << e;
 }
