@@ -76,8 +76,8 @@ bool vanishes_with_roots(GiNaC::ex sum, const SquareRoots& roots, SymbolTable& t
   for (const auto& [base, symbol] : roots.symbols) {
     const GiNaC::ex s = table.symbol(symbol.name(), 0);
     const GiNaC::ex b = to_ginac(base, table);
+    if (sum.ldegree(s) < 0) return false;  // which numerator() excludes, and k / 2 has to
     GiNaC::ex reduced = 0;
-    if (sum.ldegree(s) < 0) return false;  // no polynomial
     for (int k = sum.ldegree(s); k <= sum.degree(s); ++k) {
       reduced += sum.coeff(s, k) * GiNaC::pow(b, k / 2) * (k % 2 == 0 ? GiNaC::ex(1) : s);
     }

@@ -72,7 +72,7 @@ void print_other(const double* numbers, int count) {
   std::printf("\n");
 }
 template <class T>
-auto carried(const T& method, int lane, bool q, int) -> decltype(+method.carry().Q[lane]) {
+auto carried(const T& method, int lane, bool q, int) -> decltype(static_cast<void>(method.carry()), double()) {
   return q ? method.carry().Q[lane] : method.carry().P[lane];
 }
 template <class T>

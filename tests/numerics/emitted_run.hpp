@@ -13,9 +13,9 @@ namespace hamgen::numerics_test {
 using Quad = __float128;
 using Vector = std::vector<long double>;
 
-// What few steps show is interpreted, one integrator of a scalar at a time: that compiled code takes
-// the same steps is the matter of tests/interpreter.  With HAMGEN_COMPILE_STEPS set, it is compiled
-// too.
+// What few steps show is interpreted, one integrator of a scalar at a time: that compiled code
+// takes the same steps is the matter of tests/interpreter.  With HAMGEN_COMPILE_STEPS set, it is
+// compiled too.
 enum class Steps { compiled, interpreted };
 
 class Emitted {

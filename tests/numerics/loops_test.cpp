@@ -136,7 +136,7 @@ TEST(Loops, WhatIsNotSeparableIsABandOfCoordinatesAndMomentaInTurn) {
 TEST(Loops, ADefinitionMayHoldASum) {
   const std::string head = "size N = 26\ncoordinate q[1..N]\nmomentum p[1..N]\n";
   const std::string kinetic = "H = sum(i = 1..N, p[i]^2/2";
-  const Request explicit_step{.alpha = "0"};  // what is written out compiles quickly
+  const Request explicit_step{.alpha = "0"};
   Vector start(52);
   for (std::size_t i = 0; i < start.size(); ++i)
     start[i] = static_cast<long double>(i % 7) / 8 - static_cast<long double>(i % 3) / 4;

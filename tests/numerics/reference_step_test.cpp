@@ -1,5 +1,5 @@
-// Emitted steps against a step by hand, in long double: other derivatives, no tearing, dense
-// Newton.
+// Steps as they are emitted, interpreted, against a step by hand, in long double: other
+// derivatives, no tearing, dense Newton.
 #include <gtest/gtest.h>
 
 #include "tests/numerics/dense_step.hpp"
