@@ -1,5 +1,5 @@
-// drift [--steps N] [--starts N] [--seconds S] [WORD...]: a table of the rows whose problem or name
-// has one of the words in it.
+// drift [--steps N] [--starts N] [--seconds S] [--lanes W] [WORD...]: a table of the rows whose
+// problem or name has one of the words in it; W starts side by side, in lanes.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -14,9 +14,8 @@ namespace {
 using namespace hamgen::drift;
 
 struct Options {
-  long long steps = 6'000'000;
-  int starts = 32;
-  double seconds = 600;
+  Length length;
+  std::vector<std::string> flags;
   std::vector<std::string> words;
 };
 
@@ -26,11 +25,14 @@ Options read_options(int count, char** arguments) {
     const std::string argument = arguments[i];
     const auto value = [&] { return std::atof(i + 1 < count ? arguments[++i] : "0"); };
     if (argument == "--steps") {
-      options.steps = static_cast<long long>(value());
+      options.length.steps = static_cast<long long>(value());
     } else if (argument == "--starts") {
-      options.starts = static_cast<int>(value());
+      options.length.starts = static_cast<int>(value());
     } else if (argument == "--seconds") {
-      options.seconds = value();
+      options.length.seconds = value();
+    } else if (argument == "--lanes") {
+      options.length.lanes = static_cast<int>(value());
+      options.flags = {"-march=native"};
     } else {
       options.words.push_back(argument);
     }
@@ -62,7 +64,7 @@ int main(int count, char** arguments) {
     fmt::print("{:30} {:34} ", row.problem, row.name);
     std::fflush(stdout);
     try {
-      const Result r = measure(row, options.steps, options.starts, options.seconds);
+      const Result r = measure(row, options.length, {}, options.flags);
       ++measured;
       const bool drifts = r.drifts();
       if (drifts && !row.is_exempt) ++drifting;

@@ -19,16 +19,18 @@ namespace {
 constexpr int kParts = 16;  // of a run
 
 // What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
-// seconds.
+// seconds, lanes.  Numbers of a batch are in memory one after another, lane by lane.
 constexpr const char* kProgram = R"(
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <memory>
 #include <vector>
 
 using Quad = __float128;
-constexpr int size = sizeof(rounded::State) / sizeof(double);
+constexpr int lanes = {lanes};
+constexpr int size = sizeof(rounded::State) / sizeof(double) / lanes;
 static_assert(sizeof(exact::State) == size * sizeof(Quad));
 
 static std::uint64_t seed = 0;
@@ -39,11 +41,11 @@ static double uniform() {{
 
 static exact::Parameters exact_parameters(const rounded::Parameters& par) {{
   exact::Parameters result;
-  constexpr int count = sizeof(rounded::Parameters) / sizeof(double);
-  double values[count + 1];
+  constexpr int count = sizeof(rounded::Parameters) / sizeof(double) / lanes;
+  double values[count * lanes + 1];
   Quad wide[count + 1];
-  std::memcpy(values, &par, count * sizeof(double));
-  for (int i = 0; i < count; ++i) wide[i] = values[i];
+  std::memcpy(values, &par, count * lanes * sizeof(double));
+  for (int i = 0; i < count; ++i) wide[i] = values[i * lanes];
   std::memcpy(static_cast<void*>(&result), wide, count * sizeof(Quad));
   return result;
 }}
@@ -54,13 +56,31 @@ static Quad conserved(const exact::Parameters& par, Quad h, const Quad (&z)[size
   {quantity}
 }}
 
-static Quad conserved(const exact::Parameters& par, double h, const rounded::Propagator& run) {{
-  double hi[size], lo[size];
+static Quad conserved(const exact::Parameters& par, double h, const rounded::Propagator& run,
+                      int lane) {{
+  double hi[size * lanes], lo[size * lanes];
   std::memcpy(hi, &run.state(), sizeof hi);
   std::memcpy(lo, &run.carry(), sizeof lo);
   Quad z[size];
-  for (int i = 0; i < size; ++i) z[i] = Quad(hi[i]) + lo[i];
+  for (int i = 0; i < size; ++i) z[i] = Quad(hi[i * lanes + lane]) + lo[i * lanes + lane];
   return conserved(par, Quad(h), z);
+}}
+
+static void put_start(int s, int lane, double (&all)[size * lanes]) {{
+  seed = 7919u * s + 13;
+  for (int i = 0; i < 10; ++i) uniform();
+  double z[size];
+  {start}
+  for (int i = 0; i < size; ++i) all[i * lanes + lane] = z[i];
+}}
+
+static bool is_true(bool all_done) {{ return all_done; }}
+template <class Mask>
+static bool is_true(const Mask& mask) {{
+  for (int lane = 0; lane < lanes; ++lane) {{
+    if (!mask[lane]) return false;
+  }}
+  return true;
 }}
 
 static double now() {{
@@ -75,23 +95,29 @@ int main() {{
   const rounded::Parameters par;
   const exact::Parameters exact_par = exact_parameters(par);
   double running = 0;
-  for (int s = 0; s < {starts} && (s < 4 || running < {seconds}); ++s) {{
-    seed = 7919u * s + 13;
-    for (int i = 0; i < 10; ++i) uniform();
-    double z[size];
-    {start}
+  for (int s = 0; s < {starts} && (s < 4 || running < {seconds}); s += lanes) {{
+    double z[size * lanes];
+    for (int lane = 0; lane < lanes; ++lane) put_start(s + lane, lane, z);
     rounded::State state;
     std::memcpy(static_cast<void*>(&state), z, sizeof z);
-    rounded::Propagator run(par, h, state);
-    const Quad before = conserved(exact_par, h, run);
+    const auto made = std::make_unique<rounded::Propagator>(par, h, state);
+    rounded::Propagator& run = *made;
+    Quad before[lanes];
+    for (int lane = 0; lane < lanes; ++lane) before[lane] = conserved(exact_par, h, run, lane);
+    double errors[lanes][{parts}];
     for (int part = 0; part < {parts}; ++part) {{
       const double begin = now();
-      if (!run.advance(steps).converged) return 1;
+      if (!is_true(run.advance(steps).converged)) return 1;
       running += now() - begin;
-      const Quad change = conserved(exact_par, h, run) - before;
-      std::printf("%.17g ", double(change / (before < 0 ? -before : before)));
+      for (int lane = 0; lane < lanes; ++lane) {{
+        const Quad change = conserved(exact_par, h, run, lane) - before[lane];
+        errors[lane][part] = double(change / (before[lane] < 0 ? -before[lane] : before[lane]));
+      }}
     }}
-    std::printf("%.17g\n", running);
+    for (int lane = 0; lane < lanes && s + lane < {starts}; ++lane) {{
+      for (const double error : errors[lane]) std::printf("%.17g ", error);
+      std::printf("%.17g\n", running);
+    }}
   }}
 }}
 )";
@@ -160,18 +186,20 @@ bool Result::drifts() const {
   return of_all || of_each;
 }
 
-Result measure(const Row& row, long long steps, int starts, double seconds, const Edit& edit,
+Result measure(const Row& row, const Length& length, const Edit& edit,
                const std::vector<std::string>& flags) {
-  const std::string rounded = emitted_header(row.model, row.request, "double", "rounded");
+  Request request = row.request;
+  if (length.lanes > 1) request.batch = length.lanes;
+  const std::string rounded = emitted_header(row.model, request, "double", "rounded");
   const std::size_t invariants =
       read_request(make_source("drift.ham", row.model), row.request).invariants.size();
-  const long long part = std::max<long long>(steps / kParts, 1);
+  const long long part = std::max<long long>(length.steps / kParts, 1);
   const std::string program =
       fmt::format("constexpr int exact_invariants = {};\n", std::max<std::size_t>(invariants, 1)) +
       fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
                   fmt::arg("h", row.h), fmt::arg("steps", part), fmt::arg("parts", kParts),
-                  fmt::arg("starts", starts), fmt::arg("seconds", seconds),
-                  fmt::arg("start", row.start));
+                  fmt::arg("starts", length.starts), fmt::arg("seconds", length.seconds),
+                  fmt::arg("lanes", length.lanes), fmt::arg("start", row.start));
   std::istringstream output(
       output_of_program({{"rounded.hpp", edit ? edit(rounded) : rounded},
                          {"exact.hpp", emitted_header(row.model, row.request, "quad", "exact")}},

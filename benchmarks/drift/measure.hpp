@@ -51,12 +51,20 @@ struct Result {
   [[nodiscard]] double units() const;
 };
 
+struct Length {
+  long long steps = 6'000'000;
+  int starts = 32;
+  double seconds = 600;  // of processor time, after which no start begins but the first four
+  // If more than 1: the header of a batch of so many (`--batch`), and so many starts side by side.
+  // Its steps look at their solver less often than those of one trajectory, whose bits are others.
+  int lanes = 1;
+};
+
 using Edit = std::function<std::string(const std::string&)>;
 
-// At least four starts, no more after so many seconds of processor time.  `edit` changes the
-// emitted header in double, `flags` come after those of `hamgen run`.  Throws std::runtime_error
-// with the compiler's or the program's words.
-[[nodiscard]] Result measure(const Row& row, long long steps, int starts, double seconds,
-                             const Edit& edit = {}, const std::vector<std::string>& flags = {});
+// `edit` changes the emitted header in double, `flags` come after those of `hamgen run`.  Throws
+// std::runtime_error with the compiler's or the program's words.
+[[nodiscard]] Result measure(const Row& row, const Length& length, const Edit& edit = {},
+                             const std::vector<std::string>& flags = {});
 
 }  // namespace hamgen::drift

@@ -36,18 +36,19 @@ std::string replaced(std::string text, const Replacement& r) {
   return text;
 }
 
-struct Length {
+struct Short {
   long long steps = kSteps;
   int starts = kStarts;
 };
 Result result_of(const Row& row, const std::vector<Replacement>& edits = {},
-                 const Length& length = {}) {
+                 const Short& length = {}) {
   const auto edit = [&](std::string header) {
     for (const Replacement& each : edits) header = replaced(std::move(header), each);
     return header;
   };
   // The same bits by any optimisation, and the compiler takes less time.
-  return measure(row, length.steps, length.starts, 60, edit, {"-O1"});
+  return measure(row, {.steps = length.steps, .starts = length.starts, .seconds = 60}, edit,
+                 {"-O1"});
 }
 
 std::string words(const Result& result) {
@@ -58,7 +59,7 @@ std::string words(const Result& result) {
 
 // The row does not drift, and what the edits make of its text does.
 void expect_drift_only_with(const std::vector<Replacement>& edits, const Row& row,
-                            const Length& length = {}) {
+                            const Short& length = {}) {
   const Result result = result_of(row, {}, length);
   EXPECT_FALSE(result.drifts()) << words(result);
   const Result mutant = result_of(row, edits, length);
@@ -98,7 +99,7 @@ TEST(Drift, AnAffineBlockNeedsWhatItsGradientLoses) {
 
 TEST(Drift, LinearEquationsInLoopsNeedWhatGradientsAndDifferencesLose) {
   const Row row{.model = chain(25), .request = {}, .h = 1};
-  const Length length{.steps = 50'000};
+  const Short length{.steps = 50'000};
   expect_drift_only_with({{"lost[i] = -(left[i] + lost[i])", "lost[i] = 0"}}, row, length);
   const Result mutant =
       result_of(row, {{"= difference_error(", "= 0 * difference_error("}}, length);
