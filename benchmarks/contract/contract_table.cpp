@@ -3,10 +3,10 @@
 // tests/contract/watch.hpp.
 //
 //   contract_table [--scalar S]... [--method M]... [--steps N] [--compiled]
-//                  [--but MODEL]... [MODEL...]
+//                  [--batch W] [--but MODEL]... [MODEL...]
 //
-// The steps are interpreted, or with --compiled emitted and compiled.  Exit status 1 if any is
-// beyond what is allowed.
+// The steps are interpreted, or with --compiled emitted and compiled, with --batch the first lane
+// of a header of W trajectories.  Exit status 1 if any is beyond what is allowed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,6 +31,7 @@ struct Choice {
   std::vector<std::string> scalars, methods, models;
   long steps = 0;
   bool compiled = false;
+  int batch = 0;
 };
 
 Choice read(int argc, char** argv) {
@@ -47,6 +48,9 @@ Choice read(int argc, char** argv) {
     } else if (word == "--but") {
       if (choice.models.empty()) choice.models = hamgen::contract::all_models();
       std::erase(choice.models, value), ++i;
+    } else if (word == "--batch") {
+      choice.batch = std::stoi(value), ++i;
+      choice.compiled = true;
     } else if (word == "--compiled") {
       choice.compiled = true;
     } else {
@@ -110,6 +114,7 @@ int main(int argc, char** argv) {
           continue;
         }
         method.request.scalar = scalar;
+        method.request.batch = choice.batch;
         method.name += " " + scalar;
         const std::vector<Case> cases =
             hamgen::contract::scenes_of(model.model(), source, method, choice.steps);

@@ -21,6 +21,7 @@ constexpr int kParts = 16;  // of a run
 // What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
 // seconds, lanes.  Numbers of a batch are in memory one after another, lane by lane.
 constexpr const char* kProgram = R"(
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>

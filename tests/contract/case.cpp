@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include "generator/base/source_text.hpp"
 #include "generator/interpreter/compiled_expression.hpp"
@@ -130,6 +131,8 @@ std::vector<std::string> all_models() {
     models.push_back(entry.path().stem().string());
   }
   std::ranges::sort(models);
+  if (std::ranges::adjacent_find(models) != models.end())
+    throw std::logic_error("two models of one name: one of them would not be measured");
   return models;
 }
 

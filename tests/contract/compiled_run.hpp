@@ -10,28 +10,54 @@
 
 namespace hamgen::contract {
 
-// A state is nothing but its numbers.
-template <class Real, class State>
+// A state is nothing but its numbers; of a batch of so many trajectories they are in memory lane by
+// lane, and the first lane is looked at.
+template <class Real, int lanes = 1, class State>
 Vector numbers(const State& state) {
   std::vector<Real> values(sizeof(State) / sizeof(Real));
   std::memcpy(values.data(), &state, sizeof(State));
-  return Vector(values.begin(), values.end());
+  Vector result;
+  for (std::size_t k = 0; k < values.size(); k += lanes) result.push_back(values[k]);
+  return result;
 }
-template <class Real, class State>
-State state_of(const Vector& values) {
+// The other lanes have these numbers too, or each its own, a little apart.
+template <class Real, class State, int lanes = 1>
+State state_of(const Vector& values, bool apart = false) {
   State state;
   if constexpr (!std::is_empty_v<State>) {
     std::vector<Real> rounded;
-    for (const Quad value : values) rounded.push_back(static_cast<Real>(value));
+    for (const Quad value : values) {
+      for (int lane = 0; lane < lanes; ++lane)
+        rounded.push_back(static_cast<Real>(value * (apart ? 1 - Quad(lane) / 512 : 1)));
+    }
     std::memcpy(static_cast<void*>(&state), rounded.data(), sizeof(State));
   }
   return state;
 }
 
-template <class Real, class Stepper>
+// What a report or a length says of the first lane.
+template <class Real, class Number>
+Real first_number(const Number& number) {
+  Real value;
+  std::memcpy(&value, &number, sizeof value);
+  return value;
+}
+inline bool is_first(bool yes) { return yes; }
+template <class Mask>
+bool is_first(const Mask& mask) {
+  return mask[0];
+}
+inline long long first_count(long long count) { return count; }
+template <class Number>
+long long first_count(const Number& count) {
+  return static_cast<long long>(first_number<double>(count));
+}
+
+template <class Emitted, class Stepper>
 Vector state_and_carry(const Stepper& stepper) {
-  Vector z = numbers<Real>(stepper.z_);
-  const Vector carry = numbers<Real>(stepper.carry_);
+  using Real = typename Emitted::Real;
+  Vector z = numbers<Real, Emitted::lanes>(stepper.z_);
+  const Vector carry = numbers<Real, Emitted::lanes>(stepper.carry_);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] += carry[k];
   return z;
 }
@@ -44,7 +70,7 @@ struct Compiled {
   typename Emitted::Parameters par;
   Vector gradient(const Vector& z) const {
     std::vector<Real> g(z.size());
-    Emitted::gradient(par, state_of<Real, typename Emitted::State>(z), g.data());
+    Emitted::gradient(par, state_of<Real, typename Emitted::State, Emitted::lanes>(z), g.data());
     return Vector(g.begin(), g.end());
   }
 };
@@ -53,10 +79,10 @@ struct Compiled {
 template <class Emitted>
 struct CompiledStepper {
   typename Emitted::Propagator& all;
-  Vector exact_state() const { return state_and_carry<typename Emitted::Real>(all); }
+  Vector exact_state() const { return state_and_carry<Emitted>(all); }
   Attempt step() {
     const auto report = all.step();
-    return {report.converged, report.iterations};
+    return {is_first(report.converged), first_count(report.iterations)};
   }
 };
 template <class Emitted>
@@ -64,10 +90,10 @@ struct CompiledSubstep {
   typename Emitted::Propagator& all;
   int i;
   typename Emitted::State z_, carry_;
-  Vector exact_state() const { return state_and_carry<typename Emitted::Real>(*this); }
+  Vector exact_state() const { return state_and_carry<Emitted>(*this); }
   Attempt step() {
     const auto report = all.substep(i, z_, carry_);
-    return {report.converged, report.iterations};
+    return {is_first(report.converged), first_count(report.iterations)};
   }
 };
 
@@ -86,7 +112,7 @@ struct CompiledExact : Compiled<Emitted> {
       result.end = first.exact_state();
     } else {
       result.converged = all.step().converged;
-      result.end = state_and_carry<Quad>(all);
+      result.end = state_and_carry<Emitted>(all);
       if constexpr (requires { all.start_.value, all.start_.state; }) {
         // z at every stage, too, where a component's numbers of all stages stand side by side.
         const std::size_t count = std::size(all.start_.value);
@@ -108,19 +134,21 @@ Defects run(const Vector& parameters, const Equations& equations, typename Emitt
             const Vector& start, long long steps) {
   using Real = typename Emitted::Real;
   using State = typename Emitted::State;
-  Compiled<Emitted> code{state_of<Real, typename Emitted::Parameters>(parameters)};
+  constexpr int lanes = Emitted::lanes;
+  Compiled<Emitted> code{state_of<Real, typename Emitted::Parameters, lanes>(parameters)};
   CompiledExact<ExactEmitted> exact{};
   if constexpr (!std::is_empty_v<typename Emitted::Parameters>) {  // the same, rounded, numbers
-    exact.par = state_of<Quad, typename ExactEmitted::Parameters>(numbers<Real>(code.par));
+    exact.par = state_of<Quad, typename ExactEmitted::Parameters>(numbers<Real, lanes>(code.par));
   }
-  typename Emitted::Propagator all(code.par, h, state_of<Real, State>(start));
+  typename Emitted::Propagator all(code.par, h, state_of<Real, State, lanes>(start, true));
   Watch watch(code, exact);
   Defects defects;
   for (defects.steps = 0; defects.steps < steps; ++defects.steps) {
     if constexpr (requires { Emitted::Propagator::substeps; }) {
       CompiledSubstep<Emitted> substep{all, 0, all.z_, all.carry_};
       for (; substep.i < Emitted::Propagator::substeps; ++substep.i) {
-        defects.failed = !watch.solve(substep, equations, all.lengths_[substep.i], defects);
+        defects.failed =
+            !watch.solve(substep, equations, first_number<Real>(all.lengths_[substep.i]), defects);
         if (defects.failed) return defects;
       }
       all.z_ = substep.z_;

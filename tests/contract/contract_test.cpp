@@ -29,7 +29,7 @@ TEST(CompiledSteps, HaveTheDefectsOfInterpretedOnes) {
       case_of("wall", "bounce", {.scheme = "stormer-verlet"}, 300),
       case_of("harmonic", "stiff", {.alpha = "3/10", .beta = "1/5", .gamma = "-1/10"}, 300),
       case_of("box", "soft", {.scalar = "long-double"}, 300),
-      case_of("beads", "shot", {}, 100)};
+      case_of("hard_beads", "shot", {}, 100)};
   const std::vector<Defects> compiled = measure(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Defects& d = compiled[i];
@@ -44,6 +44,32 @@ TEST(CompiledSteps, HaveTheDefectsOfInterpretedOnes) {
     EXPECT_NEAR(d.units, interpreted.units, 1e-5 * interpreted.units) << d.name;
     EXPECT_NEAR(d.worst, interpreted.worst, 1e-5 * interpreted.worst) << d.name;
   }
+}
+
+// Each lane decides for itself when its equations are solved, by rules of its own blocks.
+void expect_kept_in_lanes(const std::vector<Case>& cases) {
+  for (const Defects& d : measure(cases)) {
+    EXPECT_FALSE(d.failed) << d.name << " after step " << d.steps;
+    EXPECT_LE(d.worst, kAllowed) << d.name << " at step " << d.worst_step;
+    EXPECT_LE(d.reference, 1e-9) << d.name;
+    EXPECT_EQ(d.broken, 0) << d.name;
+    EXPECT_EQ(d.unknown, 0) << d.name;
+    EXPECT_GT(d.solves, 0) << d.name;
+  }
+}
+TEST(StepsInLanes, KeepTheContract) {
+  expect_kept_in_lanes({case_of("wall", "bounce", {.batch = 2}, 700),
+                        case_of("box", "soft", {.solver = "fixed-point", .batch = 2}, 700)});
+}
+TEST(StepsInLanes, KeepTheContractByOtherMethods) {
+  expect_kept_in_lanes(
+      {case_of("box", "soft", {.scheme = "gauss-4", .batch = 2}, 500),
+       case_of("wall", "bounce", {.scheme = "gauss-4", .solver = "newton", .batch = 2}, 700),
+       case_of("morse_approach", "far", {.scheme = "yoshida-4", .batch = 2}, 300),
+       case_of("wall", "bounce", {.scheme = "stormer-verlet", .batch = 2}, 300),
+       case_of("harmonic", "stiff", {.alpha = "3/10", .beta = "1/5", .gamma = "-1/10", .batch = 2},
+               300),
+       case_of("hard_beads", "shot", {.batch = 2}, 100)});
 }
 
 // A step without the carry solves its equations as well: it rounds the state, and no more.
@@ -88,7 +114,7 @@ TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
     EXPECT_NE(at, std::string::npos);
     return at == std::string::npos ? text : text.replace(at, 11, "uneven >= 0");
   };
-  const Case beads = case_of("beads", "shot", {.solver = "newton"}, 100);
+  const Case beads = case_of("hard_beads", "shot", {.solver = "newton"}, 100);
   EXPECT_LE(Interpretable(beads.model).measure(beads).worst, kAllowed);
   EXPECT_GE(measure({beads}, forget_each).at(0).worst, 2 * kAllowed);
 }
@@ -107,6 +133,20 @@ TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
     EXPECT_GE(d.worst, 1e6) << d.name;
     EXPECT_GE(d.broken, 1) << d.name;
   }
+}
+
+TEST(ContractIsBroken, InLanesByARuleThatOnlyRemembers) {
+  const auto forget_the_motion = [](std::string text) {
+    const std::string look = "is_next_lost(size, round_off) & is_straight(size, round_off)";
+    const auto at = text.find(look);
+    EXPECT_NE(at, std::string::npos);
+    return at == std::string::npos ? text
+                                   : text.replace(at, look.size(), "is_next_lost(size, round_off)");
+  };
+  const Defects d =
+      measure({case_of("wall", "bounce", {.batch = 2}, 700)}, forget_the_motion).at(0);
+  EXPECT_GE(d.worst, 100 * kAllowed);
+  EXPECT_GE(d.broken, 1);
 }
 
 // In a hard box the polynomial of the stages before leads where no iteration comes back from; the

@@ -23,37 +23,47 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-// A plugin's text without the interface to the runtime.  Its members are looked at.
+// A plugin's text without the interface to the runtime, or a batch's header.  Its members are
+// looked at.
 std::string inside(const Case& c, const std::string& name_space, const std::string& scalar) {
   Request request = c.request;
   request.scalar = scalar;
   request.name_space = name_space;
   // A slow fixed point has not the iterations for the digits of quad; Newton has.
   if (scalar == "quad" && request.solver == "fixed-point") request.solver = "";
-  std::string text = generate_plugin(c.model, request).text;
-  text.erase(text.find("// The interface of plugin.h."));
+  if (scalar == "quad") request.batch = 0;
+  std::string text;
+  if (request.batch > 0) {
+    text = emit(c.model, request).at(0).text;
+  } else {
+    text = generate_plugin(c.model, request).text;
+    text.erase(text.find("// The interface of plugin.h."));
+  }
   replace_all(text, " private:\n", " public:\n");
   return text;
 }
 
 // The names that compiled_run.hpp wants.
 std::string adapter(const std::string& name, const std::string& name_space,
-                    const ScalarType& scalar) {
+                    const ScalarType& scalar, int batch) {
   return fmt::format(R"(struct {0} {{
-  using Real = {1}::Real;
+  static constexpr int lanes = {3};
+  using Number = {1}::Real;
+  using Real = {4};
   using State = {1}::State;
   using Parameters = {1}::Parameters;
   using Propagator = {1}::Propagator;
   static constexpr Real epsilon = {2};
   static void gradient(const Parameters& par, const State& z, Real* g) {{
-    constexpr int size = sizeof(State) / sizeof(Real);
-    Real values[size];
+    constexpr int size = sizeof(State) / sizeof(Number);
+    Number values[size];
     {1}::gradient(par, z, values);
-    for (int i = 0; i < size; ++i) g[i] = values[i];
+    for (int i = 0; i < size; ++i) g[i] = first_number<Real>(values[i]);
   }}
 }};
 )",
-                     name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon);
+                     name, name_space, scalar.cpp == "__float128" ? "0" : scalar.epsilon,
+                     std::max(batch, 1), batch > 0 ? "double" : name_space + "::Real");
 }
 
 std::string list(const std::vector<double>& values) {
@@ -82,7 +92,9 @@ std::string list(const Matrix& rows) {
 std::string call(const Case& c, std::size_t i) {
   const Start start = start_of(c);
   std::vector<double> parameters;
-  for (const std::string& name : generate_plugin(c.model, c.request).parameter_names) {
+  Request alone = c.request;
+  alone.batch = 0;
+  for (const std::string& name : generate_plugin(c.model, alone).parameter_names) {
     const auto found =
         std::ranges::find(start.parameters, name, &std::pair<std::string, double>::first);
     if (found == start.parameters.end()) {
@@ -126,12 +138,13 @@ std::string program(const std::vector<Case>& cases,
     std::string code = inside(cases[i], measured, std::string(scalar.name));
     if (edit) code = edit(std::move(code));
     const std::string quad = inside(cases[i], exact, "quad");
-    text += code + quad + adapter(fmt::format("Measured_{}", i), measured, scalar) +
-            adapter(fmt::format("Exact_{}", i), exact, find_scalar("quad"));
+    text += code + quad +
+            adapter(fmt::format("Measured_{}", i), measured, scalar, cases[i].request.batch) +
+            adapter(fmt::format("Exact_{}", i), exact, find_scalar("quad"), 0);
     calls += call(cases[i], i);
   }
-  return "#include \"tests/contract/compiled_run.hpp\"\n" + text +
-         "using namespace hamgen::contract;\nint main() {\n" + calls + "}\n";
+  return "#include \"tests/contract/compiled_run.hpp\"\nusing namespace hamgen::contract;\n" +
+         text + "int main() {\n" + calls + "}\n";
 }
 
 std::vector<Defects> read_defects(const std::string& output) {

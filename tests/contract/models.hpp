@@ -56,7 +56,7 @@ scene above { q = 3.1; h = 1.9; steps = 1000 }
 scene round { q = 3; p = 1; h = 1.9; steps = 1000 }
 )"},
     // Sums that stay loops: beads between two walls that meet one another by exponentials.
-    SteepModel{"beads", R"(size N = 32
+    SteepModel{"hard_beads", R"(size N = 32
 coordinate q[1..N] with q[0] = 0, q[N+1] = 0
 momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, exp(40*(q[i] - q[i+1] - 1)))

@@ -137,8 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"blanes-moan-6", kWalls, 700}, Row{"order-4", kWalls, 700},
                     Row{"gauss-4", kWalls, 700}, Row{"gauss-4-newton", kWalls, 700},
                     Row{"gauss-8", kWalls, 700}, Row{"kahan-li-8", kCore, 800},
-                    Row{"newton", {{"beads", "shot"}}, 150},
-                    Row{"fixed-point", {{"beads", "shot"}}, 150}));
+                    Row{"newton", {{"hard_beads", "shot"}}, 150},
+                    Row{"fixed-point", {{"hard_beads", "shot"}}, 150}));
 
 TEST(OtherScalars, KeepItOnEveryScene) {
   for (const char* scalar : {"float", "long-double"}) {
