@@ -169,6 +169,8 @@ int run_map(const ChaosOptions& options, const Loaded& loaded, const Indicator& 
                      .json = chaos_map_json(map, title),
                      .csv = chaos_map_csv(map, title)},
                     chaos_map_script(map, indicator, title, options.plot));
+  if (options.output.empty() && options.plot.empty() && !options.json && !options.quiet)
+    print_error("  The cells are not kept: --plot map.svg draws them, -o map.csv writes them.\n");
   return std::ranges::any_of(cells,
                              [](const ChaosCell& c) { return c.status == runtime::Status::done; })
              ? done

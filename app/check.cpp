@@ -8,6 +8,7 @@
 #include "app/output/json_document.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
+#include "app/studies/interpreted.hpp"
 #include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
@@ -38,6 +39,30 @@ void check_scenes(const Model& model, const ScalarType& scalar) {
   if (!mistakes.empty()) throw ModelError(mistakes, model.source);
 }
 
+// The scenes where H or its gradient has no value at the start, whatever the method is.  No
+// mistakes: a run may be given another state.
+std::vector<Diagnostic> undefined_starts(const Model& model, const SourceText& source,
+                                         const Request& request) {
+  std::vector<Diagnostic> found;
+  if (model.scenes.empty() || degrees_of_freedom(model) > largest_checked_scene) return found;
+  Request plain;
+  plain.scalar = request.scalar;
+  plain.sizes = request.sizes;
+  const PluginSource plugin = generate_plugin(source, plain);
+  const runtime::LoadedPlugin integrator = interpreted_integrator(source, plain, plugin);
+  for (const Scene& scene : model.scenes) {
+    SceneValues values = values_of_scene(model, scene);
+    if (!values.h) values.h = 1;
+    try {
+      static_cast<void>(initial_values(plugin, values, *integrator.library));
+    } catch (const ModelError& error) {
+      found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  for (Diagnostic& each : found) each.severity = Severity::warning;
+  return found;
+}
+
 // Throws ModelError where the model is not fine.  What it warns of is told as it is found.
 Model check_model(const SourceText& source, const Request& request,
                   const std::function<void(const std::vector<Diagnostic>&)>& warn) {
@@ -45,6 +70,8 @@ Model check_model(const SourceText& source, const Request& request,
   if (!model.warnings.empty()) warn(model.warnings);
   check_scenes(model, *request.scalar->type);
   check_step(source, request);
+  if (const auto undefined = undefined_starts(model, source, request); !undefined.empty())
+    warn(undefined);
   for (const Corner& corner : corners_of_hamiltonian(source, request)) {
     warn({{.severity = Severity::warning,
            .span = model.hamiltonian->span,

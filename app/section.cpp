@@ -281,6 +281,9 @@ int run_section(const SectionOptions& options) {
   if (!options.quiet) print_error(section_summary(result, title));
   if (options.json) print(section_json(result, title));
   write_files(options, result, title);
+  if (options.output.empty() && options.plot.empty() && !options.json && !options.quiet)
+    print_error(
+        "  The points are not kept: --plot section.svg draws them, -o section.csv writes them.\n");
   if (interrupt_flag()) return interrupted;
   const bool crossed = std::ranges::any_of(
       result.orbits, [](const SectionOrbit& orbit) { return !orbit.points.empty(); });

@@ -64,7 +64,7 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #error "another system of this name is included before: generate one with --namespace"
 #endif
 
-// What follows is the same in every header.
+// What follows knows nothing of the system.
 namespace hamgen_186a1ac0::float64 {
 using Real = double;
 

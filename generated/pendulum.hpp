@@ -65,7 +65,7 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #error "another system of this name is included before: generate one with --namespace"
 #endif
 
-// What follows is the same in every header.
+// What follows knows nothing of the system.
 #if defined __GNUC__ && !defined __clang__  // g++ warns of bounds that are a template's int
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"

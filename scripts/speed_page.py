@@ -228,7 +228,7 @@ def lanes_section():
         name, *cells = line.split()
         rows.append([name, *cells])
         library, _, four, eight = (float(cell) for cell in cells)
-        if library < min(four, eight):
+        if library < max(four, eight):
             faster.append(name)
         narrow += four < eight
     text = """## Elementary functions
@@ -310,13 +310,14 @@ In short, and where another is faster:
 
 
 def faster_libraries():
-    """By how much at most on each model where one is faster to an error of the state."""
+    """By how much at most on each model where one is faster, to an error of the state or the energy."""
     lost = {}
     for model, _, _, targets, errors in by_targets():
-        for place in range(len(targets)):
-            own, other = best(errors["state"], place, False), best(errors["state"], place, True)
-            if own and other and other[0] < 0.98 * own[0]:
-                lost[model] = max(lost.get(model, 0), own[0] / other[0])
+        for methods in errors.values():
+            for place in range(len(targets)):
+                own, other = best(methods, place, False), best(methods, place, True)
+                if own and other and other[0] < 0.98 * own[0]:
+                    lost[model] = max(lost.get(model, 0), own[0] / other[0])
     return listed([f"{model} (by up to {ratio:.1f} times)" for model, ratio in lost.items()]) if lost else ""
 
 

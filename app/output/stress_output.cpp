@@ -87,8 +87,9 @@ std::string reasons_text(const StressMap& map) {
 }
 
 std::string axis_text(const StressAxis& axis) {
-  return fmt::format("{} from {:.4g} to {:.4g}{}", axis.label, axis.values.front(),
-                     axis.values.back(), axis.logarithmic ? ", logarithmic" : "");
+  return fmt::format("{} from {:.4g} to {:.4g}{}{}", axis.label, axis.values.front(),
+                     axis.values.back(), axis.label == "h" ? " steps of the scene" : "",
+                     axis.logarithmic ? ", logarithmic" : "");
 }
 
 bool was_run(const StressCell& cell) { return cell.outcome != runtime::Status::undefined; }

@@ -26,8 +26,9 @@ std::string shown(const StepEquations& equations, const Expression& e) {
   for (int i = 0; i < 2 * equations.mechanics.degrees_of_freedom; ++i) {
     const Expression slope = equations.gradient_symbol(i);
     if (!slope.is_zero())
-      names.emplace(slope.name(),
-                    Expression::symbol("dH/d" + name_of(equations, i), kRankOfTemporary + i));
+      names.emplace(slope.name(), Expression::symbol((equations.function ? "dK/d" : "dH/d") +
+                                                         name_of(equations, i),
+                                                     kRankOfTemporary + i));
   }
   return to_text(substitute(e, names));
 }
@@ -84,7 +85,8 @@ Expression StepEquations::stage(int i) const {
 
 Expression StepEquations::gradient_symbol(int i) const {
   if (mechanics.gradient[static_cast<std::size_t>(i)].is_zero()) return {};
-  return Expression::symbol("H(" + name_of(*this, i) + ")", kRankOfTemporary + i);
+  return Expression::symbol((function ? "K(" : "H(") + name_of(*this, i) + ")",
+                            kRankOfTemporary + i);
 }
 
 Expression StepEquations::hessian_symbol(int i, int j) const {

@@ -36,7 +36,7 @@ struct StepEquations {
 
   // Names of the symbols of the step for component i of the state.
   [[nodiscard]] Expression stage(int i) const;                  // zbar_i: "bar(q)"
-  [[nodiscard]] Expression gradient_symbol(int i) const;        // dH/dz_i at zbar: "H(q)"
+  [[nodiscard]] Expression gradient_symbol(int i) const;        // at zbar: "H(q)", or of K "K(q)"
   [[nodiscard]] Expression hessian_symbol(int i, int j) const;  // at zbar: "H(q,p)"
   // dH/dz_i and d2H/dz_i dz_j with the stage values for the state.
   [[nodiscard]] Expression stage_gradient(int i) const;

@@ -103,7 +103,7 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, std::string text) {
     blocks.emplace(blocks.begin(), block.name, block_text(block.name, dialect));
     text += blocks.front().second;
   }
-  out.line("// What follows is the same in every header.");
+  out.line("// What follows knows nothing of the system.");
   for (const auto& [name, block] : blocks) {
     const std::string guard = fmt::format("HAMGEN_C_{}_{}", dialect.scalar.space, name);
     write_section(out, capitals(guard), block);

@@ -91,7 +91,7 @@ void Support::write(CodeWriter& out, bool shared) const {
   const bool has_bounds = std::ranges::any_of(all_blocks(), [&](const FixedBlock& block) {
     return is_written(block) && text(block.name).find("template <int") != std::string::npos;
   });
-  out.line("// What follows is the same in every header.");
+  out.line("// What follows knows nothing of the system.");
   if (has_bounds) out.lines(cpp_numerics("shells/bounds_begin"));
   out.line(fmt::format("namespace {} {{", name));
   const bool in_registers = lanes_ > 0 || packs_;

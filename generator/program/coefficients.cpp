@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/linear_terms.hpp"
+
 namespace hamgen {
 
 std::string inverse_name(std::size_t stage) { return fmt::format("inverse_{}", stage); }
@@ -34,6 +36,18 @@ MatrixForm form_of(const Solve& solve) {
   return MatrixForm::symmetric;
 }
 
+namespace {
+
+// A text that is too long to be read says nothing: the assignment does.
+std::string remark_of(const std::string& name, const Expression& value) {
+  const std::string whole = is_high_part(name) ? to_text(value / kHighPart) : "";
+  const std::string text =
+      whole.empty() ? to_text(value) : fmt::format("most of {}, and no simple fraction", whole);
+  return text.size() > 70 ? "" : text;
+}
+
+}  // namespace
+
 Coefficients coefficients_of(const Environment& environment, const LoweredStep& lowered,
                              const std::vector<ScaledNumbers>& scaled) {
   Coefficients result{.record = {.name = "Coefficients",
@@ -50,9 +64,7 @@ Coefficients coefficients_of(const Environment& environment, const LoweredStep& 
     const std::string field = fmt::format("c{}", fields.size() + 1);
     const Expression full = substitute(s.value, meaning);
     meaning[s.name] = full;
-    std::string text = to_text(full);
-    if (text.size() > 70) text = text.substr(0, 67) + "...";
-    fields.push_back({.name = field, .remark = text});
+    fields.push_back({.name = field, .remark = remark_of(s.name, full)});
     result.places[s.name] = {.object = "k", .field = field};
     prepare.body.push_back({Assign{s.name, s.value}});
   }

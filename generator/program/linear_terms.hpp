@@ -30,6 +30,10 @@ struct Parts {
 using Define =
     std::function<Expression(const std::string& name, const Expression& value, bool apart)>;
 [[nodiscard]] Parts in_two_parts(const Expression& constant, const Define& define);
+// Is it the name that `high` was given?
+[[nodiscard]] inline bool is_high_part(const std::string& name) {
+  return name.starts_with("high(");
+}
 
 class LinearTerms {
  public:

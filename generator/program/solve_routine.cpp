@@ -106,8 +106,11 @@ class SolveRoutine {
     append(routine_.body, stage.after);
     if (stage.solve && stage.solve->kind == BlockKind::newton && routine_.body.size() > first) {
       routine_.body[first].remark = {
-          "The last increments correct the gradient to first order: no evaluation at the "
-          "solution."};
+          lowered_.plan.equations.function
+              ? "The last increments correct the gradient, by H'' for K'': no evaluation at the "
+                "solution."
+              : "The last increments correct the gradient to first order: no evaluation at the "
+                "solution."};
     }
   }
 

@@ -76,6 +76,24 @@ TEST(CheckAsJson, WarnsOfAModelThatIsFine) {
   EXPECT_EQ(document["diagnostics"][0]["line"], 4);
 }
 
+// Of every scene, not only of the one that a run would take.
+TEST(CheckAsJson, WarnsOfASceneThatCannotBegin) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("m.ham",
+                    "system m\ncoordinate x\nmomentum p\nH = p^2/2 + 1/x\n"
+                    "scene here { x = 1 }\nscene there { p = 1; h = 0.1; steps = 10 }\n");
+  const Result result = hamgen({"check", "--json", model});
+  EXPECT_EQ(result.status, 0);
+  const nlohmann::json document = checked(result);
+  ASSERT_EQ(document["diagnostics"].size(), 1u);
+  const nlohmann::json& said = document["diagnostics"][0];
+  EXPECT_EQ(said["severity"], "warning");
+  EXPECT_EQ(said["message"],
+            "H is not defined at the initial state of scene 'there': H is infinite");
+  EXPECT_EQ(said["line"], 4);
+}
+
 TEST(CheckAsJson, NamesTheOptionThatIsMeant) {
   const Result result = hamgen(
       {"check", "--json", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--beta", "0.1*nothing"});
