@@ -40,8 +40,8 @@ struct MachineState {
   std::vector<Shape> shapes;
   std::vector<Object<Real>*> objects;  // of this run
   std::vector<std::unique_ptr<Object<Real>>> own;
-  std::map<std::string, AnyMatrix<Real>*> matrices;  // locals and arguments
-  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> own_matrices;
+  std::map<std::string, AnyMatrix<Real>*> matrices;                      // locals and arguments
+  std::map<std::string, std::unique_ptr<AnyMatrix<Real>>> own_matrices;  // by name and form
   std::map<std::string, int> local_index;
   std::map<std::string, int> loop_index;
   std::vector<Real> locals;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,6 +80,8 @@ class MachineAddresses {
     m_.object_index[name] = static_cast<int>(m_.shapes.size());
     m_.shapes.push_back({record, sizes});
   }
+  // Arrays of several blocks may have one name: from its declaration on it is the array's own.
+  void enter(const Array& array) { m_.object_index[array.name] = arrays_.at(&array); }
   // The records that a run keeps are "self.z", "self.start[i]", its numbers fields of "self".
   void declare_memory() {
     const auto keep = [&](const std::string& name, const Field& field, bool of_substep) {
@@ -94,6 +97,7 @@ class MachineAddresses {
     for (const Instruction& instruction : body) {
       if (const auto* array = std::get_if<Array>(&instruction.value)) {
         declare(array->name, nullptr, array->sizes);
+        arrays_[array] = index_of(array->name);
       }
       if (const auto* refine = std::get_if<Refine>(&instruction.value)) {
         // As if it had one field: its change.
@@ -203,6 +207,7 @@ class MachineAddresses {
   const Routine& routine_;
   const Program& code_;
   FunctionsOf functions_ = FunctionsOf::library;  // of what is compiled now
+  std::map<const Array*, int> arrays_;            // their objects
 };
 
 }  // namespace hamgen

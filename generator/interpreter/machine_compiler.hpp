@@ -15,6 +15,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
   using Base::compiled;
   using Base::declare;
   using Base::declare_all;
+  using Base::enter;
   using Base::evaluate;
   using Base::for_all;
   using Base::index_address;
@@ -89,6 +90,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     };
   }
   Step operator()(const Array& array) {
+    enter(array);
     const Address target{index_of(array.name), 0, {}};
     std::vector<CompiledExpression<Real>> values;
     for (const Expression& e : array.values) values.push_back(compiled(e));
@@ -101,8 +103,12 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     };
   }
   Step operator()(const Matrix& matrix) {
-    return [this, matrix] {
-      std::unique_ptr<AnyMatrix<Real>>& own = m_.own_matrices[matrix.name];
+    // Those of several blocks have one name.
+    const std::string form =
+        fmt::format("{} {}{}{}", matrix.name, matrix.size, matrix.symmetric ? " symmetric" : "",
+                    matrix.patterned ? " patterned" : "");
+    return [this, matrix, form] {
+      std::unique_ptr<AnyMatrix<Real>>& own = m_.own_matrices[form];
       if (own) {
         own->clear();
       } else {

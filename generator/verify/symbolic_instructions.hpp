@@ -52,9 +52,12 @@ struct SymbolicMachine::Run {
     }
   }
   void operator()(const Matrix& matrix) const {
-    frame.objects[matrix.name] = {.root = frame.prefix + matrix.name};
-    m.matrices_[frame.prefix + matrix.name].clear();
-    if (matrix.symmetric) m.symmetric_.insert(frame.prefix + matrix.name);
+    const std::string root = frame.prefix + matrix.name;
+    frame.objects[matrix.name] = {.root = root};
+    m.matrices_[root].clear();
+    // Another block's matrix may have had the name.
+    m.symmetric_.erase(root);
+    if (matrix.symmetric) m.symmetric_.insert(root);
   }
   void operator()(const Copy& copy) const {
     if (copy.declares) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "generator/base/source_text.hpp"
 #include "generator/language/scene.hpp"
@@ -127,6 +128,35 @@ TEST(FixedPoint, MeasuresArraysAsTheCompiledOneDoes) {
       "size N = 30\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
       "H = sum(i = 1..N, p[i]^2/3.4) + sum(i = 0..N, 0.3*(q[i+1] - q[i])^2/2)\n",
       {.solver = "fixed-point"}, 0.7, state);
+}
+
+// Two blocks one after the other, whose matrices have one name: of other sizes, in both orders, and
+// one symmetric, one not.
+TEST(Blocks, OfOtherMatricesHaveTheBitsThatAreInterpreted) {
+  const auto rings = [](int first, int second) {
+    return fmt::format(
+        "system rings\nsize A = {}\nsize B = {}\n"
+        "coordinate q[1..A] periodic\nmomentum p[1..A]\n"
+        "coordinate r[1..B] periodic\nmomentum s[1..B]\n"
+        "H = sum(i = 1..A, p[i]^2/2*(1 + q[i]^2) + (q[i+1] - q[i])^4/4)"
+        " + sum(i = 1..B, s[i]^2/2*(1 + r[i]^2) + (r[i+1] - r[i])^4/4)\n",
+        first, second);
+  };
+  const auto state = [](int size) {
+    std::vector<double> values;
+    for (int i = 0; i < 2 * size; ++i) values.push_back(i < size ? std::sin(1.0 + i) : 0.2);
+    return values;
+  };
+  takes_the_same_steps(rings(4, 3), {}, 0.01, state(7));
+  takes_the_same_steps(rings(2, 3), {}, 0.01, state(5));
+  takes_the_same_steps(
+      "system blocks\ncoordinate q[1..4]\nmomentum p[1..4]\n"
+      "coordinate r[1..2]\nmomentum s[1..2]\n"
+      "H = sum(i = 1..4, p[i]^2/2 + cos(q[i]) + q[i]^4)"
+      " + sum(i = 1..4, j = i+1..4, q[i]^2*q[j]^2)"
+      " + sum(i = 1..2, s[i]^2/2*(1 + r[i]^2)) + s[1]*s[2]*r[1]^3*4 + (r[1] - r[2])^4*s[1]"
+      " + 3*r[1]*s[2]\n",
+      {}, 0.005, state(6));
 }
 
 // Bands with corners, a block of both in turn and a full matrix, which tests/numerics compares with

@@ -37,6 +37,20 @@ Verdict verdict_of(const SourceText& source, const Request& request, const std::
 const std::vector<Verdict> kAll = {Verdict::proved, Verdict::tested, Verdict::refuted,
                                    Verdict::not_decided};
 
+// A true one: the matrix of the second block is not symmetric, that of the first, which has the
+// same name, is.
+TEST(Verdicts, OfBlocksOneAfterTheOtherKnowTheirOwnMatrices) {
+  const SourceText source = model(
+      "coordinate q[1..4]\nmomentum p[1..4]\ncoordinate r[1..2]\nmomentum s[1..2]\n"
+      "H = sum(i = 1..4, p[i]^2/2 + cos(q[i]) + q[i]^4)"
+      " + sum(i = 1..4, j = i+1..4, q[i]^2*q[j]^2)"
+      " + sum(i = 1..2, s[i]^2/2*(1 + r[i]^2)) + s[1]*s[2]*r[1]^3*4 + (r[1] - r[2])^4*s[1]"
+      " + 3*r[1]*s[2]\n");
+  const Proof proof = verify_step(source, {});
+  EXPECT_EQ(finding_of(proof, "program").verdict, Verdict::proved);
+  EXPECT_EQ(finding_of(proof, "emitted code").verdict, Verdict::proved);
+}
+
 TEST(Verdicts, OfTwoStatementsAreThoseOfTheWeaker) {
   for (const Verdict a : kAll) {
     EXPECT_EQ(both(a, a), a);
