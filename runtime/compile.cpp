@@ -139,8 +139,13 @@ std::filesystem::path compile_sources(const PluginSource& source, const Compiler
   };
   const std::string end = end_of();
   if (end.empty()) return object;
+  const char* const help = result.end == ProcessEnd::timed_out
+                               ? "\nhelp: --flags=-O0 takes less time, --interpret none; a step by "
+                                 "--solver fixed-point has "
+                                 "no matrix"
+                               : "";
   throw ToolError(
-      {.message = fmt::format("the compiler did not make the integrator: {}", end),
+      {.message = fmt::format("the compiler did not make the integrator: {}{}", end, help),
        .command = command_text(request.command),
        .exit_status = result.end == ProcessEnd::exited ? std::optional(result.code) : std::nullopt,
        .output_tail = tail_of(result.output)});
