@@ -125,9 +125,8 @@ Command add_stress(CLI::App& app) {
       app.add_subcommand("stress", "maps where a step stays bounded, cell by cell of a grid");
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
-  add_repeated(
-      *parser, "--vary", options->vary,
-      "axes, two at most: a parameter, h (in steps of the scene), scale, alpha, beta, gamma")
+  add_repeated(*parser, "--vary", options->vary,
+               "axes: a parameter, h / scene's h, scale, alpha, beta, gamma")
       ->type_name("NAME=LOW:HIGH:COUNT,...");
   parser->add_option("--time", options->scene.time, "")->type_name("T");
   parser

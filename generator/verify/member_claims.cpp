@@ -301,7 +301,7 @@ class MemberClaims : private MemberPoints {
   }
   [[nodiscard]] std::optional<std::size_t> sweep_of(int k) const {
     const std::vector<Expression>& list = machine_.sweeps.front().unknowns;
-    const auto it = std::ranges::find(list, "H(" + name(k) + ")", &Expression::name);
+    const auto it = std::ranges::find(list, gradient_name(k), &Expression::name);
     if (it == list.end()) return {};
     return static_cast<std::size_t>(it - list.begin());
   }

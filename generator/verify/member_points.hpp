@@ -212,11 +212,15 @@ class MemberPoints {
 
   // --- derivatives ------------------------------------------------------------------------------
 
+  // The program's name of dH/dz_k, or of K's that stands in its place.
+  [[nodiscard]] std::string gradient_name(int k) const {
+    return (member_.generating_order > 0 ? "K(" : "H(") + name(k) + ")";
+  }
   // dH/dz_k as it was evaluated.
   Expression gradient(int k) {
     if (!gradient_[at(k)]) {
       const Expression value = at_point(derivatives_.first(k), iteration_of(k));
-      if (!gradient_[at(k)]) gradient_[at(k)] = define("H(" + name(k) + ")", value);
+      if (!gradient_[at(k)]) gradient_[at(k)] = define(gradient_name(k), value);
     }
     return *gradient_[at(k)];
   }
@@ -287,7 +291,7 @@ class MemberPoints {
     const int b = iteration_of(k);
     if (!is_newton(b)) return Expression(0);
     if (const auto it = changes_.find(k); it != changes_.end()) return it->second;
-    const Expression named = define("change(H(" + name(k) + "))", spelled_change(k, b));
+    const Expression named = define("change(" + gradient_name(k) + ")", spelled_change(k, b));
     return changes_.emplace(k, named).first->second;
   }
   Expression spelled_change(int k, int b) {
@@ -309,7 +313,7 @@ class MemberPoints {
   [[nodiscard]] std::optional<Refined> refined(int k) const {
     for (const IterationTrace& trace : machine_.iterations) {
       const auto it =
-          std::ranges::find(trace.changes, "change(H(" + name(k) + "))", &Expression::name);
+          std::ranges::find(trace.changes, "change(" + gradient_name(k) + ")", &Expression::name);
       if (it == trace.changes.end()) continue;
       return Refined{*it, trace.gradient[static_cast<std::size_t>(it - trace.changes.begin())]};
     }
@@ -333,7 +337,7 @@ class MemberPoints {
     const std::optional<Refined> end = refined(k);
     const Expression more = end ? change(k) + end->change : change(k);
     if (more.is_zero()) return plain;
-    if (!corrected_.contains(k)) corrected_[k] = define("H(" + name(k) + ")*", plain + more);
+    if (!corrected_.contains(k)) corrected_[k] = define(gradient_name(k) + "*", plain + more);
     return corrected_.at(k);
   }
 
