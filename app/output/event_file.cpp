@@ -39,7 +39,11 @@ std::string json_number(double value) {
 
 EventFile::EventFile(const std::string& path, const std::vector<std::string>& metadata,
                      std::vector<std::string> state, bool wide)
-    : json_(path.ends_with(".json")), wide_(wide), state_(std::move(state)), file_(path) {
+    : json_(path.ends_with(".json")),
+      wide_(wide),
+      state_(std::move(state)),
+      time_(std::ranges::find(state_, "t") != state_.end() ? "elapsed" : "t"),
+      file_(path) {
   if (json_) {
     std::string remarks;
     for (const std::string& line : metadata)
@@ -49,7 +53,7 @@ EventFile::EventFile(const std::string& path, const std::vector<std::string>& me
   }
   std::string head;
   for (const std::string& line : metadata) head += "# " + comment_text(line) + "\n";
-  head += "event,t,steps,fraction";
+  head += "event," + time_ + ",steps,fraction";
   const std::vector<runtime::Wide> nothing(state_.size());
   for (const auto& [name, value] : state_cells(state_, nothing, wide_))
     head += "," + runtime::csv_cell(name);
@@ -67,9 +71,10 @@ void EventFile::add(const std::string& event, const WatchedPoint& point,
     file_.write(line + "\n");
     return;
   }
-  std::string line = fmt::format(
-      "{}\n  {{\"event\": {}, \"t\": {}, \"steps\": {}, \"fraction\": {}", count_ == 1 ? "" : ",",
-      json_text_of(event), json_number(point.time), point.steps, json_number(point.fraction));
+  std::string line =
+      fmt::format("{}\n  {{\"event\": {}, \"{}\": {}, \"steps\": {}, \"fraction\": {}",
+                  count_ == 1 ? "" : ",", json_text_of(event), time_, json_number(point.time),
+                  point.steps, json_number(point.fraction));
   for (const auto& [name, value] : cells)
     line += fmt::format(", {}: {}", json_text_of(name), json_number(value));
   file_.write(line + "}");

@@ -107,7 +107,9 @@ void Ensemble::name_columns() {
     add_column(columns_, is_state ? name + "_0" : name);
   }
   varied_ = columns_.size();
-  add_column(columns_, "t");
+  // A driven system has a t of its own.
+  const bool has_t = std::ranges::find(ends, "t") != ends.end();
+  add_column(columns_, has_t ? "elapsed" : "t");
   for (const std::string& name : ends) add_column(columns_, name);
   for (const std::string& name : observed) add_column(columns_, name);
   energy_error_ = columns_.size() + 1;

@@ -20,6 +20,25 @@ constexpr const char* kTurns =
     "event left = q - line falling  # of the line\nevent through = q\nevent never = q - 3\n"
     "scene unit { q = 1; h = 0.1; steps = 100 }\n";
 
+// A driven system has a t of its own: no two columns have one name.
+TEST(RunEvents, SayWhatElapsedOfASystemThatHasATime) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("m.ham",
+                    "system m\ncoordinate q\nmomentum p\ntime t\nH = p^2/2 + (1 + cos(t)/5)*q^2/2\n"
+                    "event e = t - 4\nscene s { q = 1; t = 3; h = 0.1; steps = 20 }\n");
+  const Result result =
+      hamgen({"run", model, "--interpret", "--quiet", "--events", scratch.path("e.csv")});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(contains(read(scratch.path("e.csv")), "\nevent,elapsed,steps,fraction,q,t,p,p_t\n"))
+      << read(scratch.path("e.csv"));
+  const Result starts =
+      hamgen({"ensemble", model, "--over", "q=1:2:2", "--quiet", "-o", scratch.path("ends.csv")});
+  ASSERT_EQ(starts.status, 0) << starts.err;
+  EXPECT_TRUE(contains(read(scratch.path("ends.csv")), ",elapsed,q,t,p,p_t,"))
+      << read(scratch.path("ends.csv"));
+}
+
 TEST(Events, AreFoundInTheirOrderWithTimesAndStates) {
   const Scratch scratch;
   const std::string model = scratch.write("turns.ham", kTurns);
