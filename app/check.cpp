@@ -3,10 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "app/command_line.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/terminal.hpp"
+#include "app/studies/domain.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/interpreted.hpp"
 #include "generator/algebra/scalar.hpp"
@@ -26,35 +29,38 @@ std::string counted(long count, std::string_view one, std::string_view many) {
 constexpr long largest_checked_scene = 100'000;
 
 // Evaluates every scene, so that a mistake in one nobody runs is found too.
-void check_scenes(const Model& model, const ScalarType& scalar) {
-  if (degrees_of_freedom(model) > largest_checked_scene) return;
+std::vector<SceneValues> values_of_scenes(const Model& model, const ScalarType& scalar) {
+  std::vector<SceneValues> scenes;
+  if (degrees_of_freedom(model) > largest_checked_scene) return scenes;
   std::vector<Diagnostic> mistakes;
   for (const Scene& scene : model.scenes) {
     try {
-      require_in_range(model, values_of_scene(model, scene), scalar);
+      scenes.push_back(values_of_scene(model, scene));
+      require_in_range(model, scenes.back(), scalar);
     } catch (const ModelError& error) {
       mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
   }
   if (!mistakes.empty()) throw ModelError(mistakes, model.source);
+  return scenes;
 }
 
-// The scenes where H or its gradient has no value at the start, whatever the method is.  No
-// mistakes: a run may be given another state.
-std::vector<Diagnostic> undefined_starts(const Model& model, const SourceText& source,
+// Where H or its gradient has no value at the start, whatever the method is: an explicit step takes
+// any H, of any size, and solves nothing.  No mistakes: a run may be given another state.
+std::vector<Diagnostic> undefined_starts(const Model& model, std::vector<SceneValues> scenes,
                                          const Request& request) {
   std::vector<Diagnostic> found;
-  if (model.scenes.empty() || degrees_of_freedom(model) > largest_checked_scene) return found;
+  if (scenes.empty() || is_defined_everywhere(model)) return found;
   Request plain;
+  plain.scheme = "explicit-euler";
   plain.scalar = request.scalar;
   plain.sizes = request.sizes;
-  const PluginSource plugin = generate_plugin(source, plain);
-  const runtime::LoadedPlugin integrator = interpreted_integrator(source, plain, plugin);
-  for (const Scene& scene : model.scenes) {
-    SceneValues values = values_of_scene(model, scene);
-    if (!values.h) values.h = 1;
+  const PluginSource plugin = generate_plugin(model.source, plain);
+  const runtime::LoadedPlugin integrator = interpreted_integrator(model.source, plain, plugin);
+  for (SceneValues& scene : scenes) {
+    if (!scene.h) scene.h = 1;
     try {
-      static_cast<void>(initial_values(plugin, values, *integrator.library));
+      static_cast<void>(initial_values(plugin, scene, *integrator.library));
     } catch (const ModelError& error) {
       found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -68,9 +74,10 @@ Model check_model(const SourceText& source, const Request& request,
                   const std::function<void(const std::vector<Diagnostic>&)>& warn) {
   Model model = read_model(source, request.sizes);
   if (!model.warnings.empty()) warn(model.warnings);
-  check_scenes(model, *request.scalar->type);
+  std::vector<SceneValues> scenes = values_of_scenes(model, *request.scalar->type);
   check_step(source, request);
-  if (const auto undefined = undefined_starts(model, source, request); !undefined.empty())
+  if (const auto undefined = undefined_starts(model, std::move(scenes), request);
+      !undefined.empty())
     warn(undefined);
   for (const Corner& corner : corners_of_hamiltonian(source, request)) {
     warn({{.severity = Severity::warning,

@@ -94,6 +94,21 @@ TEST(CheckAsJson, WarnsOfASceneThatCannotBegin) {
   EXPECT_EQ(said["line"], 4);
 }
 
+// What is no step, whatever the size is.
+TEST(CheckAsJson, WarnsOfAStartOfALargeSystem) {
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "m.ham",
+      "system m\nsize N = 3000\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + 1/q[i]) + sum(i = 1..N-1, (q[i+1] - q[i])^4)\n"
+      "scene there { h = 0.1; steps = 10 }\nscene here { q[i] = i; h = 0.1; steps = 10 }\n");
+  const Result result = hamgen({"check", "--json", model});
+  EXPECT_EQ(result.status, 0);
+  const nlohmann::json document = checked(result);
+  ASSERT_EQ(document["diagnostics"].size(), 1u);
+  EXPECT_TRUE(contains(document["diagnostics"][0]["message"].get<std::string>(), "'there'"));
+}
+
 TEST(CheckAsJson, NamesTheOptionThatIsMeant) {
   const Result result = hamgen(
       {"check", "--json", HAMGEN_SOURCE_DIR "/hamiltonians/pendulum.ham", "--beta", "0.1*nothing"});
