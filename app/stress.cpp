@@ -126,7 +126,7 @@ Command add_stress(CLI::App& app) {
   add_scene_options(*parser, options->scene);
   add_step_option(*parser, options->scene);
   add_repeated(*parser, "--vary", options->vary,
-               "axes: a parameter, h / scene's h, scale, alpha, beta, gamma")
+               "two at most: parameter, h / scene h, scale, alpha, beta, gamma")
       ->type_name("NAME=LOW:HIGH:COUNT,...");
   parser->add_option("--time", options->scene.time, "")->type_name("T");
   parser

@@ -140,9 +140,8 @@ std::filesystem::path compile_sources(const PluginSource& source, const Compiler
   const std::string end = end_of();
   if (end.empty()) return object;
   const char* const help = result.end == ProcessEnd::timed_out
-                               ? "\nhelp: --flags=-O0 takes less time, --interpret none; a step by "
-                                 "--solver fixed-point has "
-                                 "no matrix"
+                               ? "\nhelp: `hamgen run --flags=-O0` takes less time, `hamgen run "
+                                 "--interpret` none"
                                : "";
   throw ToolError(
       {.message = fmt::format("the compiler did not make the integrator: {}{}", end, help),

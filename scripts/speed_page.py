@@ -223,21 +223,23 @@ with `-march=native`; how they are used: [in lanes](batch.md).
 
 
 def lanes_section():
-    rows, faster, narrow = [], [], 0
+    rows, faster, narrow = [], {"four": [], "eight": []}, 0
     for line in kept("lanes").splitlines()[2:]:
         name, *cells = line.split()
         rows.append([name, *cells])
         library, _, four, eight = (float(cell) for cell in cells)
-        if library < max(four, eight):
-            faster.append(name)
+        for width, time in (("four", four), ("eight", eight)):
+            if library < time:
+                faster[width].append(name)
         narrow += four < eight
     text = """## Elementary functions
 
 Nanoseconds per value: the library's, and those on lanes that a batch computes with, `-march=native`.
 
 """ + table(["function", "library", "1 lane", "4 lanes", "8 lanes"], rows)
-    said = ("The library's " + listed(faster) + (" is" if len(faster) == 1 else " are") + " faster than four or eight lanes."
-            if faster else "Every elementary function on four or eight lanes is faster than the library's.")
+    said = " ".join(f"The library's {listed(names)} {'is' if len(names) == 1 else 'are'} faster than {width} lanes."
+                    for width, names in faster.items() if names)
+    said = said or "Every elementary function on four or eight lanes is faster than the library's."
     if narrow:
         said += f" Of {len(rows)} functions, {narrow} take longer on eight lanes than on four here."
     return text, said

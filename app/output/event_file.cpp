@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/studies/setting.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "runtime/csv_writer.hpp"
@@ -42,7 +43,7 @@ EventFile::EventFile(const std::string& path, const std::vector<std::string>& me
     : json_(path.ends_with(".json")),
       wide_(wide),
       state_(std::move(state)),
-      time_(std::ranges::find(state_, "t") != state_.end() ? "elapsed" : "t"),
+      time_(time_column(state_)),
       file_(path) {
   if (json_) {
     std::string remarks;

@@ -29,7 +29,7 @@ class EventFile {
   bool json_;
   bool wide_;
   std::vector<std::string> state_;
-  std::string time_;  // the name of what went by: a driven system has a t of its own
+  std::string time_;  // the name of its column
   runtime::AtomicFile file_;
   long long count_ = 0;
 };

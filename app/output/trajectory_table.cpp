@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/output/terminal.hpp"
+#include "app/studies/setting.hpp"
 #include "generator/base/quoted_text.hpp"
 
 namespace hamgen::app {
@@ -19,9 +20,7 @@ std::vector<std::string> comment_texts(const std::vector<std::string>& metadata)
 }  // namespace
 
 std::vector<std::string> column_names(const Columns& columns) {
-  // Of a model with a variable t of its own, that is the one; the run's clock begins at 0.
-  const bool has_t = std::ranges::find(columns.state, "t") != columns.state.end();
-  std::vector<std::string> names = {"step", has_t ? "elapsed" : "t"};
+  std::vector<std::string> names = {"step", time_column(columns.state)};
   names.insert(names.end(), columns.state.begin(), columns.state.end());
   if (columns.energy) names.emplace_back(columns.has_time ? "H+p_t" : "H");
   names.insert(names.end(), columns.invariants.begin(), columns.invariants.end());

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/studies/initial_data.hpp"
+#include "app/studies/setting.hpp"
 #include "generator/base/diagnostic.hpp"
 
 namespace hamgen::app {
@@ -107,9 +108,7 @@ void Ensemble::name_columns() {
     add_column(columns_, is_state ? name + "_0" : name);
   }
   varied_ = columns_.size();
-  // A driven system has a t of its own.
-  const bool has_t = std::ranges::find(ends, "t") != ends.end();
-  add_column(columns_, has_t ? "elapsed" : "t");
+  add_column(columns_, time_column(ends));
   for (const std::string& name : ends) add_column(columns_, name);
   for (const std::string& name : observed) add_column(columns_, name);
   energy_error_ = columns_.size() + 1;

@@ -100,15 +100,20 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
 // At -O0, which takes half to three quarters of the time of -O1, a step is 4 to 30 times as long:
 // some 10 ms where that is asked for.  An operation of quad numbers is a call that takes 30 ns at
 // any level.  What a step computes is the same: no flag lets the optimiser change the arithmetic.
-// A long text, of a large system written out, takes -O1 long: 600 kB 8 s at -O0 and 37 s at -O1.
+// A long text, of a large system written out, takes the optimiser long: 600 kB of 56 unknowns 7, 39
+// and 83 s at -O0, -O1, -O3, so that -O1 costs 50 us a byte and -O3 as much again.  Of operations
+// that take some 5 ns at -O0 and half a nanosecond more at -O1 than at -O3 1e4 and 1e5 repay a
+// byte.  There an elimination by Eigen takes 4 ms at -O0, in a step of 2e4 operations: 1e7 make 2
+// s.
 std::string optimisation_for(const PluginSource& plugin, double steps) {
   const double operations = steps * plugin.operations_per_step;
-  const bool is_long = plugin.text.size() > 100'000;
+  const auto bytes = static_cast<double>(plugin.text.size());
+  const bool is_long = bytes > 1e5;
   // Eigen's eliminations are not counted.
-  if (operations < 1e6 && (!plugin.needs_eigen || is_long)) return "-O0";
-  const double repaid = plugin.needs_eigen ? 1e7 : 1e4 * static_cast<double>(plugin.text.size());
-  if (is_long && operations < repaid) return "-O0";
-  if (operations < 1e8 || plugin.needs_quadmath) return "-O1";
+  const double without_eigen = is_long ? 1e4 * bytes : 1e6;
+  const double with_eigen = is_long ? 1e7 : 0;
+  if (operations < (plugin.needs_eigen ? with_eigen : without_eigen)) return "-O0";
+  if (operations < (is_long ? 1e5 * bytes : 1e8) || plugin.needs_quadmath) return "-O1";
   if (plugin.has_stages && operations < 5e9) return "-O2";
   return "-O3";
 }

@@ -100,6 +100,36 @@ TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
             "-O0\n");
 }
 
+// Of a long text, which takes the optimiser long, more steps have to repay it.  Nothing is
+// compiled.
+TEST(Run, AsksTheCompilerForLittleWhereTheTextIsLong) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("long.ham",
+                    "system long\nsize N = 14\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+                    "let A = sum(i = 1..N, p[i])\nlet B = sum(i = 1..N, q[i]^2)\n"
+                    "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/2) + A*B/N + sum(i = 1..N, q[i]*p[i])^2/50"
+                    " + sum(i = 1..N, i*q[i])*sum(i = 2..N-1, p[i]*q[i+1])/1000\n"
+                    "scene s { q[i] = sin(i)/3; p[i] = cos(2*i)/4; h = 0.02; steps = 3 }\n");
+  const std::string words = scratch.path("words");
+  const std::string compiler = scratch.write(
+      "compiler",
+      "#!/bin/sh\nfor word; do case $word in --version) exec g++ --version;; -O*) echo "
+      "$word >>" +
+          words + ";; esac; done\nexit 1\n");
+  std::filesystem::permissions(compiler, std::filesystem::perms::owner_all);
+  const auto asked_for = [&](const std::string& steps) {
+    std::filesystem::remove(words);
+    const Result result = hamgen({"run", model, "--steps", steps},
+                                 {"HAMGEN_CACHE=" + scratch.path("cache"), "CXX=" + compiler});
+    EXPECT_EQ(result.status, 4) << result.err;
+    return read(words);
+  };
+  EXPECT_EQ(asked_for("3"), "-O0\n");
+  EXPECT_EQ(asked_for("300"), "-O0\n");
+  EXPECT_EQ(asked_for("20000"), "-O1\n");
+}
+
 // The same steps, in an object of their own.
 TEST(Run, CompilesForThisProcessorUnlessItIsPortable) {
   const Scratch scratch;

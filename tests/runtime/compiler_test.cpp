@@ -108,7 +108,7 @@ TEST_F(CompilerTest, ChangesItsIdentityWhenTheFileChanges) {
 TEST_F(CompilerTest, ThatHangsIsEndedAtTheTimeLimit) {
   const ToolFailure failure = failure_with("sleep 3600", std::chrono::seconds(1));
   EXPECT_TRUE(failure.message.starts_with(
-      "the compiler did not make the integrator: not finished after 1 s\nhelp: --flags=-O0 "))
+      "the compiler did not make the integrator: not finished after 1 s\nhelp: `hamgen run "))
       << failure.message;
   EXPECT_FALSE(failure.exit_status.has_value());
 }
