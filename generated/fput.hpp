@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_186a1ac0::float64 {
+namespace hamgen_e5187e7c::float64 {
 using Real = double;
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_STEP_REPORT
-#define HAMGEN_186A1AC0_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_E5187E7C_FLOAT64_STEP_REPORT
+#define HAMGEN_E5187E7C_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_VOCABULARY
-#define HAMGEN_186A1AC0_FLOAT64_VOCABULARY
+#ifndef HAMGEN_E5187E7C_FLOAT64_VOCABULARY
+#define HAMGEN_E5187E7C_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_TWO_SUM
-#define HAMGEN_186A1AC0_FLOAT64_TWO_SUM
+#ifndef HAMGEN_E5187E7C_FLOAT64_TWO_SUM
+#define HAMGEN_E5187E7C_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_SUM_WITH_REST
-#define HAMGEN_186A1AC0_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_E5187E7C_FLOAT64_SUM_WITH_REST
+#define HAMGEN_E5187E7C_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_SUMS
-#define HAMGEN_186A1AC0_FLOAT64_SUMS
+#ifndef HAMGEN_E5187E7C_FLOAT64_SUMS
+#define HAMGEN_E5187E7C_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -223,8 +223,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_BAND_MATRIX
-#define HAMGEN_186A1AC0_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_E5187E7C_FLOAT64_BAND_MATRIX
+#define HAMGEN_E5187E7C_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -279,7 +279,7 @@ class BandMatrix {
     }
   }
 
- private:
+ protected:
   static constexpr int columns = 3 * Width + 1;
   Real& at(int row, int column) { return entry_[row][column - row + Width]; }
   const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }
@@ -289,14 +289,80 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_VERDICT
-#define HAMGEN_186A1AC0_FLOAT64_VERDICT
+#ifndef HAMGEN_E5187E7C_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_E5187E7C_FLOAT64_SYMMETRIC_BAND_MATRIX
+// A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
+template <int Size, int Width>
+class SymmetricBandMatrix : public BandMatrix<Size, Width> {
+  using Band = BandMatrix<Size, Width>;
+  using Band::entry_, Band::factor_;
+
+ public:
+  static constexpr int size = Size;
+  // False if the matrix is singular or not finite.
+  bool factorise() {
+    is_definite_ = decompose();
+    return is_definite_ || Band::factorise();
+  }
+  void solve(Real (&x)[size]) const {
+    if (!is_definite_) return Band::solve(x);
+    for (int r = 0; r < size && r < Width; ++r) x[r] = less_those_above(x, r, r);
+    for (int r = Width; r < size; ++r) x[r] = less_those_above(x, r, Width);
+    for (int r = 0; r < size; ++r) x[r] *= reciprocal_[r];
+    int r = size - 1;
+    for (; r >= 0 && r > size - 1 - Width; --r) x[r] = less_those_below(x, r, size - 1 - r);
+    for (; r >= 0; --r) x[r] = less_those_below(x, r, Width);
+  }
+
+ private:
+  // The nearest comes last: it is the one that is waited for.
+  Real less_those_above(const Real (&x)[size], int r, int count) const {
+    Real value = x[r];
+    for (int k = count; k > 0; --k) value -= factor_[r - k][k - 1] * x[r - k];
+    return value;
+  }
+  Real less_those_below(const Real (&x)[size], int r, int count) const {
+    Real value = x[r];
+    for (int k = count; k > 0; --k) value -= factor_[r][k - 1] * x[r + k];
+    return value;
+  }
+  // False where the matrix is not positive definite.
+  bool decompose() {
+    for (int r = 0; r < size && r < Width; ++r) {
+      if (!eliminate(r, r)) return false;
+    }
+    for (int r = Width; r < size; ++r) {
+      if (!eliminate(r, Width)) return false;
+    }
+    return true;
+  }
+  bool eliminate(int r, int rows_above) {
+    Real row[Width + 1];  // of D L^T: columns r to r + Width, those beyond the last are zero
+    for (int j = 0; j <= Width; ++j) row[j] = entry_[r][Width + j];
+    for (int k = rows_above; k > 0; --k) {
+      const Real scaled = factor_[r - k][k - 1] * diagonal_[r - k];
+      for (int j = 0; j + k <= Width; ++j) row[j] -= scaled * factor_[r - k][k - 1 + j];
+    }
+    if (!(row[0] > 0)) return false;
+    diagonal_[r] = row[0];
+    reciprocal_[r] = 1 / row[0];
+    for (int j = 1; j <= Width; ++j) factor_[r][j - 1] = row[j] * reciprocal_[r];
+    return true;
+  }
+  bool is_definite_ = false;
+  Real diagonal_[size] = {};    // D
+  Real reciprocal_[size] = {};  // of it
+};
+#endif
+
+#ifndef HAMGEN_E5187E7C_FLOAT64_VERDICT
+#define HAMGEN_E5187E7C_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_NEWTON_RULE
-#define HAMGEN_186A1AC0_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_E5187E7C_FLOAT64_NEWTON_RULE
+#define HAMGEN_E5187E7C_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -415,8 +481,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_186A1AC0_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_E5187E7C_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_E5187E7C_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -438,8 +504,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_186A1AC0_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_E5187E7C_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_E5187E7C_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -518,8 +584,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_186A1AC0_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_E5187E7C_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_E5187E7C_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -607,8 +673,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_REFINEMENT
-#define HAMGEN_186A1AC0_FLOAT64_REFINEMENT
+#ifndef HAMGEN_E5187E7C_FLOAT64_REFINEMENT
+#define HAMGEN_E5187E7C_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -640,6 +706,7 @@ struct Refinement {
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  // Where that is_slow then the solution has not been found: it is left to the solver behind.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled && lacking(lack) <= rule.round_off) {
@@ -706,8 +773,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_HISTORY
-#define HAMGEN_186A1AC0_FLOAT64_HISTORY
+#ifndef HAMGEN_E5187E7C_FLOAT64_HISTORY
+#define HAMGEN_E5187E7C_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -799,8 +866,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_186A1AC0_FLOAT64_FORGET
-#define HAMGEN_186A1AC0_FLOAT64_FORGET
+#ifndef HAMGEN_E5187E7C_FLOAT64_FORGET
+#define HAMGEN_E5187E7C_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -810,22 +877,23 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_186a1ac0::float64
+}  // namespace hamgen_e5187e7c::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x59c2e76d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x01e488e5
 namespace fput::implicit_midpoint {
-inline namespace emitted_59c2e76d {
+inline namespace emitted_01e488e5 {
 
-namespace numerics = ::hamgen_186a1ac0::float64;
+namespace numerics = ::hamgen_e5187e7c::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
-    numerics::BandMatrix, numerics::Verdict, numerics::WaitingNewtonRule, numerics::Distance,
-    numerics::ContractionRule, numerics::Refinement, numerics::History, numerics::forget;
+    numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
+    numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
+    numerics::forget;
 
-using Matrix = BandMatrix<32, 1>;
+using Matrix = SymmetricBandMatrix<32, 1>;
 
 // What depends on h and the parameters alone.
 struct Coefficients {
@@ -939,7 +1007,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
                      const State& carry, Start& __restrict start, State& __restrict dz,
                      State& __restrict rest, StepReport& __restrict report) {
   // Fixed-point iteration.
-  start.rule.begin(6);
+  start.rule.begin(3);
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
     Distance distance;
@@ -966,6 +1034,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
       evaluate(par, k, z, carry, start);
     }
   }
+  if (start.rule.is_slow()) return false;
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.refinement.slope[i];
     const Real moved = carry.p[i] - p_push;
@@ -1146,9 +1215,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_59c2e76d
+}  // namespace emitted_01e488e5
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x59c2e76d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x01e488e5
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

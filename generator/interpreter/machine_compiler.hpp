@@ -112,7 +112,7 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       if (own) {
         own->clear();
       } else {
-        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows())
+        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows(), code_.matrix->symmetric)
                                : Blocks<Real>::matrix(matrix.size, matrix.symmetric);
       }
       m_.matrices[matrix.name] = own.get();

@@ -82,7 +82,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
           for (const Array2& u : unknowns) use(u);
         });
       };
-      if (rule == Rule::newton) {
+      if (rule == Rule::newton || rule == Rule::linear) {
         const bool known = memory.flags.at("known") != 0;
         AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
@@ -125,7 +125,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int target = index_of(refine.refinement.object);
     const int start = refine.rule.empty() ? 0 : index_of("start");
     return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
-            begun = refine.begun, first = steps(refine.first), body = steps(refine.body)] {
+            begun = refine.begun, gives_up = refine.gives_up, first = steps(refine.first),
+            body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
       const bool begins = !first.empty();
       const bool is_left = begun && (rule.empty() || !object(start).contractions.at(rule)->moves());
@@ -138,7 +139,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       refinement.get_slope(span(slope));
       refinement.get_change(span(change));
-      return true;
+      return !gives_up || !object(start).contractions.at(rule)->is_slow();
     };
   }
   Step operator()(const Refine& refine) {

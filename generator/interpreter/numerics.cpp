@@ -87,6 +87,18 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   bool used_ = false;
 };
 
+template <class Real>
+class LinearRuleOf final : public AnyNewtonRule<Real> {
+ public:
+  void begin(bool /*predicted*/) override {}
+  void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
+             int /*count*/) override {}
+  Answer operator()(Real size, Real scale, int iteration, Real /*uneven*/) override {
+    return answer(typename NumericsOf<Real>::Linear()(size, scale, iteration));
+  }
+  [[nodiscard]] Real relative(Real /*moved*/, Real /*length*/) const override { return 0; }
+};
+
 template <class Real, class Rule>
 class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
   using Contraction = typename NumericsOf<Real>::Contraction;
@@ -161,10 +173,6 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(int size) : size_(size), place_(static_cast<std::size_t>(size)) {
-    std::iota(place_.begin(), place_.end(), 0);
-    clear();
-  }
   explicit MatrixOf(std::vector<int> place)
       : size_(static_cast<int>(place.size())), place_(std::move(place)) {
     clear();
@@ -223,6 +231,11 @@ std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, bool w
 }
 
 template <class Real>
+std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::linear_rule() {
+  return std::make_unique<LinearRuleOf<Real>>();
+}
+
+template <class Real>
 std::unique_ptr<AnySimplifiedNewtonRule<Real>> Blocks<Real>::simplified_newton_rule() {
   return std::make_unique<SimplifiedNewtonRuleOf<Real>>();
 }
@@ -246,22 +259,20 @@ std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int 
 
 template <class Real>
 std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) {
+  std::vector<int> place(static_cast<std::size_t>(size));
+  std::iota(place.begin(), place.end(), 0);
+  return matrix(std::move(place), symmetric);
+}
+
+template <class Real>
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bool symmetric) {
+  const auto size = static_cast<int>(place.size());
   return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
     if (symmetric) {
       using Matrix = typename NumericsOf<Real>::template Symmetric<most>;
-      return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
+      return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
     }
-    using Matrix = typename NumericsOf<Real>::template Dense<most>;
-    return std::make_unique<MatrixOf<Real, most, Matrix>>(size);
-  });
-}
-
-template <class Real>
-std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place) {
-  const auto size = static_cast<int>(place.size());
-  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
-    constexpr int most = decltype(n)::value;
     using Matrix = typename NumericsOf<Real>::template Dense<most>;
     return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
   });

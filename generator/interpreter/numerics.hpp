@@ -80,6 +80,7 @@ struct AnyFixedPointRule {
   virtual Answer operator()(const Distance& moved, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
   [[nodiscard]] bool moves() { return contraction() != nullptr && contraction()->moves(); }
+  [[nodiscard]] bool is_slow() { return contraction() != nullptr && contraction()->is_slow(); }
   // For Refinement; none if it is no ContractionRule.
   [[nodiscard]] virtual typename NumericsOf<Real>::Contraction* contraction() = 0;
 };
@@ -118,6 +119,7 @@ template <class Real>
 struct Blocks {
   [[nodiscard]] static std::unique_ptr<AnyHistory<Real>> history(int size);  // up to 4096 unknowns
   [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule(int power, bool waits);
+  [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> linear_rule();
   [[nodiscard]] static std::unique_ptr<AnySimplifiedNewtonRule<Real>> simplified_newton_rule();
   // Of this type; null if there is none.
   [[nodiscard]] static std::unique_ptr<AnyFixedPointRule<Real>> fixed_point_rule(
@@ -129,7 +131,8 @@ struct Blocks {
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
   // Eliminated in this order, place[i] for unknown i: what elimination within a band leaves out are
   // products with zeros.
-  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(std::vector<int> place);
+  [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(std::vector<int> place,
+                                                               bool symmetric = false);
 };
 
 }  // namespace hamgen

@@ -33,11 +33,13 @@ template <class Real>
 void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
-    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows());
+    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows(), code.matrix->symmetric);
   } else if (field.type.starts_with("NewtonRule")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), false);
   } else if (field.type.starts_with("WaitingNewtonRule")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), true);
+  } else if (field.type == "LinearRule") {
+    object.rules[field.name] = Blocks<Real>::linear_rule();
   } else if (field.type.starts_with("SimplifiedNewtonRule")) {
     object.simplified[field.name] = Blocks<Real>::simplified_newton_rule();
   } else if (field.type.starts_with("Refinement")) {

@@ -52,7 +52,7 @@ class BandMatrix {
     }
   }
 
- private:
+ protected:
   static constexpr int columns = 3 * Width + 1;
   Real& at(int row, int column) { return entry_[row][column - row + Width]; }
   const Real& at(int row, int column) const { return entry_[row][column - row + Width]; }

@@ -24,6 +24,7 @@ struct Refinement {
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  // In lanes where that is_slow then the solution has not been found.
   template <class Rule>
   bool operator()(const Turn& turn, Rule& rule, Real* point, const Real* lack,
                   const Real* gradient) {

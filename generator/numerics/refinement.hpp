@@ -29,6 +29,7 @@ struct Refinement {
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
+  // Where that is_slow then the solution has not been found: it is left to the solver behind.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled && lacking(lack) <= rule.round_off) {

@@ -153,7 +153,7 @@ struct Unknown {
   Expression correction;  // known after the body
   int memory = 0;         // where in start.value its solution is kept
 };
-enum class Rule { newton, simplified_newton, fixed_point };
+enum class Rule { newton, simplified_newton, fixed_point, linear };
 // The body over and over, until the rule is content.  The last correction of Newton is not made:
 // what follows takes it into account.
 struct Iterate {
@@ -212,6 +212,7 @@ struct RefineArray {
   int count = 0;          // of unknowns
   int components = 0;     // of the gradient
   bool begun = false;     // the body has been run there, unless the rule has moved it
+  bool gives_up = false;  // fails where the rule finds that another solver is worth its work
   Body first = {};
   Body body;
 };

@@ -1,5 +1,7 @@
 #include "generator/program/code_cost.hpp"
 
+#include <algorithm>
+
 namespace hamgen {
 
 namespace {
@@ -121,6 +123,14 @@ class CodeCost {
   bool iterating_ = false;
 };
 
+bool solves_linear_equations(const Program& code) {
+  const Routine* solve = code.routine("solve");
+  return solve != nullptr && std::ranges::any_of(solve->body, [](const Instruction& instruction) {
+           const auto* iterate = std::get_if<IterateArray>(&instruction.value);
+           return iterate != nullptr && iterate->rule == Rule::linear;
+         });
+}
+
 }  // namespace
 
 StepCost step_cost(const Program& code) {
@@ -135,7 +145,7 @@ double operations_per_step(const Program& code) {
            10 * static_cast<double>(cost.divisions + cost.functions);
   };
   const StepCost cost = step_cost(code);
-  const double iterations = code.rules.empty() ? 8 : 1;
+  const double iterations = code.rules.empty() && !solves_linear_equations(code) ? 8 : 1;
   return static_cast<double>(code.substeps.size()) *
          (operations(cost.besides) + iterations * operations(cost.iteration));
 }

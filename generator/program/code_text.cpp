@@ -159,6 +159,7 @@ class Printer {
     }
     if (refine.begun || !refine.first.empty()) line("then, where it has been moved:");
     inside(refine.body);
+    if (refine.gives_up) line("fail where it contracts slowly");
   }
   void operator()(const Refine& refine) {
     line(fmt::format("refine the fixed point, {}:", refine.name));
@@ -186,6 +187,8 @@ class Printer {
         return "iterate with Newton's rule:";
       case Rule::simplified_newton:
         return "iterate with Newton's rule, the matrix of an earlier step:";
+      case Rule::linear:
+        return "solve linear equations for what they lack:";
       case Rule::fixed_point:
         break;
     }

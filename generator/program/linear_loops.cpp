@@ -103,34 +103,23 @@ Expression LoopStage::own_share(RoutineBuilder& b) const {
   return Expression::power(Expression(1) + *weights_.p_by_p * mass(b), Expression(-1));
 }
 
-void LoopStage::add_exact_result(RoutineBuilder& b) const {
-  Body& body = b.body();
+void LoopStage::add_exact_lack(RoutineBuilder& b, Body& body) const {
   const auto at = [&](const char* field, bool momentum) {
     return b.at("start", field, {affine("i", momentum ? n_ : 0)});
-  };
-  const auto call = [&](const char* routine, std::vector<Place> arguments) {
-    std::vector<Place> list = {{"par"}};
-    if (raised()) list.push_back({"h"});
-    list.push_back({"start", "value"});
-    list.push_back(arrays_.reduced ? Place{"start", "momentum"}
-                                   : Place{"start", "value", {affine(n_)}});
-    list.insert(list.end(), arguments.begin(), arguments.end());
-    body.push_back({Call{.routine = routine, .arguments = std::move(list)}});
   };
   const auto by = [](const std::optional<Expression>& weight, const Expression& value) {
     return weight ? *weight * value : Expression(0);
   };
-  call("gradient_error", {{"start", "slope"}, {"start", "change"}, {"start", "lost"}});
-  body.back().remark = {
-      "What the equations lack at the rounded solution, and the way to their own."};
-  const Expression own = own_share(b);
+  body.push_back(
+      {of_stage("gradient_error", {{"start", "slope"}, {"start", "change"}, {"start", "lost"}}),
+       {"What the equations lack, far below rounding."}});
   Body lack;
   Expression lost_q = at("lost", false);
   Expression lost_p = at("lost", true);
   const Expression of_p =
       exact_lack(b, lack, true, -by(weights_.p_by_q, lost_q) - by(weights_.p_by_p, lost_p));
   if (arrays_.reduced) {
-    lack.push_back({Assign{at("moved", true).name(), of_p * own}});
+    lack.push_back({Assign{at("moved", true).name(), of_p * own_share(b)}});
     lost_p = b.let(lack, "p_lost_in_all", lost_p + mass(b) * at("moved", true));
   } else {
     lack.push_back({Assign{at("lack", true).name(), of_p}});
@@ -139,10 +128,27 @@ void LoopStage::add_exact_result(RoutineBuilder& b) const {
       exact_lack(b, lack, false, by(weights_.q_by_p, lost_p) + by(weights_.q_by_q, lost_q));
   lack.push_back({Assign{at("lack", false).name(), of_q}});
   body.push_back(for_each(elements(), std::move(lack)));
-  body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
-  Body moved{{Assign{at("moved", false).name(), at("lack", false)}}};
+}
+
+Call LoopStage::of_stage(const char* routine, std::vector<Place> arguments) const {
+  std::vector<Place> list = {{"par"}};
+  if (raised()) list.push_back({"h"});
+  list.push_back({"start", "value"});
+  list.push_back(arrays_.reduced ? Place{"start", "momentum"}
+                                 : Place{"start", "value", {affine(n_)}});
+  list.insert(list.end(), arguments.begin(), arguments.end());
+  return {.routine = routine, .arguments = std::move(list)};
+}
+
+void LoopStage::add_exact_result(RoutineBuilder& b) const {
+  Body& body = b.body();
+  const auto at = [&](const char* field, bool momentum) {
+    return b.at("start", field, {affine("i", momentum ? n_ : 0)});
+  };
+  Body moved{{Assign{at("moved", false).name(), at("lack", false)}},
+             {Accumulate{at("value", false).name(), at("lack", false)}}};
   body.push_back(for_each(counting("i", unknowns()), std::move(moved)));
-  call("curvature", {{"start", "moved"}, {"start", "change"}});
+  body.push_back({of_stage("curvature", {{"start", "moved"}, {"start", "change"}})});
 
   Return end{.ranges = {elements()}};
   Body each;
@@ -153,8 +159,8 @@ void LoopStage::add_exact_result(RoutineBuilder& b) const {
         StepWeights::flow_of(b, each, !is_p, b.at("start", "slope", {affine("i", is_p ? 0 : n_)}));
     Expression change = at("lost", !is_p) + at("change", !is_p);
     // The torn momenta move with the force.
-    if (!is_p && arrays_.reduced) {
-      change += -mass(b) * own * by(weights_.p_by_q, at("change", false));
+    if (!is_p && arrays_.reduced && weights_.p_by_q) {
+      change += -mass(b) * own_share(b) * *weights_.p_by_q * at("change", false);
     }
     const Expression dz = state(b, "dz", field);
     const Expression rest = state(b, "rest", field);

@@ -49,7 +49,7 @@ class LoopMember : LoopStage {
     code_.routines.push_back(solve());
     if (solved) code_.unknowns = unknowns();
     code_.retries = solved;
-    if (newton()) code_.rules = {{"rule", 0, unknowns()}};
+    if (is_sharp() && newton()) code_.rules = {{"rule", 0, unknowns()}};
     if (both()) code_.rules = {{"newton_rule", 0, unknowns()}};
     code_.matrix = arrays_.matrix;
   }
@@ -90,7 +90,10 @@ class LoopMember : LoopStage {
     if (is_sharp()) {
       array("change", arrays_.reduced ? n_ : 2 * n_, "of the slope by the last increment");
     }
-    if (newton()) start.fields.push_back({.name = "rule", .type = "NewtonRule<2>"});
+    if (newton()) {
+      start.fields.push_back(
+          {.name = "rule", .type = is_linear() ? "LinearRule" : "NewtonRule<2>"});
+    }
     if (newton() || both()) {
       start.fields.push_back({.name = "matrix", .type = "Matrix"});
       if (arrays_.constant_matrix) {
@@ -134,7 +137,7 @@ class LoopMember : LoopStage {
         break;
       case ArrayMethod::newton:
         add_start(b);
-        add_newton(b);
+        is_linear() ? add_linear(b) : add_newton(b);
         break;
       case ArrayMethod::fixed_point:
         add_start(b);
@@ -216,6 +219,20 @@ class LoopMember : LoopStage {
     return body;
   }
 
+  void add_linear(RoutineBuilder& b) const {
+    Body body;
+    add_gradient_at_stage(body, false);
+    add_matrix(body);
+    add_exact_lack(b, body);
+    body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
+    b.body().push_back({IterateArray{.rule = Rule::linear,
+                                     .name = "rule",
+                                     .ranges = {elements()},
+                                     .unknowns = unknown_arrays(b),
+                                     .body = std::move(body)},
+                        {"Linear equations are solved for what they lack."}});
+  }
+
   // Note [the gradient of the last iteration]
   // It serves, with H'' times the last increment.  Taken once more, at the rounded solution, its
   // rounding errors are not independent of what is rounded: by them the form of a soft chain of 25
@@ -229,13 +246,12 @@ class LoopMember : LoopStage {
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
                          .body = std::move(body),
-                         .of_each = is_sharp()};
+                         .of_each = true};
     b.body().push_back({std::move(iterate), {"Newton's iteration on what the equations lack."}});
-    if (is_sharp()) add_change_of_slope(b.body());
+    add_change_of_slope(b.body());
     const Expression value = b.at("start", "value", {affine("i")});
     Body last{{Accumulate{value.name(), b.at("start", "lack", {affine("i")})}}};
     b.body().push_back(for_each(counting("i", unknowns()), std::move(last)));
-    if (!is_sharp()) add_gradient_at_stage(b.body(), false);
   }
   void add_change_of_slope(Body& body) const {
     std::vector<Place> list = {{"par"}};
@@ -268,6 +284,7 @@ class LoopMember : LoopStage {
                                     .count = unknowns(),
                                     .components = 2 * n_,
                                     .begun = true,
+                                    .gives_up = both(),
                                     .body = refined},
                         {kRefinementRemark}});
   }

@@ -106,15 +106,17 @@ void LoopStage::add_gradient_at_stage(Body& body, bool in_parts) const {
 }
 
 Routine LoopStage::evaluate(bool in_parts) const {
+  std::vector<std::string> remark = {
+      "grad H at the stage, whose momenta follow from its coordinates, and what the equations",
+      "lack there."};
+  if (is_linear()) remark = {"grad H at the stage, whose momenta follow from its coordinates."};
+  if (in_parts && both()) {
+    remark = {
+        "The same with h in two parts, of which neither is a simple fraction, for Newton's "
+        "iteration."};
+  }
   RoutineBuilder b(
-      {.name = evaluation(in_parts),
-       .remark = in_parts && both()
-                     ? std::vector<std::string>{"The same with h in two parts, of which neither is "
-                                                "a simple fraction, for Newton's iteration."}
-                     : std::vector<std::string>{"grad H at the stage, whose momenta follow from "
-                                                "its coordinates, and what the equations",
-                                                "lack there."},
-       .arguments = arguments(true)});
+      {.name = evaluation(in_parts), .remark = std::move(remark), .arguments = arguments(true)});
   const Place p{"start", "momentum"};
   const Place dp{"start", "slope", {affine(n_)}};
   const Instruction force{Call{.routine = "potential_gradient",
@@ -125,6 +127,11 @@ Routine LoopStage::evaluate(bool in_parts) const {
   const Expression bar = momentum(b);
   const Expression carry = state(b, "carry", "p");
   const Gradient at = slope(b);
+  // What linear equations lack is known far below rounding: see add_exact_lack.
+  const auto end = [&] {
+    if (!is_linear()) b.body().push_back(for_each(elements(), lacks(b, at, in_parts)));
+    return b.take();
+  };
   Body each;
   if (velocity_) {
     for (const auto& [symbol, place] : velocity_->places) b.routine().places[symbol] = place;
@@ -146,8 +153,7 @@ Routine LoopStage::evaluate(bool in_parts) const {
     set_stage(b, each, bar, z, carry, row, "change");
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(velocity);
-    b.body().push_back(for_each(elements(), lacks(b, at, in_parts)));
-    return b.take();
+    return end();
   }
   const Expression own = own_share(b);
   const Expression drift = b.at("k", "drift", {affine("i")});
@@ -164,8 +170,7 @@ Routine LoopStage::evaluate(bool in_parts) const {
   b.body().push_back(for_each(elements(), std::move(again)));
   b.body().back().remark = {"What their rows lack there, rounded as they are."};
   b.body().push_back(velocity);
-  b.body().push_back(for_each(elements(), lacks(b, at, in_parts)));
-  return b.take();
+  return end();
 }
 
 Routine LoopStage::differentiate() const {

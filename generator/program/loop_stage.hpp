@@ -50,8 +50,8 @@ class LoopStage {
   // Note [linear equations in loops]
   // Constants are rounded alike at every step, and so are products with them: of the chain of 25 at
   // h = 1 the form drifts by 2e-3 units of rounding a step, and not at all where what the gradient,
-  // the products and the rounded solution lose is known far below rounding.  The equations are
-  // solved once more for it, with the same matrix.
+  // the products and the rounded stage lose is known far below rounding.  It is what the equations
+  // are solved for.
   [[nodiscard]] bool is_linear() const { return newton() && is_quadratic_; }
   [[nodiscard]] bool both() const { return arrays_.method == ArrayMethod::both; }
   [[nodiscard]] bool is_explicit() const {
@@ -90,6 +90,11 @@ class LoopStage {
   [[nodiscard]] Routine gradient_error() const;
   // z + carry + row - bar with all that it loses, for an element of q or p.
   Expression exact_lack(RoutineBuilder& b, Body& body, bool is_p, const Expression& extra) const;
+  // start.lack, far below rounding, and start.moved of the torn momenta, at a stage whose
+  // start.slope is known.
+  void add_exact_lack(RoutineBuilder& b, Body& body) const;
+  // The call of a routine that takes the stage and these.
+  [[nodiscard]] Call of_stage(const char* routine, std::vector<Place> arguments) const;
   // dz + rest = Z - z after the iteration, by start.slope and the way to the solution.
   void add_exact_result(RoutineBuilder& b) const;
   // The torn momenta:  pbar_i = (p_i - h (1 - alpha) V_i - h beta d_i) / (1 + h beta m_i).  With

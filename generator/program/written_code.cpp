@@ -147,7 +147,7 @@ class RoutineWriter : public RunWriter {
     Value regular = action("Matrix", node.matrix, "factorise", std::move(lanes));
     if (form_.lanes) {
       const Value turn = object({"start", "turn"});
-      return void(add(Do{action("NewtonRule", rule_, "require", {turn, std::move(regular)})}));
+      return void(add(Do{action(rule_type_, rule_, "require", {turn, std::move(regular)})}));
     }
     branch(prefix("!", std::move(regular)), iterates_ ? Shape::braces : Shape::line, [this] {
       if (iterates_) {
@@ -342,7 +342,8 @@ std::string type_of(const ArrayMatrix& matrix) {
   if (matrix.kind == MatrixKind::eigen_sparse)
     return plain(eigen ? "EigenSparseMatrix" : "SparseMatrix");
   if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
-  const std::string band = fmt::format("BandMatrix<{}, {}>", matrix.size, matrix.bandwidth);
+  const std::string band = fmt::format("{}BandMatrix<{}, {}>", matrix.symmetric ? "Symmetric" : "",
+                                       matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return band;
   return fmt::format("ReorderedMatrix<{}, ElementOrder<{}, {}, {}>>", band, matrix.arrays,
                      matrix.size / matrix.arrays, matrix.folded);

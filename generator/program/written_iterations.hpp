@@ -36,7 +36,8 @@ class IterationWriter : public StatementWriter {
 
   void operator()(const IterateArray& iterate) {
     iterates_ = true;
-    iterate.rule == Rule::newton ? newton(iterate) : contraction(iterate);
+    const bool by_size = iterate.rule == Rule::newton || iterate.rule == Rule::linear;
+    by_size ? newton(iterate) : contraction(iterate);
     iterates_ = false;
   }
 
@@ -71,6 +72,7 @@ class IterationWriter : public StatementWriter {
       if (begins) return;
       branch(at({"more "}), Shape::braces, [&] { write(refine.body); });
     })});
+    if (refine.gives_up) give_up({"start", refine.rule});
   }
 
   void operator()(const Sweep& sweep) {
@@ -103,6 +105,7 @@ class IterationWriter : public StatementWriter {
   std::set<std::string> kept_;  // locals that an iteration changes
   bool iterates_ = false;
   Place rule_;  // that it iterates by
+  std::string rule_type_ = "NewtonRule";
 
  private:
   // |-x| = |x|
@@ -197,8 +200,13 @@ class IterationWriter : public StatementWriter {
 
   void newton(const IterateArray& iterate) {
     const Place rule{"start", iterate.name};
-    add(Do{action("NewtonRule", rule, "begin", with_turn({at({"start", "known"})}))});
+    const bool linear = iterate.rule == Rule::linear;
+    const char* type = linear ? "LinearRule" : "NewtonRule";
+    // Linear equations are the same wherever their solution is looked for.
+    if (!linear) add(Do{action(type, rule, "begin", with_turn({at({"start", "known"})}))});
+    if (linear && form_.lanes) add(Do{action(type, rule, "begin", turn())});
     rule_ = rule;
+    rule_type_ = type;
     iterate_with([&] {
       write(iterate.body);
       add(Define{"Real", "size ", integer(0), true});
@@ -211,14 +219,14 @@ class IterationWriter : public StatementWriter {
           set(at({"size "}), moved, "+=");
           set(at({"scale "}), length(u.value, u.beside), "+=");
           if (!of_each) continue;
-          set(at({"uneven "}),
-              action("NewtonRule", rule, "relative", {moved, length(u.value, u.beside)}), "+=");
+          set(at({"uneven "}), action(type, rule, "relative", {moved, length(u.value, u.beside)}),
+              "+=");
         }
       };
       over(iterate.ranges, measure, Shape::braces);
       std::vector<Value> judged = judged_by_size();
       if (of_each) judged.push_back(at({"uneven "}));
-      Value verdict = action("NewtonRule", rule, "", std::move(judged));
+      Value verdict = action(type, rule, "", std::move(judged));
       if (form_.lanes) {
         look_at_moving(std::move(verdict));
         return move(iterate, at({"moving "}));
@@ -308,6 +316,16 @@ class IterationWriter : public StatementWriter {
     end_lanes(rule);
     if (!iterate.leaves_last) return move(iterate, lanes_in_turn());
     if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), makes_last(iterate.name)}));
+  }
+  // What Refinement has not found is left to the solver behind.
+  void give_up(const Place& rule) {
+    Value slow = action("ContractionRule", rule, "is_slow", {});
+    if (!form_.lanes) return branch(std::move(slow), Shape::line, [this] { fail(); });
+    add(Define{"Mask", "slow ", joined("&", {lanes_in_turn(), std::move(slow)})});
+    const Value converged = at({"report", "converged"});
+    const Value others = prefix("!", at({"slow "}));
+    set(converged, joined("&", {converged, others}));
+    set(lanes_in_turn(), joined("&", {lanes_in_turn(), others}));
   }
   static Value makes_last(const std::string& rule) {
     return action("ContractionRule", {"start", rule}, "moves", {});

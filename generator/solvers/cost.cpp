@@ -13,6 +13,8 @@ constexpr int kMostWork = 13;
 constexpr double kOfUnknown = 10;
 // A row of a band waits for the row before it: its division, and the choice of a pivot.
 constexpr double kOfBandRow = 100;
+// Without the pivot, and with half of the products.
+constexpr double kOfSymmetricRow = 45;
 // A row of Eigen's sparse matrix, whose entries are sorted and whose fill-in is looked up.
 constexpr double kOfSparseRow = 20000;
 
@@ -44,7 +46,8 @@ double elimination(const ArrayMatrix& matrix) {
   const double width = matrix.bandwidth;
   switch (matrix.kind) {
     case MatrixKind::band:
-      return size * (kOfBandRow + 6 * width * width);
+      return matrix.symmetric ? size * (kOfSymmetricRow + 3 * width * width)
+                              : size * (kOfBandRow + 6 * width * width);
     case MatrixKind::dense:
     case MatrixKind::eigen_dense:
       return 2 * size * size * size / 3;

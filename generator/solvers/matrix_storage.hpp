@@ -20,6 +20,7 @@ struct ArrayMatrix {
   int bandwidth = 0;
   int arrays = 1;
   bool folded = false;
+  bool symmetric = false;  // a band, whatever the state
   // Of trajectories in lanes: it is eliminated without Eigen; does it serve over many steps?
   bool in_lanes = false;
   bool kept = false;

@@ -169,6 +169,9 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
           "are not made\nhelp: --solver fixed-point");
     if (wish.kind != Wish::fixed_point && !of_sums)
       arrays.matrix = choose_matrix(mechanics, member, arrays.reduced, eigen);
+    // I + c m V'', with the mass m of all.
+    if (arrays.matrix && arrays.matrix->kind == MatrixKind::band && arrays.mass)
+      arrays.matrix->symmetric = true;
     if (wish.kind == Wish::newton && !arrays.matrix)
       throw UsageError(
           fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "

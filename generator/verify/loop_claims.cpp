@@ -262,10 +262,8 @@ class LoopMemberClaims {
                     const std::vector<Expression>& increments) {
     const auto g = [&](int k) { return slope(machine, before, k); };
     const auto m = static_cast<int>(unknowns.size());
-    const std::size_t systems = has("gradient_error") ? 2 : 1;
-    const bool solved = machine.systems.size() == systems;
-    claim("the number of linear systems", Expression(std::ssize(machine.systems)),
-          Expression(static_cast<long>(systems)));
+    const bool solved = machine.systems.size() == 1;
+    claim("the number of linear systems", Expression(std::ssize(machine.systems)), Expression(1));
     if (!solved) return;
     const EliminatedSystem& system = machine.systems.front();
     const auto call = std::ranges::find(machine.calls, "differentiate", &CallTrace::routine);
@@ -273,18 +271,19 @@ class LoopMemberClaims {
         call != machine.calls.end() &&
         std::equal(unknowns.begin(), unknowns.end(), call->input.begin(), call->input.end());
     claim("the matrix is taken at the unknowns", Expression(at_unknowns ? 1 : 0), Expression(1));
-    std::vector<Expression> moved;
+    const bool linear = has("gradient_error");
     for (int i = 0; i < m; ++i) {
-      claim("what the equations lack for " + step_.name(i), system.right_side.at(at(i)),
-            row(i, g) - unknowns[at(i)]);
+      if (!linear) {
+        claim("what the equations lack for " + step_.name(i), system.right_side.at(at(i)),
+              row(i, g) - unknowns[at(i)]);
+      }
       claim("the increment of the stage value of " + step_.name(i), increments[at(i)],
             system.solution.at(at(i)));
-      moved.push_back(machine.value({"start", "value", {{i, {}}}}));
-      claim("the last stage value of " + step_.name(i), moved.back(),
-            unknowns[at(i)] + increments[at(i)]);
+      claim("the last stage value of " + step_.name(i),
+            machine.value({"start", "value", {{i, {}}}}), unknowns[at(i)] + increments[at(i)]);
     }
-    if (systems == 2) {
-      claim_linear(machine, stage_of(machine, moved, "at the end"));
+    if (linear) {
+      claim_linear(machine, before);
     } else {
       claim_moved_slope(machine, before, increments, g);
     }
@@ -312,7 +311,7 @@ class LoopMemberClaims {
   }
 
   // H is quadratic, its gradient H'' z: whatever was rounded in the slopes taken at this point, the
-  // step is that of the equations solved there once more.
+  // step is that of the equations solved there.
   void claim_linear(SymbolicMachine& machine, const std::vector<Expression>& point) {
     const Expression h = step_size();
     const auto& [alpha, beta, gamma] = member_;
@@ -330,13 +329,11 @@ class LoopMemberClaims {
     for (int i = n_; reduced_ && i < 2 * n_; ++i)
       off[at(i)] = (row(i, exact) - point[at(i)]) * own(i - n_);
     const auto torn = [&](int k) { return exact(k) + times(k, [&](int j) { return off[at(j)]; }); };
-    const EliminatedSystem& system = machine.systems.back();
-    const bool same = system.matrix == machine.systems.front().matrix;
-    claim("the matrix is the same", Expression(same ? 1 : 0), Expression(1));
+    const EliminatedSystem& system = machine.systems.front();
     for (std::size_t i = 0; i < system.solution.size(); ++i) {
       const int k = static_cast<int>(i);
-      claim("what the equations lack at the rounded solution for " + step_.name(k),
-            system.right_side[i], row(k, torn) - point[i]);
+      claim("what the equations lack for " + step_.name(k), system.right_side[i],
+            row(k, torn) - point[i]);
     }
     const auto moved = [&](int j) {
       if (at(j) < system.solution.size()) return system.solution[at(j)];

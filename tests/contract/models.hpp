@@ -61,6 +61,14 @@ coordinate q[1..N] with q[0] = 0, q[N+1] = 0
 momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, exp(40*(q[i] - q[i+1] - 1)))
 scene shot { p[1] = 2; p[16] = -3; h = 0.01; steps = 300 }
+)"},
+    // A long wave on a chain: the increments that are seen contract faster than what rounding has
+    // left in the short waves.
+    SteepModel{"long_wave", R"(size N = 64
+coordinate q[1..N] with q[0] = 0, q[N+1] = 0
+momentum p[1..N]
+H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^3/12)
+scene swing { q[i] = sin(pi*i/(N+1))/10; h = 0.7; steps = 100 }
 )"}};
 
 }  // namespace hamgen::contract

@@ -97,12 +97,21 @@ TEST(Drift, AnAffineBlockNeedsWhatItsGradientLoses) {
                          {.model = soft_chain(1), .request = {}, .h = 1}, {.starts = 32});
 }
 
-TEST(Drift, LinearEquationsInLoopsNeedWhatGradientsAndDifferencesLose) {
+// Here too: what one of them leaves out walks at random, and without the way to the solution the
+// step drifts by a tenth of a rounding error.
+TEST(Drift, LinearEquationsInLoopsNeedWhatGradientsSumsAndDifferencesLose) {
   const Row row{.model = chain(25), .request = {}, .h = 1};
-  const Short length{.steps = 50'000};
-  expect_drift_only_with({{"lost[i] = -(left[i] + lost[i])", "lost[i] = 0"}}, row, length);
-  const Result mutant =
-      result_of(row, {{"= difference_error(", "= 0 * difference_error("}}, length);
+  const Short length{.steps = 20'000};
+  const Result result = result_of(row, {}, length);
+  EXPECT_FALSE(result.drifts()) << words(result);
+  for (const Replacement& edit : {Replacement{"lost[i] = -(left[i] + lost[i])", "lost[i] = 0"},
+                                  Replacement{"= difference_error(", "= 0 * difference_error("},
+                                  Replacement{"lost += error", "lost += 0 * error"}}) {
+    const Result mutant = result_of(row, {edit}, length);
+    EXPECT_GT(mutant.standard_error, 1e6 * result.standard_error) << edit.new_text;
+  }
+  const Result mutant = result_of(
+      row, {{"start.moved[i] = start.lack[i]", "start.moved[i] = 0 * start.lack[i]"}}, length);
   EXPECT_TRUE(mutant.drifts()) << words(mutant);
 }
 

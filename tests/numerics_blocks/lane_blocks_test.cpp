@@ -38,6 +38,28 @@ void fill(Together& together, Alone (&alone)[kLanes], Numbers& numbers, int widt
     }
   }
 }
+// The same of a symmetric one, definite in lanes 0, 1, 6 and 7.
+template <int Width>
+void fill(packs::SymmetricBandMatrix<kRows, Width>& together,
+          of_double::SymmetricBandMatrix<kRows, Width> (&alone)[kLanes], Numbers& numbers,
+          int width) {
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = r; c < kRows && c <= r + width; ++c) {
+      packs::Real entry = 0;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        double value = numbers.next() / 3;
+        if (r == c && (lane < 2 || lane > 5)) value += 2;
+        if (lane == 3 && (r == 2 || c == 2)) value = 0;
+        if (lane == 5 && r == 1 && c == 2) value = std::numeric_limits<double>::quiet_NaN();
+        entry.set(lane, value);
+        alone[lane].put(r, c, value);
+        if (c > r) alone[lane].put(c, r, value);
+      }
+      together.put(r, c, entry);
+      if (c > r) together.put(c, r, entry);
+    }
+  }
+}
 // The right side and the solution in each lane.
 struct Sides {
   packs::Real together[kRows] = {};
@@ -86,6 +108,13 @@ TEST(LaneBlocks, ABandIsSolvedInEachLaneBitForBitAsAlone) {
                          of_double::ReorderedMatrix<of_double::BandMatrix<kRows, 4>, Order>>(kRows);
 }
 
+TEST(LaneBlocks, ASymmetricBandIsSolvedInEachLaneBitForBitAsAlone) {
+  expect_solved_as_alone<packs::SymmetricBandMatrix<kRows, 1>,
+                         of_double::SymmetricBandMatrix<kRows, 1>>(1);
+  expect_solved_as_alone<packs::SymmetricBandMatrix<kRows, 3>,
+                         of_double::SymmetricBandMatrix<kRows, 3>>(3);
+}
+
 // Of a matrix that serves some lanes have factors of the second filling, the others of the first.
 template <class Together, class Alone>
 void expect_kept_as_alone(int width) {
@@ -117,6 +146,8 @@ void expect_kept_as_alone(int width) {
 TEST(LaneBlocks, FactorsServeEachLaneUntilItWantsOthers) {
   expect_kept_as_alone<packs::DenseMatrix<kRows>, of_double::DenseMatrix<kRows>>(kRows);
   expect_kept_as_alone<packs::BandMatrix<kRows, 2>, of_double::BandMatrix<kRows, 2>>(2);
+  expect_kept_as_alone<packs::SymmetricBandMatrix<kRows, 2>,
+                       of_double::SymmetricBandMatrix<kRows, 2>>(2);
 }
 
 // A torus of 3 rows: its order is found, and what the other lanes have changes no bit.

@@ -98,6 +98,23 @@ TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
   }
 }
 
+TEST(LaneRules, LinearEquationsAreSolvedInEachLaneAsAlone) {
+  for (const int batch : {0, 1}) {
+    lanes::LinearRule rule;
+    rule.begin(turn_of_all());
+    ask_together(batch, [&](const lanes::Real& size, int iteration) {
+      return rule(size, lanes::Real(1), iteration);
+    });
+    for (int lane = 0; lane < kCount; ++lane) {
+      const of_double::LinearRule alone;
+      const Increments& increments = increments_of(batch, lane);
+      const End end = end_alone(
+          increments, [&](double size, int iteration) { return alone(size, 1, iteration); });
+      EXPECT_EQ(end_in(rule, lane), end) << increments.name;
+    }
+  }
+}
+
 TEST(LaneRules, AllLanesCheckTheirContractionInTheSameStep) {
   lanes::Turn turn;
   int checks = 0;

@@ -180,6 +180,94 @@ TYPED_TEST(Matrices, ASingularSymmetricSystemIsRefused) {
   EXPECT_TRUE(matrix.factorise());
 }
 
+// A symmetric band as a band and as a symmetric one, with this added to its diagonal.
+template <class Bands, class Real, int Width>
+struct SymmetricBands {
+  typename Bands::template SymmetricBand<7, Width> symmetric;
+  typename Bands::template Band<7, Width> plain;
+  void fill(Numbers& numbers, const Real& diagonal) {
+    symmetric.clear();
+    plain.clear();
+    for (int i = 0; i < 7; ++i) {
+      for (int j = i; j <= i + Width && j < 7; ++j) {
+        const Real entry = i == j ? diagonal + Real(numbers.next()) : Real(numbers.next()) / 4;
+        put(i, j, entry);
+        if (i != j) put(j, i, entry);
+      }
+    }
+  }
+
+ private:
+  void put(int row, int column, const Real& entry) {
+    symmetric.put(row, column, entry);
+    plain.put(row, column, entry);
+  }
+};
+// The largest difference of both solutions in units; less than 0 if one of them is refused.
+template <class Bands, class Real, int Width>
+double difference(SymmetricBands<Bands, Real, Width>& matrix, Numbers& numbers) {
+  Real solution[7];
+  Real expected[7];
+  for (int i = 0; i < 7; ++i) solution[i] = expected[i] = Real(numbers.next());
+  if (!matrix.symmetric.factorise() || !matrix.plain.factorise()) return -1;
+  matrix.symmetric.solve(solution);
+  matrix.plain.solve(expected);
+  double most = 0;
+  for (int i = 0; i < 7; ++i) {
+    const Real gap = Bands::absolute(solution[i] - expected[i]) / Bands::unit;
+    most = std::max(most, static_cast<double>(gap));
+  }
+  return most;
+}
+
+// Diagonals beyond 4 and others below 1/4, at most three beside them: the condition is below 3.
+// The object has been filled with an indefinite matrix before.
+TYPED_TEST(Matrices, ADefiniteSymmetricBandIsSolvedAsABandIs) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  SymmetricBands<TypeParam, Real, 1> narrow;
+  SymmetricBands<TypeParam, Real, 3> wide;
+  for (int run = 0; run < 20; ++run) {
+    for (const Real& diagonal : {Real(0), Real(5)}) {
+      narrow.fill(numbers, diagonal);
+      wide.fill(numbers, diagonal);
+      const double of_narrow = difference(narrow, numbers);
+      const double of_wide = difference(wide, numbers);
+      EXPECT_GE(of_narrow, 0) << run;
+      EXPECT_GE(of_wide, 0) << run;
+      if (diagonal == 0) continue;
+      EXPECT_LT(of_narrow, 8) << run;
+      EXPECT_LT(of_wide, 8) << run;
+    }
+  }
+}
+
+// Not definite: bit for bit as any other band, also where the last row alone is not.
+TYPED_TEST(Matrices, AnIndefiniteSymmetricBandIsEliminatedWithPivots) {
+  using Real = typename TypeParam::Scalar;
+  Numbers numbers;
+  SymmetricBands<TypeParam, Real, 2> matrix;
+  for (int run = 0; run < 20; ++run) {
+    matrix.fill(numbers, Real(5));
+    matrix.symmetric.put(6, 6, Real(-11));
+    matrix.plain.put(6, 6, Real(-11));
+    EXPECT_EQ(difference(matrix, numbers), 0) << run;
+    matrix.fill(numbers, Real(-5));
+    EXPECT_EQ(difference(matrix, numbers), 0) << run;
+  }
+}
+
+TYPED_TEST(Matrices, ASingularSymmetricBandIsRefused) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template SymmetricBand<4, 1> matrix;
+  for (int i = 0; i < 4; ++i) matrix.put(i, i, Real(i < 3 ? 1 : 0));
+  EXPECT_FALSE(matrix.factorise());
+  matrix.put(3, 3, Real(2));
+  matrix.clear();
+  for (int i = 0; i < 4; ++i) matrix.put(i, i, Real(2));
+  EXPECT_TRUE(matrix.factorise());
+}
+
 TYPED_TEST(Matrices, OneFactorisationServesManyRightSides) {
   using Real = typename TypeParam::Scalar;
   typename TypeParam::template Dense<3> matrix;

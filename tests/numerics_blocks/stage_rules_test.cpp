@@ -113,5 +113,23 @@ TYPED_TEST(StageRules, ASmallIncrementOfEquationsThatDoNotHoldIsAFailure) {
   EXPECT_TRUE(factorised);
 }
 
+// The errors of an increment are a part of it: below the root of a rounding error they are lost.
+TYPED_TEST(StageRules, LinearEquationsAreSolvedWhenAnIncrementsErrorsAreLost) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const typename TypeParam::Linear rule;
+  const Real part = rule.small_part;
+  EXPECT_LE(part * part, TypeParam::unit);
+  EXPECT_GT(4 * part * part, TypeParam::unit);
+  EXPECT_EQ(rule(3 * part, Real(3), 1), Verdict::done);
+  EXPECT_EQ(rule(4 * part, Real(3), 1), Verdict::go_on);
+  EXPECT_EQ(rule(4 * part, Real(3), 59), Verdict::go_on);
+  EXPECT_EQ(rule(4 * part, Real(3), 60), Verdict::failed);
+  EXPECT_EQ(rule(Real(0), Real(0), 1), Verdict::done);
+  const Real infinity = Real(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(rule(infinity, infinity, 1), Verdict::failed);
+  EXPECT_EQ(rule(infinity - infinity, Real(1), 1), Verdict::failed);
+}
+
 }  // namespace
 }  // namespace hamgen::numerics_blocks_test
