@@ -15,7 +15,7 @@ using namespace hamgen::drift;
 
 struct Options {
   Length length;
-  std::vector<std::string> flags;
+  std::vector<std::string> flags = {"-march=native"};  // the same bits, in less time
   std::vector<std::string> words;
 };
 
@@ -32,7 +32,6 @@ Options read_options(int count, char** arguments) {
       options.length.seconds = value();
     } else if (argument == "--lanes") {
       options.length.lanes = static_cast<int>(value());
-      options.flags = {"-march=native"};
     } else {
       options.words.push_back(argument);
     }
