@@ -142,7 +142,8 @@ LoweredStep with_tangent(LoweredStep lowered) {
     ArrayPlan& arrays = *lowered.plan.arrays;
     if (iterates(arrays) && !arrays.matrix) {
       const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
-      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced, arrays.eigen);
+      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced,
+                                    arrays.mass.has_value(), arrays.eigen);
     }
   } else if (solved) {
     lowered.linearisation = linearise(lowered.plan);

@@ -71,9 +71,11 @@ void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, 
 }  // namespace
 
 std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
-                                         bool reduced, bool eigen) {
+                                         bool reduced, bool one_mass, bool eigen) {
   const int size = (reduced ? 1 : 2) * mechanics.degrees_of_freedom;
-  std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size}};
+  // I + c m V'' is symmetric if m is the same for all.
+  const bool symmetric = reduced && one_mass;
+  std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size, .symmetric = symmetric}};
   const auto add_order = [&](int arrays, bool folded) {
     orders.push_back(orders.front());
     orders.back().arrays = arrays;

@@ -7,11 +7,11 @@
 
 namespace hamgen {
 
-// The matrix of Newton's iteration on the coordinates (the momenta torn out) or on all stage
-// values.  Empty if without Eigen it is too large.
+// The matrix of Newton's iteration on the coordinates (the momenta torn out, which may have one
+// mass) or on all stage values.  Empty if without Eigen it is too large.
 [[nodiscard]] std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics,
                                                        const FamilyParameters& member, bool reduced,
-                                                       bool eigen);
+                                                       bool one_mass, bool eigen);
 
 // Of sums that are loops: is H quadratic?
 [[nodiscard]] bool has_constant_hessian(const Mechanics& mechanics);

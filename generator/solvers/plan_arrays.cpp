@@ -168,10 +168,8 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
           "--solver newton: H is a function of sums over all elements, whose second derivatives "
           "are not made\nhelp: --solver fixed-point");
     if (wish.kind != Wish::fixed_point && !of_sums)
-      arrays.matrix = choose_matrix(mechanics, member, arrays.reduced, eigen);
-    // I + c m V'', with the mass m of all.
-    if (arrays.matrix && arrays.matrix->kind == MatrixKind::band && arrays.mass)
-      arrays.matrix->symmetric = true;
+      arrays.matrix =
+          choose_matrix(mechanics, member, arrays.reduced, arrays.mass.has_value(), eigen);
     if (wish.kind == Wish::newton && !arrays.matrix)
       throw UsageError(
           fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "

@@ -22,7 +22,8 @@ constexpr int kRows = 5;
 
 // Numbers in all places of a matrix, or in those of a band.
 template <class Together, class Alone>
-void fill(Together& together, Alone (&alone)[kLanes], Numbers& numbers, int width) {
+void fill(Together& together, Alone (&alone)[kLanes], Numbers& numbers, int width,
+          int /*filling*/ = 0) {
   for (int r = 0; r < kRows; ++r) {
     for (int c = 0; c < kRows; ++c) {
       if (r - c > width || c - r > width) continue;
@@ -38,17 +39,19 @@ void fill(Together& together, Alone (&alone)[kLanes], Numbers& numbers, int widt
     }
   }
 }
-// The same of a symmetric one, definite in lanes 0, 1, 6 and 7.
-template <int Width>
-void fill(packs::SymmetricBandMatrix<kRows, Width>& together,
-          of_double::SymmetricBandMatrix<kRows, Width> (&alone)[kLanes], Numbers& numbers,
-          int width) {
+// The same of a symmetric one, definite in lanes 0 and 7, first in lane 6 and then in lane 1.
+template <class Together, int Width>
+void fill(Together& together, of_double::SymmetricBandMatrix<kRows, Width> (&alone)[kLanes],
+          Numbers& numbers, int width, int filling = 0) {
+  const auto is_definite = [filling](int lane) {
+    return lane == 0 || lane == 7 || lane == (filling == 0 ? 6 : 1);
+  };
   for (int r = 0; r < kRows; ++r) {
     for (int c = r; c < kRows && c <= r + width; ++c) {
       packs::Real entry = 0;
       for (int lane = 0; lane < kLanes; ++lane) {
         double value = numbers.next() / 3;
-        if (r == c && (lane < 2 || lane > 5)) value += 2;
+        if (r == c && is_definite(lane)) value += 2;
         if (lane == 3 && (r == 2 || c == 2)) value = 0;
         if (lane == 5 && r == 1 && c == 2) value = std::numeric_limits<double>::quiet_NaN();
         entry.set(lane, value);
@@ -123,7 +126,7 @@ void expect_kept_as_alone(int width) {
   Alone alone[2][kLanes];
   for (int filling = 0; filling < 2; ++filling) {
     together.clear();
-    fill(together, alone[filling], numbers, width);
+    fill(together, alone[filling], numbers, width, filling);
     packs::Real lanes = filling == 0 ? 1 : 0;
     for (const int lane : {1, 3, 6}) lanes.set(lane, 1);
     const packs::Mask regular = together.factorise(lanes > 0);
