@@ -90,13 +90,18 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
 template <class Real>
 class LinearRuleOf final : public AnyNewtonRule<Real> {
  public:
-  void begin(bool /*predicted*/) override {}
+  void begin(bool /*predicted*/) override { rule_.begin(); }
   void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
              int /*count*/) override {}
-  Answer operator()(Real size, Real scale, int iteration, Real /*uneven*/) override {
-    return answer(typename NumericsOf<Real>::Linear()(size, scale, iteration));
+  Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
+    return answer(rule_(size, scale, iteration, uneven));
   }
-  [[nodiscard]] Real relative(Real /*moved*/, Real /*length*/) const override { return 0; }
+  [[nodiscard]] Real relative(Real moved, Real length) const override {
+    return rule_.relative(moved, length);
+  }
+
+ private:
+  typename NumericsOf<Real>::Linear rule_;
 };
 
 template <class Real, class Rule>
@@ -261,7 +266,12 @@ template <class Real>
 std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) {
   std::vector<int> place(static_cast<std::size_t>(size));
   std::iota(place.begin(), place.end(), 0);
-  return matrix(std::move(place), symmetric);
+  if (!symmetric) return matrix(std::move(place));
+  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+    constexpr int most = decltype(n)::value;
+    using Matrix = typename NumericsOf<Real>::template Symmetric<most>;
+    return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
+  });
 }
 
 template <class Real>
@@ -270,7 +280,7 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bo
   return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
     if (symmetric) {
-      using Matrix = typename NumericsOf<Real>::template Symmetric<most>;
+      using Matrix = typename NumericsOf<Real>::template SymmetricBand<most>;
       return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
     }
     using Matrix = typename NumericsOf<Real>::template Dense<most>;

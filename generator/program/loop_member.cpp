@@ -229,7 +229,8 @@ class LoopMember : LoopStage {
                                      .name = "rule",
                                      .ranges = {elements()},
                                      .unknowns = unknown_arrays(b),
-                                     .body = std::move(body)},
+                                     .body = std::move(body),
+                                     .of_each = true},
                         {"Linear equations are solved for what they lack."}});
   }
 

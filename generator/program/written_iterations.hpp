@@ -203,8 +203,9 @@ class IterationWriter : public StatementWriter {
     const bool linear = iterate.rule == Rule::linear;
     const char* type = linear ? "LinearRule" : "NewtonRule";
     // Linear equations are the same wherever their solution is looked for.
-    if (!linear) add(Do{action(type, rule, "begin", with_turn({at({"start", "known"})}))});
-    if (linear && form_.lanes) add(Do{action(type, rule, "begin", turn())});
+    std::vector<Value> from = turn();
+    if (!linear) from.insert(from.begin(), at({"start", "known"}));
+    add(Do{action(type, rule, "begin", std::move(from))});
     rule_ = rule;
     rule_type_ = type;
     iterate_with([&] {

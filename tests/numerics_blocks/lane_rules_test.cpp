@@ -98,19 +98,33 @@ TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
   }
 }
 
+// From what is known on, in a step that checks and in one that does not.
 TEST(LaneRules, LinearEquationsAreSolvedInEachLaneAsAlone) {
   for (const int batch : {0, 1}) {
-    lanes::LinearRule rule;
-    rule.begin(turn_of_all());
-    ask_together(batch, [&](const lanes::Real& size, int iteration) {
-      return rule(size, lanes::Real(1), iteration);
-    });
-    for (int lane = 0; lane < kCount; ++lane) {
-      const of_double::LinearRule alone;
-      const Increments& increments = increments_of(batch, lane);
-      const End end = end_alone(
-          increments, [&](double size, int iteration) { return alone(size, 1, iteration); });
-      EXPECT_EQ(end_in(rule, lane), end) << increments.name;
+    for (const double known : {0.0, 0x1p-52, 1e-4}) {
+      for (const bool checks : {false, true}) {
+        lanes::Turn turn;
+        for (int step = 0; step < (checks ? 32 : 1); ++step) turn.begin(true);
+        ASSERT_EQ(turn.is_check(), checks);
+        lanes::LinearRule rule;
+        if (known > 0) rule.contraction = lanes::Real(known);
+        rule.begin(turn);
+        ask_together(batch, [&](const lanes::Real& size, int iteration) {
+          return rule(size, lanes::Real(1), iteration, size * 3);
+        });
+        for (int lane = 0; lane < kCount; ++lane) {
+          of_double::LinearRule alone;
+          if (known > 0) alone.contraction = known;
+          if (checks) alone.unchecked = 31;
+          alone.begin();
+          const Increments& increments = increments_of(batch, lane);
+          const End end = end_alone(increments, [&](double size, int iteration) {
+            return alone(size, 1, iteration, size * 3);
+          });
+          EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << known;
+          EXPECT_EQ(rule.contraction[lane], alone.contraction) << increments.name << " " << known;
+        }
+      }
     }
   }
 }

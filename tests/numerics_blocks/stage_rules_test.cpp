@@ -113,22 +113,78 @@ TYPED_TEST(StageRules, ASmallIncrementOfEquationsThatDoNotHoldIsAFailure) {
   EXPECT_TRUE(factorised);
 }
 
-// The errors of an increment are a part of it: below the root of a rounding error they are lost.
-TYPED_TEST(StageRules, LinearEquationsAreSolvedWhenAnIncrementsErrorsAreLost) {
+// Of a solution 1: a contraction of 4 units is seen in the first step, and then 2^-22 of it is
+// lost.
+TYPED_TEST(StageRules, LinearEquationsAreSolvedWhenWhatASolveLeavesIsLost) {
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
-  const typename TypeParam::Linear rule;
-  const Real part = rule.small_part;
-  EXPECT_LE(part * part, TypeParam::unit);
-  EXPECT_GT(4 * part * part, TypeParam::unit);
-  EXPECT_EQ(rule(3 * part, Real(3), 1), Verdict::done);
-  EXPECT_EQ(rule(4 * part, Real(3), 1), Verdict::go_on);
-  EXPECT_EQ(rule(4 * part, Real(3), 59), Verdict::go_on);
-  EXPECT_EQ(rule(4 * part, Real(3), 60), Verdict::failed);
-  EXPECT_EQ(rule(Real(0), Real(0), 1), Verdict::done);
+  const Real unit = TypeParam::unit;
+  const Real part = Real(1) / (1 << 22);
+  typename TypeParam::Linear rule;
+  rule.begin();
+  EXPECT_EQ(rule(Real(1) / 4, 1, 1, 1), Verdict::go_on);
+  EXPECT_EQ(rule(unit, 1, 2, unit), Verdict::done);
+  EXPECT_EQ(rule.contraction, 4 * unit);
+  rule.begin();
+  EXPECT_EQ(rule(part, 1, 1, part), Verdict::done);
+  rule.begin();
+  EXPECT_EQ(rule(2 * part + 64 * unit, 1, 1, part), Verdict::go_on);
+  // Each unknown counts, and not all together alone.
+  rule.begin();
+  EXPECT_EQ(rule(part, 1, 1, Real(1) / 64), Verdict::done);
+  rule.begin();
+  EXPECT_EQ(rule(part, 1, 1, Real(1) / 32), Verdict::go_on);
+}
+
+// Where the condition of the matrix is 2^10 units increments fall by that.
+TYPED_TEST(StageRules, LinearEquationsOfAnIllConditionedMatrixAreSolvedAgainAndAgain) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real contraction = Real(1) / 1024;
+  typename TypeParam::Linear rule;
+  for (int step = 0; step < 3; ++step) {
+    rule.begin();
+    Real size = 1;
+    Verdict verdict = Verdict::go_on;
+    for (int iteration = 1; verdict == Verdict::go_on; ++iteration, size *= contraction)
+      verdict = rule(size, 1, iteration, size);
+    EXPECT_EQ(verdict, Verdict::done);
+    // The last one leaves a 2^-20th of a rounding error.
+    EXPECT_LE(size, TypeParam::unit) << step;
+    EXPECT_GE(rule.contraction, contraction);
+  }
+}
+
+TYPED_TEST(StageRules, LinearEquationsAreLookedAtAgainAfter32Steps) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Linear rule;
+  const Real small = 2 * TypeParam::unit;
+  rule.contraction = TypeParam::unit;
+  int looked_at = 0;
+  for (int step = 0; step < 64; ++step) {
+    rule.begin();
+    if (rule(small, 1, 1, small) == Verdict::done) continue;
+    ++looked_at;
+    EXPECT_EQ(rule(TypeParam::unit / 2, 1, 2, 0), Verdict::done);
+  }
+  EXPECT_EQ(looked_at, 2);
+}
+
+TYPED_TEST(StageRules, LinearEquationsWithoutASolutionAreAFailure) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::Linear rule;
+  rule.begin();
+  EXPECT_EQ(rule(Real(0), Real(0), 1, Real(0)), Verdict::done);
+  for (int iteration = 1; iteration < 60; ++iteration)
+    EXPECT_EQ(rule(Real(1), 1, iteration, 1), Verdict::go_on);
+  EXPECT_EQ(rule(Real(1), 1, 60, 1), Verdict::failed);
   const Real infinity = Real(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(rule(infinity, infinity, 1), Verdict::failed);
-  EXPECT_EQ(rule(infinity - infinity, Real(1), 1), Verdict::failed);
+  EXPECT_EQ(rule(infinity, infinity, 1, 0), Verdict::failed);
+  EXPECT_EQ(rule(infinity - infinity, Real(1), 1, 0), Verdict::failed);
+  EXPECT_EQ(rule.relative(Real(1), Real(4)), Real(1) / 4);
+  EXPECT_EQ(rule.relative(Real(0), Real(0)), Real(0));
 }
 
 }  // namespace
