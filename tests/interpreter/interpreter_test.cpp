@@ -177,6 +177,26 @@ TEST(Loops, OfRingsAndOfAllPairsHaveTheBitsThatAreInterpreted) {
   }
 }
 
+// Symmetric bands, folded or not, of steps so long that Newton takes them, and of linear equations
+// of a condition up to 1e12.
+TEST(Loops, OfSymmetricBandsHaveTheBitsThatAreInterpreted) {
+  std::vector<double> state(52);
+  for (std::size_t i = 0; i < 26; ++i) state[i] = std::sin(0.24 * static_cast<double>(i));
+  const std::string chain =
+      "coordinate q[1..26] with q[0] = 0, q[27] = 0\nmomentum p[1..26]\n"
+      "H = sum(i = 1..26, p[i]^2/2 - q[i]^2/2)"
+      " + sum(i = 0..26, (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^4/4)\n";
+  const auto ring = [](const char* k) {
+    return fmt::format(
+        "coordinate q[1..26] periodic\nmomentum p[1..26]\n"
+        "H = sum(i = 1..26, p[i]^2/2 + {}*(q[i+1] - q[i])^2/2)\n",
+        k);
+  };
+  takes_the_same_steps(chain, {}, 0.5, state);
+  takes_the_same_steps(ring("1.3"), {}, 0.5, state);
+  takes_the_same_steps(ring("1e12"), {}, 0.5, state);
+}
+
 // Of a scene with steps of h: has a step taken Newton's iteration?
 bool comes_to_newton(const char* name, const Request& request, double h) {
   const SourceText source = shipped(name);
