@@ -123,9 +123,10 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const Whole slope = whole(Place{refine.refinement.object, name + ".slope"});
     const Whole change = whole(Place{refine.refinement.object, name + ".change"});
     const int target = index_of(refine.refinement.object);
-    const int start = refine.rule.empty() ? 0 : index_of("start");
+    const int start = refine.rule.empty() && !refine.patience ? 0 : index_of("start");
     return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
-            begun = refine.begun, gives_up = refine.gives_up, first = steps(refine.first),
+            begun = refine.begun, gives_up = refine.gives_up, steps_of_other = refine.steps,
+            patience = refine.patience ? refine.patience->field : "", first = steps(refine.first),
             body = steps(refine.body)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
       const bool begins = !first.empty();
@@ -139,7 +140,10 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       refinement.get_slope(span(slope));
       refinement.get_change(span(change));
-      return !gives_up || !object(start).contractions.at(rule)->is_slow();
+      if (gives_up && object(start).contractions.at(rule)->is_slow()) return false;
+      if (!refinement.found() && steps_of_other > 0)
+        object(start).flags.at(patience) = steps_of_other;
+      return refinement.found();
     };
   }
   Step operator()(const Refine& refine) {
@@ -173,7 +177,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       for (std::size_t j = 0; j < kept.size(); ++j) m_.frame.at(kept[j]) = waiting[j];
       refinement->get_change({&m_.frame.at(change), gradient.size()});
-      return true;
+      return refinement->found();
     };
   }
   Step operator()(const Sweep& sweep) {

@@ -164,6 +164,7 @@ class RefinementOf final : public AnyRefinement<Real> {
     return more;
   }
   [[nodiscard]] bool is_first() const override { return refinement_.rounds == 0; }
+  [[nodiscard]] bool found() const override { return refinement_.found; }
   void get_change(std::span<Real> change) const override {
     std::copy_n(refinement_.change, change.size(), change.begin());
   }

@@ -20,6 +20,7 @@ struct Refinement {
   Real least = 0;                // of these
   Real stuck = 0;                // rounds that moved no less
   Mask open = false;             // lanes that want more
+  Mask found = true;             // lanes where the solution was at the end
   int rounds = 0;
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
@@ -63,6 +64,7 @@ struct Refinement {
       change[k] = select(lanes, Real(0), change[k]);
     }
     open = lanes;
+    found = found | lanes;
   }
   void round(const Real* lack, const Real* gradient) {
     if (!any(open)) return;
@@ -85,7 +87,18 @@ struct Refinement {
     const Mask decreased = rounds == 0 ? Mask(true) : last < least;
     stuck = select(decreased, Real(0), stuck + 1);
     least = select(decreased, last, least);
-    open = open & (lacking > epsilon * epsilon * begun) & (stuck < 4) & Mask(rounds < 500);
+    const Mask waits = open & (lacking > epsilon * epsilon * begun);
+    open = waits & (stuck < 4) & Mask(rounds < 500);
+    const Mask ends = waits & !open;
+    if (any(ends)) found = found & ((!ends) | (far_off(lack) <= 0));
+  }
+  // Of unknowns that a round still moves when no more is to be had.
+  Real far_off(const Real* lack) const {
+    return sum_of(Size, [&](int j) {
+      const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
+      const Mask moves = (error * 32 > epsilon * magnitude(at[j])) & (error * 1024 > begun);
+      return select(moves, error, Real(0));
+    });
   }
   bool move(const Mask& looked, Real* point) {
     for (int j = 0; j < Size; ++j) {

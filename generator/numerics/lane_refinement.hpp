@@ -23,7 +23,7 @@ struct RefinementInLanes : Refinement {
       }
     }
     this->last = total_of<width>(moves);
-    const bool more = this->goes_on(total_of<width>(open));
+    const bool more = this->goes_on(total_of<width>(open), lack);
     if (more) {
       for (int first = 0; first < size; first += width) {
         const Lanes ahead = Refinement::amplifier * Lanes::at(this->moved + first);

@@ -26,6 +26,7 @@ struct Refinement {
   Real least = 0;                // of these
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
+  bool found = true;  // was the solution at the end, or does the map not contract?
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -34,6 +35,7 @@ struct Refinement {
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled && lacking(lack) <= rule.round_off) {
       ++rule.unchecked;
+      found = true;
       for (int k = 0; k < Components; ++k) {
         slope[k] = gradient[k];
         change[k] = 0;
@@ -67,7 +69,7 @@ struct Refinement {
       return magnitude(error[j]) * 8192 > unit ? magnitude(error[j]) : Real(0);
     });
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
-    const bool more = goes_on(open);
+    const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
@@ -85,12 +87,23 @@ struct Refinement {
   }
   // A slow contraction takes its time; what the rounding of the map leaves does not decrease.  What
   // is lost beside the first round is not waited for (Distance).
-  bool goes_on(Real open) {
+  bool goes_on(Real open, const Real* lack) {
     if (rounds == 0) begun = last;
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
-    const bool more = open > epsilon * epsilon * begun && stuck < 4 && rounds < 500;
+    const bool waits = open > epsilon * epsilon * begun;
+    const bool more = waits && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
+    found = !waits || more || far_off(lack) <= 0;
     return more;
+  }
+  // Of unknowns that a round still moves by more than a 32nd of a unit, when no more is to be had,
+  // and by a part of what the first one did that rounding does not leave.
+  Real far_off(const Real* lack) const {
+    return sum_of<Size>([&](int j) {
+      const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
+      const bool moves = error * 32 > epsilon * magnitude(at[j]) && error * 1024 > begun;
+      return moves ? error : Real(0);
+    });
   }
 };

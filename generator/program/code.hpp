@@ -190,6 +190,8 @@ struct IterateArray {
   std::optional<Place> factorised = {};
   std::string residual = {};
 };
+// That Newton has, once a fixed point was slow, before it is tried again.
+inline constexpr int kStepsOfNewton = 32;
 // What is said where it is emitted.
 inline constexpr const char* kRefinementRemark =
     "What the equations lack at the rounded unknowns is solved for, too.";
@@ -213,6 +215,10 @@ struct RefineArray {
   int components = 0;     // of the gradient
   bool begun = false;     // the body has been run there, unless the rule has moved it
   bool gives_up = false;  // fails where the rule finds that another solver is worth its work
+  // Where the solution is not found the routine fails, and Alternate's second solver has so many
+  // steps from then on.
+  std::optional<Place> patience = {};
+  int steps = 0;
   Body first = {};
   Body body;
 };

@@ -160,6 +160,9 @@ class Printer {
     if (refine.begun || !refine.first.empty()) line("then, where it has been moved:");
     inside(refine.body);
     if (refine.gives_up) line("fail where it contracts slowly");
+    if (refine.patience) {
+      line(fmt::format("where it is not found, {} = {}", to_text(*refine.patience), refine.steps));
+    }
   }
   void operator()(const Refine& refine) {
     line(fmt::format("refine the fixed point, {}:", refine.name));

@@ -14,7 +14,6 @@ namespace hamgen {
 
 namespace {
 
-constexpr int kStepsOfNewton = 32;
 
 class LoopMember : LoopStage {
  public:

@@ -279,7 +279,7 @@ class StageRoutines : StageParts {
             {Alternate{.first = call("fixed_point", true),
                        .second = call("newton", true),
                        .patience = {"start", "patience"},
-                       .steps = 32,
+                       .steps = kStepsOfNewton,
                        .between = at_state(b)},
              {"Newton where the fixed point contracts slowly, from the state too, and then for 32 "
               "steps."}});
@@ -297,6 +297,10 @@ class StageRoutines : StageParts {
                        .gradient = {"start", "slope"},
                        .count = iterated(),
                        .components = unknowns()};
+    if (solver_ == StageSolver::both) {
+      refine.patience = {"start", "patience"};
+      refine.steps = kStepsOfNewton;
+    }
     const auto contract = [&](Body& body) {
       if (!has_newton()) return;
       Body multiply;

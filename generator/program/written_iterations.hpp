@@ -6,13 +6,13 @@
 #include <set>
 
 #include "generator/program/names.hpp"
-#include "generator/program/written_statements.hpp"
+#include "generator/program/written_failures.hpp"
 
 namespace hamgen::written {
 
-class IterationWriter : public StatementWriter {
+class IterationWriter : public FailureWriter {
  public:
-  using StatementWriter::StatementWriter;
+  using FailureWriter::FailureWriter;
 
   void operator()(const Iterate& iterate) {
     for (const std::string& symbol : iterate.kept) add(Define{"Real", symbol, formula(0), true});
@@ -49,6 +49,7 @@ class IterationWriter : public StatementWriter {
       add(Define{"Real", kept, list({}), true, {static_cast<int>(refine.kept.size())}});
     }
     add(While{inside([&] { refine_once(refine, kept); })});
+    require_found({refine.name});
     for (std::size_t j = 0; j < refine.kept.size(); ++j)
       set(symbol(refine.kept[j]), element(kept, j));
   }
@@ -72,7 +73,8 @@ class IterationWriter : public StatementWriter {
       if (begins) return;
       branch(at({"more "}), Shape::braces, [&] { write(refine.body); });
     })});
-    if (refine.gives_up) give_up({"start", refine.rule});
+    if (refine.gives_up) give_up(action("ContractionRule", {"start", refine.rule}, "is_slow", {}));
+    require_found(refine.refinement, refine.patience, refine.steps);
   }
 
   void operator()(const Sweep& sweep) {
@@ -317,16 +319,6 @@ class IterationWriter : public StatementWriter {
     end_lanes(rule);
     if (!iterate.leaves_last) return move(iterate, lanes_in_turn());
     if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), makes_last(iterate.name)}));
-  }
-  // What Refinement has not found is left to the solver behind.
-  void give_up(const Place& rule) {
-    Value slow = action("ContractionRule", rule, "is_slow", {});
-    if (!form_.lanes) return branch(std::move(slow), Shape::line, [this] { fail(); });
-    add(Define{"Mask", "slow ", joined("&", {lanes_in_turn(), std::move(slow)})});
-    const Value converged = at({"report", "converged"});
-    const Value others = prefix("!", at({"slow "}));
-    set(converged, joined("&", {converged, others}));
-    set(lanes_in_turn(), joined("&", {lanes_in_turn(), others}));
   }
   static Value makes_last(const std::string& rule) {
     return action("ContractionRule", {"start", rule}, "moves", {});

@@ -184,6 +184,7 @@ class Outline {
     run(refine.body);
     word((refine.begun ? "refine further " : "refine ") + refine.rule);
     if (refine.gives_up) word("or give up");
+    if (refine.patience) whole("or wait", *refine.patience);
     whole("refinement", refine.refinement);
     whole("at", refine.point);
     whole("lack", refine.lack);

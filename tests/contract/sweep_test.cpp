@@ -164,6 +164,33 @@ TEST(LinearEquations, AreSolvedToRoundingWhateverTheirCondition) {
   }
 }
 
+// Next to an equilibrium of y all increments are of the size of rounding, whether the fixed point
+// contracts or not, here by 0.998 to 1.1 a round: such a step is no step.  Newton's iteration,
+// where it stands behind, takes it.
+TEST(Divergence, NextToRoundingIsAFailureAndNoStep) {
+  for (const char* stiffness : {"99.8", "99.99", "105"}) {
+    for (const char* scheme : {"implicit-midpoint", "gauss-4"}) {
+      const bool gauss = std::string(scheme) == "gauss-4";
+      const std::string text = fmt::format(
+          "system slow\ncoordinate x, y\nmomentum u, v\nparameter w = {}\n"
+          "H = u^2/2 + v^2/2 + x^2/2 + w^2*(y-1)^2/2 + x^4/100 + (y-1)^4/1000\n"
+          "scene still {{ x = 1; y = 1 + 1/10000000000000; h = {}; steps = 20 }}\n",
+          stiffness, gauss ? "0.0346" : "0.02");
+      for (const char* solver : {"fixed-point", "newton"}) {
+        const Case c{.name = std::string(stiffness) + " " + scheme + " " + solver,
+                     .model = make_source("slow.ham", text),
+                     .scene = "still",
+                     .request = {.scheme = scheme, .solver = solver},
+                     .steps = 20};
+        const Defects d = Interpretable(c.model).measure(c);
+        EXPECT_LE(d.worst, kAllowed) << d.name;
+        EXPECT_EQ(d.broken, 0) << d.name;
+        EXPECT_EQ(d.failed, std::string(solver) == "fixed-point") << d.name;
+      }
+    }
+  }
+}
+
 TEST(OtherScalars, KeepItOnEveryScene) {
   for (const char* scalar : {"float", "long-double"}) {
     for (const std::string& name : uniquely_solved_models()) {

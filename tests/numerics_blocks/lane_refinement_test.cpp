@@ -105,6 +105,41 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
   }
 }
 
+// x = 1 + b (x - 1), from some units beside its solution: where it does not contract the solution
+// is not found, and the next one is not told of it.
+TEST(LaneRefinement, WhatDoesNotContractIsNotFoundInEachLaneAsAlone) {
+  const double contractions[kCount] = {0.5, 1.02, -0.9, -1.25, 0, -0.5, 0x1p-30, -1};
+  lanes::Refinement<1, 1> together;
+  const auto begin = [](int lane) { return 1 + (lane + 3) * 0x1p-50; };
+  for (const bool reversed : {false, true}) {
+    const auto factor = [&](int lane) { return contractions[reversed ? kCount - 1 - lane : lane]; };
+    lanes::Real contraction = 0;
+    lanes::Real x[1] = {};
+    for (int lane = 0; lane < kCount; ++lane) {
+      contraction.set(lane, factor(lane));
+      x[0].set(lane, begin(lane));
+    }
+    const lanes::Turn turn = turn_of_all();
+    for (bool more = true; more;) {
+      const lanes::Real way[1] = {x[0] - 1};
+      const lanes::Real lack[1] = {contraction * way[0] - way[0]};
+      more = together(turn, x, lack, way);
+    }
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::Refinement<1, 1> alone;
+      double y[1] = {begin(lane)};
+      for (bool more = true; more;) {
+        const double way[1] = {y[0] - 1};
+        const double lack[1] = {factor(lane) * way[0] - way[0]};
+        more = alone(y, lack, way);
+      }
+      const double size = std::fabs(factor(lane));
+      EXPECT_EQ(alone.found, size < 0.99) << factor(lane);
+      EXPECT_EQ(together.found[lane], alone.found) << factor(lane);
+    }
+  }
+}
+
 TEST(LaneRefinement, WhatIsLostIsNotWaitedForInEachLaneAsAlone) {
   const double sizes[kCount] = {0, 0x1p-170, 0x1p-156, 0x1p-140, 0x1p-100, 0x1p-60, 1, 0x1p-157};
   lanes::Real size = 0;
