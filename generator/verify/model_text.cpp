@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/language/model.hpp"
 #include "generator/verify/text_value.hpp"
 
 namespace hamgen {
@@ -34,6 +35,10 @@ class Reading {
       point_[parameter.name] = draw(parameter.name);
     for (const Quantity& constant : mechanics_.constants)
       point_[constant.name] = precise(constant.value);
+    // Elements that a scene has made one number are still those of the text.
+    for (const std::string& name : element_names(model_.parameters)) {
+      if (!point_.contains(name)) point_[name] = draw(name);
+    }
     try {
       return look(with_gradient);
     } catch (const std::domain_error&) {
