@@ -297,10 +297,8 @@ class StageRoutines : StageParts {
                        .gradient = {"start", "slope"},
                        .count = iterated(),
                        .components = unknowns()};
-    if (solver_ == StageSolver::both) {
-      refine.patience = {"start", "patience"};
-      refine.steps = kStepsOfNewton;
-    }
+    refine.steps = solver_ == StageSolver::both ? kStepsOfNewton : 0;
+    if (refine.steps > 0) refine.patience = {"start", "patience"};
     const auto contract = [&](Body& body) {
       if (!has_newton()) return;
       Body multiply;
