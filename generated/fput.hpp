@@ -896,9 +896,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x31ea6c62
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xb884785d
 namespace fput::implicit_midpoint {
-inline namespace emitted_31ea6c62 {
+inline namespace emitted_b884785d {
 
 namespace numerics = ::hamgen_b6181d29::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -1048,7 +1048,10 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     }
   }
   if (start.rule.is_slow()) return false;
-  if (!start.refinement.found) return false;
+  if (!start.refinement.found) {
+    report.increment = start.refinement.last;
+    return false;
+  }
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.refinement.slope[i];
     const Real moved = carry.p[i] - p_push;
@@ -1229,9 +1232,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_31ea6c62
+}  // namespace emitted_b884785d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x31ea6c62
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xb884785d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -141,9 +141,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       refinement.get_slope(span(slope));
       refinement.get_change(span(change));
       if (gives_up && object(start).contractions.at(rule)->is_slow()) return false;
-      if (!refinement.found() && steps_of_other > 0)
-        object(start).flags.at(patience) = steps_of_other;
-      return refinement.found();
+      if (this->is_found(refinement)) return true;
+      if (steps_of_other > 0) object(start).flags.at(patience) = steps_of_other;
+      return false;
     };
   }
   Step operator()(const Refine& refine) {
@@ -177,7 +177,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       for (std::size_t j = 0; j < kept.size(); ++j) m_.frame.at(kept[j]) = waiting[j];
       refinement->get_change({&m_.frame.at(change), gradient.size()});
-      return refinement->found();
+      return this->is_found(*refinement);
     };
   }
   Step operator()(const Sweep& sweep) {

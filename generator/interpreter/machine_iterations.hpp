@@ -143,6 +143,12 @@ class MachineIterations : public MachineAddresses<Real> {
     return distance;
   }
 
+  // Has Refinement found the solution?
+  bool is_found(const AnyRefinement<Real>& refinement) {
+    if (!refinement.found()) m_.report.increment = refinement.last();
+    return refinement.found();
+  }
+
  private:
   bool ends(Answer answer, Real size) const {
     m_.report.iterations += m_.iteration;

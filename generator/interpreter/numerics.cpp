@@ -165,6 +165,7 @@ class RefinementOf final : public AnyRefinement<Real> {
   }
   [[nodiscard]] bool is_first() const override { return refinement_.rounds == 0; }
   [[nodiscard]] bool found() const override { return refinement_.found; }
+  [[nodiscard]] Real last() const override { return refinement_.last; }
   void get_change(std::span<Real> change) const override {
     std::copy_n(refinement_.change, change.size(), change.begin());
   }

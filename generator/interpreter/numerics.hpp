@@ -103,6 +103,7 @@ struct AnyRefinement {
                       std::span<const Real> lack, std::span<const Real> slope) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   [[nodiscard]] virtual bool found() const = 0;
+  [[nodiscard]] virtual Real last() const = 0;  // what the last round moved all together
   virtual void get_change(std::span<Real> change) const = 0;
   virtual void get_slope(std::span<Real> slope) const = 0;
 };

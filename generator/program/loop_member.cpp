@@ -14,7 +14,6 @@ namespace hamgen {
 
 namespace {
 
-
 class LoopMember : LoopStage {
  public:
   LoopMember(Program& code, const Environment& environment, const LoweredStep& lowered)

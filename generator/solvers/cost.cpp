@@ -13,7 +13,7 @@ constexpr int kMostWork = 13;
 constexpr double kOfUnknown = 10;
 // A row of a band waits for the row before it: its division, and the choice of a pivot.
 constexpr double kOfBandRow = 100;
-// Without the pivot, and with half of the products.
+// Without the pivot, and with half of the products: 12 ns for 26 of a width of 1, 49 for 59 of 8.
 constexpr double kOfSymmetricRow = 45;
 // A row of Eigen's sparse matrix, whose entries are sorted and whose fill-in is looked up.
 constexpr double kOfSparseRow = 20000;
