@@ -15,6 +15,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real ahead = 0;                // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
@@ -31,9 +32,9 @@ struct Refinement {
                   const Real* gradient) {
     const bool second = rounds == 1;
     if (rounds == 0) {
+      rule.settled = turn.lanes & rule.settled & (lacking(lack) <= rule.round_off);
+      if (goes_ahead(rule, point, lack)) return true;
       begin(turn.lanes, point, lack, gradient);
-      rule.settled = open & rule.settled &
-                     (sum_of(Size, [&](int j) { return magnitude(lack[j]); }) <= rule.round_off);
       open = open & !rule.settled;
     }
     const Real before = least;
@@ -53,6 +54,28 @@ struct Refinement {
   }
 
  private:
+  // As long as some small unknowns have not come to their end, all of that lane go on.
+  template <class Rule>
+  bool goes_ahead(Rule& rule, Real* point, const Real* lack) {
+    const Real left = left_of(point, lack);
+    const Mask waits = rule.settled & (left > epsilon * epsilon * rule.round_off);
+    const Mask goes = waits & ((ahead <= 0) | (2 * left < ahead));
+    rule.settled = rule.settled & (goes | !waits);
+    ahead = select(goes, left, Real(0));
+    if (!any(goes)) return false;
+    for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
+    return true;
+  }
+  // Of unknowns that lack more than their own rounding.
+  static Real left_of(const Real* point, const Real* lack) {
+    return sum_of(Size, [&](int j) {
+      const Real size = magnitude(lack[j]);
+      return select(size > 8 * epsilon * magnitude(point[j]), size, Real(0));
+    });
+  }
+  static Real lacking(const Real* lack) {
+    return sum_of(Size, [&](int j) { return magnitude(lack[j]); });
+  }
   void begin(const Mask& lanes, const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = select(lanes, point[j], at[j]);

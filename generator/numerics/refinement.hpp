@@ -21,6 +21,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real ahead = 0;                // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
@@ -31,16 +32,28 @@ struct Refinement {
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
+  // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
+  // of them have not come to their end, all go on.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled && lacking(lack) <= rule.round_off) {
-      ++rule.unchecked;
-      found = true;
-      for (int k = 0; k < Components; ++k) {
-        slope[k] = gradient[k];
-        change[k] = 0;
+      const Real open = left(point, lack);
+      const bool ends = open <= epsilon * epsilon * rule.round_off;
+      const bool goes_ahead = !ends && (ahead <= 0 || 2 * open < ahead);
+      ahead = goes_ahead ? open : 0;
+      if (goes_ahead) {
+        for (int j = 0; j < Size; ++j) point[j] += lack[j];
+        return true;
       }
-      return false;
+      if (ends) {
+        ++rule.unchecked;
+        found = true;
+        for (int k = 0; k < Components; ++k) {
+          slope[k] = gradient[k];
+          change[k] = 0;
+        }
+        return false;
+      }
     }
     rule.settled = false;
     const Real before = least;
@@ -81,6 +94,13 @@ struct Refinement {
       moved[j] = 0;
     }
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
+  }
+  // Of unknowns that lack more than their own rounding.
+  static Real left(const Real* point, const Real* lack) {
+    return sum_of<Size>([&](int j) {
+      const Real size = magnitude(lack[j]);
+      return size > 8 * epsilon * magnitude(point[j]) ? size : Real(0);
+    });
   }
   static Real lacking(const Real* lack) {
     return sum_of<Size>([&](int j) { return magnitude(lack[j]); });

@@ -69,6 +69,15 @@ coordinate q[1..N] with q[0] = 0, q[N+1] = 0
 momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^3/12)
 scene swing { q[i] = sin(pi*i/(N+1))/10; h = 0.7; steps = 100 }
+)"},
+    // Oscillators alone, of which one is much smaller than the others and contracts more slowly.
+    SteepModel{"one_small", R"(size N = 31
+coordinate q[1..N]
+momentum p[1..N]
+parameter a[1..N] = 1
+H = sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, a[i]*(q[i]^2/2 + 1e-12*q[i]^4/4))
+scene slow { a[i] = 4e-4; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
+scene still { a[i] = 4e-6; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
 )"}};
 
 }  // namespace hamgen::contract

@@ -177,5 +177,33 @@ TYPED_TEST(ContractionRule, IsNotBelievedAgainstWhatIsSeen) {
   EXPECT_FALSE(rule.settled);
 }
 
+// Beside a large unknown a small one counts for nothing in the sums: where it has not come to its
+// end all go on, and where that brings it no nearer fast enough, Refinement does.
+TYPED_TEST(ContractionRule, SettlesNoUnknownThatIsSmallBesideOthers) {
+  using Real = typename TypeParam::Scalar;
+  for (const double contraction : {0.0, 0.25, -0.9}) {
+    auto rule = this->with_contraction(1.0 / (1 << 14));
+    EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+    rule.round_off = (1 << 20) * TypeParam::unit;
+    typename TypeParam::template Refined<2, 2> refinement;
+    Real point[2] = {1 << 20, 1 + 1000 * TypeParam::unit};
+    int evaluations = 0;
+    for (bool more = true; more; ++evaluations) {
+      const Real error = point[1] - 1;
+      const Real lack[2] = {0, Real(contraction) * error - error};
+      const Real slope[2] = {0, point[1]};
+      more = refinement(rule, point, lack, slope);
+    }
+    const bool shrinks = contraction > -0.5;
+    EXPECT_EQ(rule.settled, shrinks) << contraction;
+    EXPECT_GT(evaluations, 1) << contraction;
+    EXPECT_EQ(point[0], Real(1 << 20)) << contraction;
+    const Real solution = refinement.slope[1] + refinement.change[1];
+    EXPECT_LE(std::fabs(double((solution - 1) / TypeParam::unit)), shrinks ? 8 : 1) << contraction;
+    EXPECT_EQ(refinement.change[1] == 0, shrinks) << contraction;
+    EXPECT_EQ(refinement.ahead, 0) << contraction;
+  }
+}
+
 }  // namespace
 }  // namespace hamgen::numerics_blocks_test

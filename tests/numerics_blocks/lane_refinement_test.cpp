@@ -105,6 +105,58 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
   }
 }
 
+// An unknown that is small beside another, in each lane by another contraction and from another
+// distance, some of them at its end: those go on that have to, as alone.
+TEST(LaneRefinement, SmallUnknownsComeToTheirEndInEachLaneAsAlone) {
+  const double contractions[kCount] = {0, 0.25, -0.9, 0.45, 0.1, -0.3, 0.4, 0.75};
+  const auto begin = [](int lane) { return 1 + (lane % 3) * 500 * 0x1p-52; };
+  constexpr double kLarge = 1 << 20;
+  lanes::ContractionRule rule;
+  lanes::Refinement<2, 2> together;
+  lanes::Turn turn = turn_of_all();
+  lanes::Real turns = 1;
+  turns.set(4, 0);
+  turn.begin(turns > 0);
+  lanes::Real b = 0;
+  lanes::Real x[2] = {kLarge, 0};
+  for (int lane = 0; lane < kCount; ++lane) {
+    b.set(lane, contractions[lane]);
+    x[1].set(lane, begin(lane));
+  }
+  rule.contraction = 0x1p-20;
+  rule.round_off = kLarge * 0x1p-52;
+  rule.settled = true;
+  for (bool more = true; more;) {
+    const lanes::Real error = x[1] - 1;
+    const lanes::Real lack[2] = {0, b * error - error};
+    const lanes::Real slope[2] = {0, x[1]};
+    more = together(turn, rule, x, lack, slope);
+  }
+  int settled = 0;
+  for (int lane = 0; lane < kCount; ++lane) {
+    of_double::ContractionRule other;
+    of_double::Refinement<2, 2> alone;
+    double y[2] = {kLarge, begin(lane)};
+    other.contraction = 0x1p-20;
+    other.round_off = kLarge * 0x1p-52;
+    other.settled = lane != 4;
+    for (bool more = lane != 4; more;) {
+      const double error = y[1] - 1;
+      const double lack[2] = {0, contractions[lane] * error - error};
+      const double slope[2] = {0, y[1]};
+      more = alone(other, y, lack, slope);
+    }
+    EXPECT_EQ(x[0][lane], y[0]) << lane;
+    EXPECT_EQ(x[1][lane], y[1]) << lane;
+    EXPECT_EQ(together.slope[1][lane], alone.slope[1]) << lane;
+    EXPECT_EQ(together.change[1][lane], alone.change[1]) << lane;
+    EXPECT_EQ(rule.settled[lane], other.settled) << lane;
+    settled += other.settled ? 1 : 0;
+  }
+  EXPECT_GE(settled, 4);
+  EXPECT_LE(settled, 6);
+}
+
 // x = 1 + b (x - 1), from some units beside its solution: where it does not contract the solution
 // is not found, and the next one is not told of it.
 TEST(LaneRefinement, WhatDoesNotContractIsNotFoundInEachLaneAsAlone) {
