@@ -136,11 +136,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_b6181d29::float64 {
+namespace hamgen_246d0e22::float64 {
 using Real = double;
 
-#ifndef HAMGEN_B6181D29_FLOAT64_STEP_REPORT
-#define HAMGEN_B6181D29_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_246D0E22_FLOAT64_STEP_REPORT
+#define HAMGEN_246D0E22_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -150,15 +150,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_VOCABULARY
-#define HAMGEN_B6181D29_FLOAT64_VOCABULARY
+#ifndef HAMGEN_246D0E22_FLOAT64_VOCABULARY
+#define HAMGEN_246D0E22_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_TWO_SUM
-#define HAMGEN_B6181D29_FLOAT64_TWO_SUM
+#ifndef HAMGEN_246D0E22_FLOAT64_TWO_SUM
+#define HAMGEN_246D0E22_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -168,8 +168,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_SUM_WITH_REST
-#define HAMGEN_B6181D29_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_246D0E22_FLOAT64_SUM_WITH_REST
+#define HAMGEN_246D0E22_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -181,8 +181,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_SUMS
-#define HAMGEN_B6181D29_FLOAT64_SUMS
+#ifndef HAMGEN_246D0E22_FLOAT64_SUMS
+#define HAMGEN_246D0E22_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -223,8 +223,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_BAND_MATRIX
-#define HAMGEN_B6181D29_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_246D0E22_FLOAT64_BAND_MATRIX
+#define HAMGEN_246D0E22_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -289,8 +289,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_B6181D29_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_246D0E22_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_246D0E22_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -355,14 +355,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_VERDICT
-#define HAMGEN_B6181D29_FLOAT64_VERDICT
+#ifndef HAMGEN_246D0E22_FLOAT64_VERDICT
+#define HAMGEN_246D0E22_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_NEWTON_RULE
-#define HAMGEN_B6181D29_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_246D0E22_FLOAT64_NEWTON_RULE
+#define HAMGEN_246D0E22_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -481,8 +481,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_B6181D29_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_246D0E22_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_246D0E22_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -504,8 +504,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_B6181D29_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_246D0E22_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_246D0E22_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -584,8 +584,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_B6181D29_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_246D0E22_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_246D0E22_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -673,8 +673,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_REFINEMENT
-#define HAMGEN_B6181D29_FLOAT64_REFINEMENT
+#ifndef HAMGEN_246D0E22_FLOAT64_REFINEMENT
+#define HAMGEN_246D0E22_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -698,6 +698,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
@@ -708,16 +709,28 @@ struct Refinement {
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
+  // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
+  // of them have not come to their end, all go on.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled && lacking(lack) <= rule.round_off) {
-      ++rule.unchecked;
-      found = true;
-      for (int k = 0; k < Components; ++k) {
-        slope[k] = gradient[k];
-        change[k] = 0;
+      const Real open = left(point, lack);
+      const bool ends = open <= epsilon * epsilon * rule.round_off;
+      const bool goes_ahead = !ends && (behind <= 0 || 2 * open < behind);
+      behind = goes_ahead ? open : 0;
+      if (goes_ahead) {
+        for (int j = 0; j < Size; ++j) point[j] += lack[j];
+        return true;
       }
-      return false;
+      if (ends) {
+        ++rule.unchecked;
+        found = true;
+        for (int k = 0; k < Components; ++k) {
+          slope[k] = gradient[k];
+          change[k] = 0;
+        }
+        return false;
+      }
     }
     rule.settled = false;
     const Real before = least;
@@ -759,6 +772,13 @@ struct Refinement {
     }
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
+  // Of unknowns that lack more than their own rounding.
+  static Real left(const Real* point, const Real* lack) {
+    return sum_of<Size>([&](int j) {
+      const Real size = magnitude(lack[j]);
+      return size > 8 * epsilon * magnitude(point[j]) ? size : Real(0);
+    });
+  }
   static Real lacking(const Real* lack) {
     return sum_of<Size>([&](int j) { return magnitude(lack[j]); });
   }
@@ -786,8 +806,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_HISTORY
-#define HAMGEN_B6181D29_FLOAT64_HISTORY
+#ifndef HAMGEN_246D0E22_FLOAT64_HISTORY
+#define HAMGEN_246D0E22_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -879,8 +899,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_B6181D29_FLOAT64_FORGET
-#define HAMGEN_B6181D29_FLOAT64_FORGET
+#ifndef HAMGEN_246D0E22_FLOAT64_FORGET
+#define HAMGEN_246D0E22_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -890,17 +910,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_b6181d29::float64
+}  // namespace hamgen_246d0e22::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xb884785d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x54c3fd19
 namespace fput::implicit_midpoint {
-inline namespace emitted_b884785d {
+inline namespace emitted_54c3fd19 {
 
-namespace numerics = ::hamgen_b6181d29::float64;
+namespace numerics = ::hamgen_246d0e22::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1232,9 +1252,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_b884785d
+}  // namespace emitted_54c3fd19
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xb884785d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x54c3fd19
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -15,7 +15,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
-  Real ahead = 0;                // what small unknowns lacked when the point moved on for them
+  Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
@@ -59,9 +59,9 @@ struct Refinement {
   bool goes_ahead(Rule& rule, Real* point, const Real* lack) {
     const Real left = left_of(point, lack);
     const Mask waits = rule.settled & (left > epsilon * epsilon * rule.round_off);
-    const Mask goes = waits & ((ahead <= 0) | (2 * left < ahead));
+    const Mask goes = waits & ((behind <= 0) | (2 * left < behind));
     rule.settled = rule.settled & (goes | !waits);
-    ahead = select(goes, left, Real(0));
+    behind = select(goes, left, Real(0));
     if (!any(goes)) return false;
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
     return true;

@@ -25,6 +25,11 @@ inline void stop_failed(Mask& running, StepReport& report) {
 inline Mask astray_lanes(const Mask& running, const Mask& known, const StepReport& report) {
   return running & known & !report.converged;
 }
+// And those whose other solver may find what the first one has not.
+inline Mask astray_lanes(const Mask& running, const Mask& known, const StepReport& report,
+                         const Real& patience) {
+  return astray_lanes(running, known | (patience > 0), report);
+}
 // Of a lane a substep counts if those before it have succeeded.
 inline void add_substep(StepReport& total, const StepReport& report) {
   const Mask lanes = total.converged;

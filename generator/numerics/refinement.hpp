@@ -21,7 +21,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
-  Real ahead = 0;                // what small unknowns lacked when the point moved on for them
+  Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
@@ -39,8 +39,8 @@ struct Refinement {
     if (rule.settled && lacking(lack) <= rule.round_off) {
       const Real open = left(point, lack);
       const bool ends = open <= epsilon * epsilon * rule.round_off;
-      const bool goes_ahead = !ends && (ahead <= 0 || 2 * open < ahead);
-      ahead = goes_ahead ? open : 0;
+      const bool goes_ahead = !ends && (behind <= 0 || 2 * open < behind);
+      behind = goes_ahead ? open : 0;
       if (goes_ahead) {
         for (int j = 0; j < Size; ++j) point[j] += lack[j];
         return true;

@@ -244,6 +244,7 @@ struct Declare {
 struct Note {
   std::string type, name;  // "long long", "wasted"
   Place from;
+  bool varies = false;  // is it set anew afterwards?
 };
 // count += by, or ++count
 struct Count {

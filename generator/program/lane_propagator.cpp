@@ -60,8 +60,10 @@ class LanePropagatorBuilder : public PropagatorParts {
       add(routine, Note{"Mask", "known", {start, "known"}});
     }
     add(routine, call);
+    std::vector<Place> seen = {running(), known, {"report"}};
+    if (other_) seen.push_back({start, "patience"});
     add(routine, Call{.routine = "astray_lanes",
-                      .arguments = {running(), known, {"report"}},
+                      .arguments = std::move(seen),
                       .record = "Mask",
                       .object = "astray"});
     add_again(routine, call);

@@ -36,7 +36,11 @@ class PropagatorBuilder : public PropagatorParts {
     if (start_) add(routine, Declare{"Start", {"start"}});
     if (ahead_) add(routine, Declare{"Derivatives", {"at"}});
     add_room(routine);
-    add(routine, solve({{"carry", {"new State"}}}));
+    Call call = solve({{"carry", {"new State"}}});
+    call.varies = other_;
+    add(routine, call);
+    call.again = true;
+    if (other_) add_other(routine, body_of(call), {"start", "patience"});
     if (!code_.unchecked) add(routine, failed(body_of(Return{.report = "report"})));
     each(routine, [&](const Place& at) {
       Expression increment = number(routine, of("dz", at));
@@ -71,6 +75,12 @@ class PropagatorBuilder : public PropagatorParts {
     add_update(routine, z, carry);
   }
 
+  // Where the step has failed and there are times left to the other solver.
+  static void add_other(Routine& routine, Body body, Place patience) {
+    If failed{{"report", "converged"}, false, std::move(body), std::move(patience)};
+    routine.body.push_back({std::move(failed), {kOther}});
+  }
+
   // From what earlier steps make likely, and where that fails from the state.
   void add_tries(Routine& routine, Call call) const {
     const Place value{own("start"), "value"};
@@ -80,10 +90,11 @@ class PropagatorBuilder : public PropagatorParts {
       add(routine, Ask{known, {history.object, "known"}});
       add(routine, If{known, true, body_of(Use{"History", "extrapolate", {history, value}})});
     } else {
-      add(routine, Note{"bool", "known", {own("start"), "known"}});
+      add(routine, Note{"bool", "known", {own("start"), "known"}, other_});
     }
     call.varies = true;
     add(routine, call);
+    if (other_) add_other(routine, body_of(SetFlag{known}), {own("start"), "patience"});
     call.again = true;
     Body again = {{Note{"long long", "wasted", {"report", "iterations"}},
                    {"Extrapolation may lead astray, the state itself seldom does."}}};

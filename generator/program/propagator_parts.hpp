@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
@@ -20,6 +21,7 @@ class PropagatorParts {
         coefficients_(code.record("Coefficients") != nullptr),
         start_(code.record("Start") != nullptr),
         extrapolates_(code.unknowns > 0),
+        other_(!extrapolates_ && has_patience(code)),
         ahead_(code.record("Derivatives") != nullptr),
         rest_(code.has_rest()),
         carry_(code.has_carry()),
@@ -66,6 +68,14 @@ class PropagatorParts {
     return composed_ ? static_cast<int>(code_.substeps.size()) : 0;
   }
   static If failed(Body then) { return {{"report", "converged"}, false, std::move(then)}; }
+
+  // Of a fixed point that has not found its solution: times that are left to Newton.
+  static bool has_patience(const Program& code) {
+    const Record* start = code.record("Start");
+    return start &&
+           std::ranges::find(start->fields, "patience", &Field::name) != start->fields.end();
+  }
+  static constexpr const char* kOther = "Newton may find what the fixed point has not.";
 
   // The instruction for every component that changes.
   void each(Routine& routine, const std::function<Instruction(const Place&)>& one) const {
@@ -274,7 +284,8 @@ class PropagatorParts {
   }
 
   const Program& code_;
-  bool composed_, large_, coefficients_, start_, extrapolates_, ahead_, rest_, carry_, counts_;
+  bool composed_, large_, coefficients_, start_, extrapolates_, other_, ahead_, rest_, carry_,
+      counts_;
 };
 
 }  // namespace hamgen

@@ -69,7 +69,9 @@ TEST(StepsInLanes, KeepTheContractByOtherMethods) {
        case_of("wall", "bounce", {.scheme = "stormer-verlet", .batch = 2}, 300),
        case_of("harmonic", "stiff", {.alpha = "3/10", .beta = "1/5", .gamma = "-1/10", .batch = 2},
                300),
-       case_of("hard_beads", "shot", {.batch = 2}, 100)});
+       case_of("hard_beads", "shot", {.batch = 2}, 100),
+       case_of("one_small", "slow", {.batch = 2}, 100),
+       case_of("next_to_rounding", "still", {.scheme = "gauss-4", .batch = 2}, 20)});
 }
 
 // A step without the carry solves its equations as well: it rounds the state, and no more.

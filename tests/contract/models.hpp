@@ -78,6 +78,13 @@ parameter a[1..N] = 1
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, a[i]*(q[i]^2/2 + 1e-12*q[i]^4/4))
 scene slow { a[i] = 4e-4; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
 scene still { a[i] = 4e-6; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
+)"},
+    // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
+    // point of gauss-4 hardly contracts.
+    SteepModel{"next_to_rounding", R"(coordinate x, y
+momentum u, v
+H = u^2/2 + v^2/2 + x^2/2 + 9998*(y-1)^2/2 + x^4/100 + (y-1)^4/1000
+scene still { x = 1; y = 1 + 1/10000000000000; h = 0.0346; steps = 20 }
 )"}};
 
 }  // namespace hamgen::contract

@@ -178,7 +178,7 @@ TEST(Divergence, NextToRoundingIsAFailureAndNoStep) {
           "H = u^2/2 + v^2/2 + x^2/2 + w^2*(y-1)^2/2 + x^4/100 + (y-1)^4/1000\n"
           "scene still {{ x = 1; y = 1 + 1/10000000000000; h = {}; steps = 20 }}\n",
           stiffness, gauss ? "0.0346" : "0.02");
-      for (const char* solver : {"fixed-point", "newton"}) {
+      for (const char* solver : {"", "fixed-point", "newton"}) {
         const Case c{.name = std::string(stiffness) + " " + scheme + " " + solver,
                      .model = make_source("slow.ham", text),
                      .scene = "still",

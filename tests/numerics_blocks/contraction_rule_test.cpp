@@ -201,7 +201,7 @@ TYPED_TEST(ContractionRule, SettlesNoUnknownThatIsSmallBesideOthers) {
     const Real solution = refinement.slope[1] + refinement.change[1];
     EXPECT_LE(std::fabs(double((solution - 1) / TypeParam::unit)), shrinks ? 8 : 1) << contraction;
     EXPECT_EQ(refinement.change[1] == 0, shrinks) << contraction;
-    EXPECT_EQ(refinement.ahead, 0) << contraction;
+    EXPECT_EQ(refinement.behind, 0) << contraction;
   }
 }
 
