@@ -31,7 +31,9 @@ class RunWriter : public IterationWriter {
                                 : add(Declare{declare.record, {name}});
     }
   }
-  void operator()(const Note& note) { add(Define{note.type, note.name, at(note.from), note.varies}); }
+  void operator()(const Note& note) {
+    add(Define{note.type, note.name, at(note.from), note.varies});
+  }
   void operator()(const Count& count) {
     if (count.by) return set(at(count.count), at(*count.by), "+=");
     add(Do{prefix("++", at(count.count))});
