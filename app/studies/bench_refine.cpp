@@ -29,20 +29,25 @@ StepSearch search_of(const Bench& bench, std::size_t method, const std::vector<B
   return search;
 }
 
-// The row to measure next; empty if there is nothing to gain.
-std::optional<BenchRow> next_trial(const StepSearch& search, std::size_t method,
-                                   const Rational& time) {
-  const std::optional<double> h = next_step(search);
-  if (!h) return {};
+// The row of a step of that size; empty if it has been measured.
+std::optional<BenchRow> trial_of(double h, const StepSearch& search, std::size_t method,
+                                 const Rational& time) {
   const double length = std::fabs(to_double(time));
   const auto steps_of = [length](double step) { return std::lround(length / step); };
-  long steps = std::max(1L, static_cast<long>(std::ceil(length / *h - 1e-9)));
+  long steps = std::max(1L, static_cast<long>(std::ceil(length / h - 1e-9)));
   // With few steps the next larger step can be far away.
   if (const StepSample* const in = search.inside()) steps = std::min(steps, steps_of(in->h) - 1);
   const bool is_known = std::ranges::any_of(
       search.samples, [&](const StepSample& sample) { return steps_of(sample.h) == steps; });
   if (steps < 1 || is_known) return {};
   return BenchRow{.method = method, .h = time / steps, .steps = steps};
+}
+
+// The row to measure next; empty if there is nothing to gain.
+std::optional<BenchRow> next_trial(const StepSearch& search, std::size_t method,
+                                   const Rational& time) {
+  const std::optional<double> h = next_step(search);
+  return h ? trial_of(*h, search, method, time) : std::nullopt;
 }
 
 // Methods by what the target should cost, so that those that cannot win are soon given up.
@@ -92,6 +97,14 @@ void add_refined_rows(Bench& bench, const Refinement& refinement) {
                              static_cast<double>(bench.methods.size()));
     }
     ++methods_done;
+    for (const double h : larger_steps(search)) {
+      std::optional<BenchRow> row = trial_of(h, search, method, refinement.time);
+      if (!row) continue;
+      if (!refinement.measure(*row)) return;
+      trials.push_back(std::move(*row));
+      search.samples = search_of(bench, method, trials, refinement.target).samples;
+      if (search.inside()->h == std::fabs(to_double(trials.back().h))) break;
+    }
     if (trials.empty()) continue;
     const StepSample* const in = search.inside();
     if (in != nullptr) best_cost = std::min(best_cost, in->cost);

@@ -106,4 +106,15 @@ std::optional<double> next_step(const StepSearch& search) {
   return step_between(search);
 }
 
+std::vector<double> larger_steps(const StepSearch& search) {
+  constexpr int parts_of_octave = 12;
+  const StepSample* const in = search.inside();
+  std::vector<double> steps;
+  for (int part = 2 * parts_of_octave; in != nullptr && part > 0; --part) {
+    const double times = std::exp2(static_cast<double>(part) / parts_of_octave);
+    if (in->cost / times < search.best_cost / kClose) steps.push_back(in->h * times);
+  }
+  return steps;
+}
+
 }  // namespace hamgen::app

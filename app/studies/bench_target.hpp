@@ -36,4 +36,8 @@ struct StepSearch {
 // and where the method can no longer be the quickest.
 [[nodiscard]] std::optional<double> next_step(const StepSearch& search);
 
+// Errors of large steps are no powers of h, and may be small by chance: steps up to four times the
+// one that meets the target, the largest first, with which the method would be the quickest.
+[[nodiscard]] std::vector<double> larger_steps(const StepSearch& search);
+
 }  // namespace hamgen::app

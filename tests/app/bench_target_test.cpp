@@ -1,9 +1,12 @@
 // What hamgen bench answers to --target, by a clock of the test's own.
+#include "app/studies/bench_target.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "app/bench_options.hpp"
@@ -253,6 +256,39 @@ TEST(BenchTargetOfAModel, AWeakerTargetIsReachedWithALargerStep) {
     EXPECT_GT(h, before) << target;
     before = h;
   }
+}
+
+// The error of omelyan-4 for the Morse oscillator is beyond 1e-4 from h = 0.16 on and changes its
+// sign near h = 0.29, where it is below again.
+TEST(BenchTargetOfAModel, ALargeStepWhoseErrorIsSmallByChanceIsFound) {
+  BenchOptions options{.model = kModels + "morse.ham", .schemes = "omelyan-4", .h = "0.2,0.15,0.1"};
+  options.time = "50";
+  options.target = "1e-4";
+  const Bench result = bench(options);
+  ASSERT_EQ(method_of(result, result.rows[0]), "omelyan-4");
+  EXPECT_GT(result.rows[0].state_error.value(), 1e-4);
+  EXPECT_GT(to_double(answer_of(result).h), 0.25);
+  EXPECT_LE(answer_of(result).state_error.value(), 1e-4);
+}
+
+// Those are tried with which the method would be the quickest, and no more than two octaves.
+TEST(BenchLargerSteps, AreTriedOfAMethodThatTheyMakeTheQuickest) {
+  app::StepSearch search{.target = 1e-4};
+  EXPECT_TRUE(app::larger_steps(search).empty());
+  search.samples = {{.h = 0.1, .error = 1e-5, .cost = 1.0}, {.h = 0.2, .error = 1e-3, .cost = 0.5}};
+  search.best_cost = 1.0;
+  const std::vector<double> all = app::larger_steps(search);
+  ASSERT_EQ(all.size(), 24u);
+  EXPECT_DOUBLE_EQ(all.front(), 0.4);
+  EXPECT_TRUE(std::ranges::is_sorted(all, std::greater{}));
+  EXPECT_GT(all.back(), 0.1);
+  search.best_cost = 0.5;
+  const std::vector<double> some = app::larger_steps(search);
+  ASSERT_FALSE(some.empty());
+  EXPECT_EQ(some.size(), 12u);
+  EXPECT_GT(some.back(), 0.2);
+  search.best_cost = 0.25;
+  EXPECT_TRUE(app::larger_steps(search).empty());
 }
 
 // Steps that missed on the way are no rows and so not drawn either; a method has at most one more.
