@@ -87,11 +87,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_246d0e22::float64 {
+namespace hamgen_6e659e66::float64 {
 using Real = double;
 
-#ifndef HAMGEN_246D0E22_FLOAT64_STEP_REPORT
-#define HAMGEN_246D0E22_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_6E659E66_FLOAT64_STEP_REPORT
+#define HAMGEN_6E659E66_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -101,15 +101,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_VOCABULARY
-#define HAMGEN_246D0E22_FLOAT64_VOCABULARY
+#ifndef HAMGEN_6E659E66_FLOAT64_VOCABULARY
+#define HAMGEN_6E659E66_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_TWO_SUM
-#define HAMGEN_246D0E22_FLOAT64_TWO_SUM
+#ifndef HAMGEN_6E659E66_FLOAT64_TWO_SUM
+#define HAMGEN_6E659E66_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -119,8 +119,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_SUM_WITH_REST
-#define HAMGEN_246D0E22_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_6E659E66_FLOAT64_SUM_WITH_REST
+#define HAMGEN_6E659E66_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -132,14 +132,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_VERDICT
-#define HAMGEN_246D0E22_FLOAT64_VERDICT
+#ifndef HAMGEN_6E659E66_FLOAT64_VERDICT
+#define HAMGEN_6E659E66_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_NEWTON_RULE
-#define HAMGEN_246D0E22_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_6E659E66_FLOAT64_NEWTON_RULE
+#define HAMGEN_6E659E66_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -170,7 +170,10 @@ enum class Verdict { go_on, done, failed };
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
 // second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
 // each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.
+// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
+// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
+// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
+// unknowns, and none may be left, as long as they become smaller.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -185,9 +188,10 @@ template <int Power>
 struct NewtonRule {
   Real contraction = largest;
   int unchecked = 0;
-  Real previous = 0;
+  Real previous = 0;  // what the last increment was
   int grown = 0;
   bool predicted = false;
+  Real far = 0;  // of an approximate matrix, what was uneven in the iteration before
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -196,6 +200,7 @@ struct NewtonRule {
   void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
+    if (Power == 1) far = 0;
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
@@ -205,12 +210,46 @@ struct NewtonRule {
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // An increment as a part of what its unknown is rounded with; nothing at the smallest numbers.
-  static Real relative(Real moved, Real length) { return moved > tiny ? moved / length : Real(0); }
-  // size, scale: sums over the unknowns of their increments and of their values; uneven: of the
-  // increments as parts of their unknowns, where each counts.
+  // Of an approximate matrix the increment, if it is not lost in that rounding.
+  static Real relative(Real moved, Real length) {
+    if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
+    return moved > tiny ? moved / length : Real(0);
+  }
+  // Need not be asked: is even what all unknowns together move by lost in the rounding of one?
+  bool is_lost_in(Real length, Real size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const bool straight =
+        previous > 0 || motion.bend * size * size * 1024 <= round_off * power(motion.move);
+    return straight && contraction * size * size * 16 <= round_off;
+  }
+  // By how much each unknown moves, and the length that it is rounded with.
+  Verdict of_each(const Real* moved, const Real* length, int count, int iterations) {
+    Real size = moved[0];
+    Real scale = length[0];
+    Real least = length[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j];
+      scale += length[j];
+      least = length[j] < least ? length[j] : least;
+    }
+    const Real uneven = is_lost_in(least, size) ? Real(0) : relative(moved, length, count);
+    return (*this)(size, scale, iterations, uneven);
+  }
+  static Real relative(const Real* moved, const Real* length, int count) {
+    Real sum = 0;
+    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j]);
+    return sum;
+  }
+  // size, scale: sums over the unknowns of their increments and of their values; uneven: of what is
+  // relative of them, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
-    if (!(size <= largest)) return Verdict::failed;
+    if (!(size <= largest)) {
+      previous = size;
+      return Verdict::failed;
+    }
     const Real round_off = epsilon * scale;
+    const bool waits = is_waited_for(uneven, round_off);
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -223,13 +262,13 @@ struct NewtonRule {
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+      if (grown >= 2 && size <= 4096 * round_off && !waits) return Verdict::done;
     } else {
       ++unchecked;
     }
-    if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
+    if (size <= round_off && is_chance(size, round_off) && !waits) return Verdict::done;
     const bool looked = previous > 0 || is_straight(size, round_off);
-    const bool serves = uneven <= 0 || is_even(size * uneven);
+    const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
@@ -237,6 +276,14 @@ struct NewtonRule {
         predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
     previous = size;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
+  }
+  // Are there unknowns of which an approximate matrix leaves more than their rounding, and is there
+  // more to be had?  See Note [what every unknown lacks].
+  bool is_waited_for(Real uneven, Real round_off) {
+    if (Power == 2) return false;
+    const bool stays = far > 0 && 10 * uneven > 9 * far;
+    far = uneven;
+    return uneven > epsilon * epsilon * round_off && !stays;
   }
   // See Note [what is below rounding].
   bool is_chance(Real size, Real round_off) const {
@@ -258,8 +305,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_HISTORY
-#define HAMGEN_246D0E22_FLOAT64_HISTORY
+#ifndef HAMGEN_6E659E66_FLOAT64_HISTORY
+#define HAMGEN_6E659E66_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -351,8 +398,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_FORGET
-#define HAMGEN_246D0E22_FLOAT64_FORGET
+#ifndef HAMGEN_6E659E66_FLOAT64_FORGET
+#define HAMGEN_6E659E66_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -362,17 +409,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_246d0e22::float64
+}  // namespace hamgen_6e659e66::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xcffeb529
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x0d400f82
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_cffeb529 {
+inline namespace emitted_0d400f82 {
 
-namespace numerics = ::hamgen_246d0e22::float64;
+namespace numerics = ::hamgen_6e659e66::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget;
 
@@ -434,12 +481,12 @@ struct Start {
     const Real inverse_det_p1 = 1.0 / (R_p1_p1 * R_p2_p2 - R_p1_p2 * R_p2_p1);
     delta_p1 = -inverse_det_p1 * (R_p1 * R_p2_p2 - R_p1_p2 * R_p2);
     delta_p2 = inverse_det_p1 * (R_p1 * R_p2_p1 - R_p1_p1 * R_p2);
-    const Real size = magnitude(delta_p1) + magnitude(delta_p2);
-    const Real scale = magnitude(p1_bar) + magnitude(p1) + magnitude(p2_bar) + magnitude(p2);
-    const Verdict verdict = start.rule_0(size, scale, iteration);
+    const Real moved[2] = {magnitude(delta_p1), magnitude(delta_p2)};
+    const Real length[2] = {magnitude(p1_bar) + magnitude(p1), magnitude(p2_bar) + magnitude(p2)};
+    const Verdict verdict = start.rule_0.of_each(moved, length, 2, iteration);
     if (verdict == Verdict::failed) {
       report.iterations += iteration;
-      report.increment = size;
+      report.increment = start.rule_0.previous;
       return report;
     }
     if (verdict == Verdict::done) {
@@ -560,9 +607,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_cffeb529
+}  // namespace emitted_0d400f82
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xcffeb529
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x0d400f82
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -64,11 +64,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_246d0e22::float64 {
+namespace hamgen_6e659e66::float64 {
 using Real = double;
 
-#ifndef HAMGEN_246D0E22_FLOAT64_STEP_REPORT
-#define HAMGEN_246D0E22_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_6E659E66_FLOAT64_STEP_REPORT
+#define HAMGEN_6E659E66_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -78,8 +78,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_246D0E22_FLOAT64_TWO_SUM
-#define HAMGEN_246D0E22_FLOAT64_TWO_SUM
+#ifndef HAMGEN_6E659E66_FLOAT64_TWO_SUM
+#define HAMGEN_6E659E66_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -89,14 +89,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_246d0e22::float64
+}  // namespace hamgen_6e659e66::float64
 
 #ifndef HAMGEN_METHOD_product_symplectic_euler_b
-#define HAMGEN_METHOD_product_symplectic_euler_b 0x6843bfb1
+#define HAMGEN_METHOD_product_symplectic_euler_b 0x01662ac3
 namespace product::symplectic_euler_b {
-inline namespace emitted_6843bfb1 {
+inline namespace emitted_01662ac3 {
 
-namespace numerics = ::hamgen_246d0e22::float64;
+namespace numerics = ::hamgen_6e659e66::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // What depends on h and the parameters alone.
@@ -200,9 +200,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_6843bfb1
+}  // namespace emitted_01662ac3
 }  // namespace product::symplectic_euler_b
-#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x6843bfb1
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x01662ac3
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -87,7 +87,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
             newton, known, body,
-            [&] { return this->lengths_of_each(each, of_each ? &newton : nullptr); },
+            [&](int iteration) { return this->judged_in_loops(newton, each, of_each, iteration); },
             [&] { this->move_each(each); });
       }
       const auto measure = [&] { return this->measure_each(each, are_whole, unknowns.size()); };
@@ -207,11 +207,11 @@ class MachineIterationCompiler : public MachineMemory<Real> {
   bool solved_by_newton(AnyNewtonRule<Real>& rule, bool predicted,
                         const std::vector<Compiled>& unknowns, const Steps& body) const {
     std::vector<Real> corrections;
-    const auto measure = [&] {
+    const auto judge = [&](int iteration) {
       corrections = this->corrections_of(unknowns);
-      return this->lengths_of(unknowns, corrections);
+      return this->judged(rule, unknowns, corrections, iteration);
     };
-    return run_newton(rule, predicted, body, measure, [&] {
+    return run_newton(rule, predicted, body, judge, [&] {
       for (std::size_t j = 0; j < unknowns.size(); ++j)
         m_.frame.at(unknowns[j].target) += corrections[j];
     });

@@ -32,16 +32,14 @@ class MachineIterations : public MachineAddresses<Real> {
   };
 
   // The rule hears of the corrections before they are made; the last ones are not made here.
-  template <class Measure, class Correct>
-  bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const Steps& body,
-                  const Measure& measure, const Correct& correct) const {
+  template <class Judge, class Correct>
+  bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const Steps& body, const Judge& judge,
+                  const Correct& correct) const {
     rule.begin(predicted);
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;
-      const Lengths lengths = measure();
-      const Answer answer =
-          rule(lengths.size, lengths.scale, static_cast<int>(m_.iteration), lengths.uneven);
-      if (answer != Answer::go_on) return ends(answer, lengths.size);
+      const auto [answer, size] = judge(static_cast<int>(m_.iteration));
+      if (answer != Answer::go_on) return ends(answer, size);
       correct();
     }
   }
@@ -103,16 +101,18 @@ class MachineIterations : public MachineAddresses<Real> {
     each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
   }
   template <class Each>
-  Lengths lengths_of_each(const Each& each, const AnyNewtonRule<Real>* rule) const {
+  std::pair<Answer, Real> judged_in_loops(AnyNewtonRule<Real>& rule, const Each& each, bool of_each,
+                                          int iteration) const {
     Lengths lengths;
     each([&](const Array2& u) {
       const Real moved = magnitude(m_.frame.at(u.increment));
       const Real length = magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
       lengths.size += moved;
       lengths.scale += length;
-      if (rule != nullptr) lengths.uneven += rule->relative(moved, length);
+      if (of_each) lengths.uneven += rule.relative(moved, length);
     });
-    return lengths;
+    const Answer answer = rule(lengths.size, lengths.scale, iteration, lengths.uneven);
+    return {answer, lengths.size};
   }
   // All together, where they are written out: the corrections, then the sums from the left, term by
   // term.
@@ -121,15 +121,17 @@ class MachineIterations : public MachineAddresses<Real> {
     for (const Compiled& u : unknowns) corrections.push_back(u.correction(m_.frame));
     return corrections;
   }
-  Lengths lengths_of(const std::vector<Compiled>& unknowns,
-                     const std::vector<Real>& corrections) const {
-    Lengths lengths;
-    for (const Real correction : corrections) lengths.size += magnitude(correction);
-    for (const Compiled& u : unknowns) {
-      lengths.scale += magnitude(m_.frame.at(u.target));
-      lengths.scale += magnitude(u.start(m_.frame));
+  std::pair<Answer, Real> judged(AnyNewtonRule<Real>& rule, const std::vector<Compiled>& unknowns,
+                                 const std::vector<Real>& corrections, int iteration) const {
+    std::vector<Real> moved;
+    std::vector<Real> lengths;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      moved.push_back(magnitude(corrections[j]));
+      lengths.push_back(magnitude(m_.frame.at(unknowns[j].target)) +
+                        magnitude(unknowns[j].start(m_.frame)));
     }
-    return lengths;
+    const Answer answer = rule.of_each(moved, lengths, iteration);
+    return {answer, rule.last()};
   }
   Distance move_all(const std::vector<Compiled>& unknowns,
                     const std::vector<Real>& increments) const {

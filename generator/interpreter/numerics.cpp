@@ -80,6 +80,13 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   [[nodiscard]] Real relative(Real moved, Real length) const override {
     return rule_.relative(moved, length);
   }
+  Answer of_each(std::span<const Real> moved, std::span<const Real> length,
+                 int iteration) override {
+    const auto count = static_cast<int>(moved.size());
+    if (count == 1) return answer(rule_(moved[0], length[0], iteration));
+    return answer(rule_.of_each(moved.data(), length.data(), count, iteration));
+  }
+  [[nodiscard]] Real last() const override { return rule_.previous; }
 
  private:
   typename NumericsOf<Real>::template Newton<Power> rule_;

@@ -69,6 +69,12 @@ struct AnyNewtonRule {
                      int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration, Real uneven) = 0;
   [[nodiscard]] virtual Real relative(Real moved, Real length) const = 0;
+  // Of unknowns that are written out, one by one, and what they were moved by together.
+  virtual Answer of_each(std::span<const Real> /*moved*/, std::span<const Real> /*length*/,
+                         int /*iteration*/) {
+    return Answer::failed;
+  }
+  [[nodiscard]] virtual Real last() const { return 0; }
 };
 // When a fixed point ends: one of the rules that Blocks::fixed_point_rule knows.
 template <class Real>

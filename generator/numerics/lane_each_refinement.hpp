@@ -32,7 +32,7 @@ struct Refinement {
                   const Real* gradient) {
     const bool second = rounds == 1;
     if (rounds == 0) {
-      rule.settled = turn.lanes & rule.settled & (lacking(lack) <= rule.round_off);
+      rule.settled = turn.lanes & rule.settled;
       if (goes_ahead(rule, point, lack)) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
@@ -57,20 +57,21 @@ struct Refinement {
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>
   bool goes_ahead(Rule& rule, Real* point, const Real* lack) {
-    const Real left = left_of(point, lack);
+    const Mask seen = lacking(lack) > rule.round_off;
+    const Real left = left_of(point, lack, select(seen, Real(64), Real(8)));
     const Mask waits = rule.settled & (left > epsilon * epsilon * rule.round_off);
     const Mask goes = waits & ((behind <= 0) | (2 * left < behind));
-    rule.settled = rule.settled & (goes | !waits);
+    rule.settled = rule.settled & (goes | !(waits | seen));
     behind = select(goes, left, Real(0));
     if (!any(goes)) return false;
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
     return true;
   }
-  // Of unknowns that lack more than their own rounding.
-  static Real left_of(const Real* point, const Real* lack) {
+  // Of unknowns that lack more than so many units of their own rounding.
+  static Real left_of(const Real* point, const Real* lack, const Real& units) {
     return sum_of(Size, [&](int j) {
       const Real size = magnitude(lack[j]);
-      return select(size > 8 * epsilon * magnitude(point[j]), size, Real(0));
+      return select(size > units * epsilon * magnitude(point[j]), size, Real(0));
     });
   }
   static Real lacking(const Real* lack) {

@@ -13,6 +13,8 @@ struct NewtonRule : Iteration {
   Real grown = 0;
   Mask predicted = false;
   bool checks = false;
+  bool begins = true;
+  Real far = 0;
   Motion motion;
 
   static constexpr double tiny = 64 * epsilon / largest;
@@ -21,8 +23,10 @@ struct NewtonRule : Iteration {
   void begin(const Mask& from_prediction, const Turn& turn) {
     Iteration::begin(turn);
     grown = 0;
+    if (Power == 1) far = 0;
     predicted = from_prediction;
     checks = turn.is_check();
+    begins = true;
   }
   // Nothing is known any more in lanes that begin again from the state.
   void forget(const Mask& lanes) {
@@ -36,17 +40,44 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // What an increment is of what its unknown is rounded with.
+  // What an increment is of what its unknown is rounded with, or the increment.
   static Real relative(const Real& moved, const Real& length) {
+    if (Power == 1) return select(moved > 8 * epsilon * length + tiny, moved, Real(0));
     return select(moved > tiny, moved / length, Real(0));
+  }
+  // Is even what all unknowns together move by lost in the rounding of one?
+  Mask is_lost_in(const Real& length, const Real& size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const Mask lost = contraction * size * size * 16 <= round_off;
+    if (!begins) return lost;
+    return lost & (motion.bend * size * size * 1024 <= round_off * power(motion.move));
+  }
+  // By how much each unknown moves, and the length that it is rounded with.
+  Mask of_each(const Real* moved, const Real* length, int count, int iterations) {
+    Real size = moved[0];
+    Real scale = length[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j];
+      scale += length[j];
+    }
+    Mask lost = true;
+    for (int j = 0; j < count; ++j) lost = lost & is_lost_in(length[j], size);
+    Real uneven = 0;
+    if (!all(lost)) {
+      for (int j = 0; j < count; ++j) uneven += relative(moved[j], length[j]);
+      uneven = select(lost, Real(0), uneven);
+    }
+    return (*this)(size, scale, iterations, uneven);
   }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations,
                   const Real& uneven = Real(0)) {
     const Real round_off = epsilon * scale;
     const Real parts = size * uneven;
+    const Mask waits = waited_for(uneven, round_off);
     const bool first = iterations == 1 && !checks;
-    const Mask alone = first ? is_lost(size, round_off) & is_even(parts, false) : Mask(false);
+    const Mask alone = first ? is_lost(size, round_off) & serves(parts, waits, false) : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -57,11 +88,11 @@ struct NewtonRule : Iteration {
     Mask done = size <= round_off;
     if (Power == 1) {
       const Mask leaves = contraction * size * 8192 > round_off;
-      done = done & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
+      done = done & !waits & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
     }
     if (iterations > 1) {
-      done = done | learn(size, round_off);
-      done = done | (is_next_lost(size, round_off) & is_even(parts, true));
+      done = done | (learn(size, round_off) & !waits);
+      done = done | (is_next_lost(size, round_off) & serves(parts, waits, true));
     } else {
       done = done | alone;
     }
@@ -71,7 +102,18 @@ struct NewtonRule : Iteration {
     }
     if (iterations >= 60) end_with(open, size);
     previous = size;
+    begins = false;
     return open;
+  }
+  // Is more to be had of unknowns of which an approximate matrix leaves more than their rounding?
+  Mask waited_for(const Real& uneven, const Real& round_off) {
+    if (Power == 2) return false;
+    const Mask stays = (far > 0) & (10 * uneven > 9 * far);
+    far = uneven;
+    return (uneven > epsilon * epsilon * round_off) & !stays;
+  }
+  Mask serves(const Real& parts, const Mask& waits, bool measured) const {
+    return Power == 1 ? !waits : is_even(parts, measured);
   }
   // Lanes that make no progress any more.
   Mask learn(const Real& size, const Real& round_off) {

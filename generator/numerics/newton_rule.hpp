@@ -28,7 +28,10 @@
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
 // second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
 // each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.
+// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
+// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
+// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
+// unknowns, and none may be left, as long as they become smaller.
 //
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
@@ -43,9 +46,10 @@ template <int Power>
 struct NewtonRule {
   Real contraction = largest;
   int unchecked = 0;
-  Real previous = 0;
+  Real previous = 0;  // what the last increment was
   int grown = 0;
   bool predicted = false;
+  Real far = 0;  // of an approximate matrix, what was uneven in the iteration before
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -54,6 +58,7 @@ struct NewtonRule {
   void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
+    if (Power == 1) far = 0;
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
@@ -63,12 +68,46 @@ struct NewtonRule {
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // An increment as a part of what its unknown is rounded with; nothing at the smallest numbers.
-  static Real relative(Real moved, Real length) { return moved > tiny ? moved / length : Real(0); }
-  // size, scale: sums over the unknowns of their increments and of their values; uneven: of the
-  // increments as parts of their unknowns, where each counts.
+  // Of an approximate matrix the increment, if it is not lost in that rounding.
+  static Real relative(Real moved, Real length) {
+    if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
+    return moved > tiny ? moved / length : Real(0);
+  }
+  // Need not be asked: is even what all unknowns together move by lost in the rounding of one?
+  bool is_lost_in(Real length, Real size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const bool straight =
+        previous > 0 || motion.bend * size * size * 1024 <= round_off * power(motion.move);
+    return straight && contraction * size * size * 16 <= round_off;
+  }
+  // By how much each unknown moves, and the length that it is rounded with.
+  Verdict of_each(const Real* moved, const Real* length, int count, int iterations) {
+    Real size = moved[0];
+    Real scale = length[0];
+    Real least = length[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j];
+      scale += length[j];
+      least = length[j] < least ? length[j] : least;
+    }
+    const Real uneven = is_lost_in(least, size) ? Real(0) : relative(moved, length, count);
+    return (*this)(size, scale, iterations, uneven);
+  }
+  static Real relative(const Real* moved, const Real* length, int count) {
+    Real sum = 0;
+    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j]);
+    return sum;
+  }
+  // size, scale: sums over the unknowns of their increments and of their values; uneven: of what is
+  // relative of them, where each counts.
   Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
-    if (!(size <= largest)) return Verdict::failed;
+    if (!(size <= largest)) {
+      previous = size;
+      return Verdict::failed;
+    }
     const Real round_off = epsilon * scale;
+    const bool waits = is_waited_for(uneven, round_off);
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -81,13 +120,13 @@ struct NewtonRule {
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && size <= 4096 * round_off) return Verdict::done;
+      if (grown >= 2 && size <= 4096 * round_off && !waits) return Verdict::done;
     } else {
       ++unchecked;
     }
-    if (size <= round_off && is_chance(size, round_off)) return Verdict::done;
+    if (size <= round_off && is_chance(size, round_off) && !waits) return Verdict::done;
     const bool looked = previous > 0 || is_straight(size, round_off);
-    const bool serves = uneven <= 0 || is_even(size * uneven);
+    const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
@@ -95,6 +134,14 @@ struct NewtonRule {
         predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
     previous = size;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
+  }
+  // Are there unknowns of which an approximate matrix leaves more than their rounding, and is there
+  // more to be had?  See Note [what every unknown lacks].
+  bool is_waited_for(Real uneven, Real round_off) {
+    if (Power == 2) return false;
+    const bool stays = far > 0 && 10 * uneven > 9 * far;
+    far = uneven;
+    return uneven > epsilon * epsilon * round_off && !stays;
   }
   // See Note [what is below rounding].
   bool is_chance(Real size, Real round_off) const {

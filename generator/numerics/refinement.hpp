@@ -33,13 +33,15 @@ struct Refinement {
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
   // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
-  // of them have not come to their end, all go on.
+  // of them have not come to their end, or are too far from it for a difference, all go on.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
-    if (rule.settled && lacking(lack) <= rule.round_off) {
-      const Real open = left(point, lack);
-      const bool ends = open <= epsilon * epsilon * rule.round_off;
-      const bool goes_ahead = !ends && (behind <= 0 || 2 * open < behind);
+    if (rule.settled) {
+      const bool seen = lacking(lack) > rule.round_off;
+      const Real open = left(point, lack, seen ? 64 : 8);
+      const bool waits = open > epsilon * epsilon * rule.round_off;
+      const bool ends = !seen && !waits;
+      const bool goes_ahead = waits && (behind <= 0 || 2 * open < behind);
       behind = goes_ahead ? open : 0;
       if (goes_ahead) {
         for (int j = 0; j < Size; ++j) point[j] += lack[j];
@@ -95,11 +97,11 @@ struct Refinement {
     }
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
-  // Of unknowns that lack more than their own rounding.
-  static Real left(const Real* point, const Real* lack) {
+  // Of unknowns that lack more than so many units of their own rounding.
+  static Real left(const Real* point, const Real* lack, Real units) {
     return sum_of<Size>([&](int j) {
       const Real size = magnitude(lack[j]);
-      return size > 8 * epsilon * magnitude(point[j]) ? size : Real(0);
+      return size > units * epsilon * magnitude(point[j]) ? size : Real(0);
     });
   }
   static Real lacking(const Real* lack) {

@@ -103,7 +103,6 @@ class IterationWriter : public FailureWriter {
     return given;
   }
   void count_iterations() { set(at({"report", "iterations"}), at({"iteration "}), "+="); }
-
   std::set<std::string> kept_;  // locals that an iteration changes
   bool iterates_ = false;
   Place rule_;  // that it iterates by
@@ -121,6 +120,22 @@ class IterationWriter : public FailureWriter {
   }
   static Value length(const std::string& value, const Expression& beside) {
     return joined("+", rounded_with(value, beside));
+  }
+
+  // What the rule says of increments and of the lengths that their unknowns are rounded with.
+  Value judged_of_each(const std::vector<Unknown>& unknowns, const Place& rule) {
+    const bool alone = unknowns.size() == 1;
+    std::vector<Value> moved, lengths;
+    for (const Unknown& u : unknowns) {
+      moved.push_back(magnitude(u.correction));
+      lengths.push_back(length(u.symbol, u.start));
+    }
+    add(alone ? Define{"Real", "size ", moved[0]} : numbers("moved ", std::move(moved)));
+    add(alone ? Define{"Real", "scale ", lengths[0]} : numbers("length ", std::move(lengths)));
+    if (alone) return action("NewtonRule", rule, "", judged_by_size());
+    return action("NewtonRule", rule, "of_each",
+                  {object({"moved "}), object({"length "}),
+                   integer(static_cast<int>(unknowns.size())), at({"iteration "})});
   }
 
   Value is_verdict(const std::string& name) const {
@@ -162,21 +177,14 @@ class IterationWriter : public FailureWriter {
     rule_ = rule;
     iterate_with([&] {
       write(iterate.body);
-      std::vector<Value> sizes;
-      std::vector<Value> lengths;
-      for (const Unknown& u : iterate.unknowns) {
-        sizes.push_back(magnitude(u.correction));
-        for (Value& part : rounded_with(u.symbol, u.start)) lengths.push_back(std::move(part));
-      }
-      add(Define{"Real", "size ", joined("+", std::move(sizes))});
-      add(Define{"Real", "scale ", joined("+", std::move(lengths))});
+      Value verdict = judged_of_each(iterate.unknowns, rule);
       if (form_.lanes) {
-        look_at_moving(action("NewtonRule", rule, "", judged_by_size()));
+        look_at_moving(std::move(verdict));
         for (const Unknown& u : iterate.unknowns)
           move_lanes(at({"moving "}), symbol(u.symbol), formula(u.correction));
         return;
       }
-      add(Define{"Verdict", "verdict ", action("NewtonRule", rule, "", judged_by_size())});
+      add(Define{"Verdict", "verdict ", std::move(verdict)});
       end_newton();
       for (const Unknown& u : iterate.unknowns) set(symbol(u.symbol), formula(u.correction), "+=");
     });
@@ -253,9 +261,10 @@ class IterationWriter : public FailureWriter {
   }
 
   void end_newton() {
-    branch(is_verdict("failed"), Shape::braces, [this] {
+    branch(is_verdict("failed"), Shape::braces, [&] {
       count_iterations();
-      set(at({"report", "increment"}), at({"size "}));
+      const Place last{rule_.object, rule_.field + ".previous"};
+      set(at({"report", "increment"}), at(rule_type_ == "NewtonRule" ? last : Place{"size "}));
       fail();
     });
     branch(is_verdict("done"), Shape::braces, [this] {

@@ -79,6 +79,19 @@ H = sum(i = 1..N, p[i]^2/2) + sum(i = 1..N, a[i]*(q[i]^2/2 + 1e-12*q[i]^4/4))
 scene slow { a[i] = 4e-4; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
 scene still { a[i] = 4e-6; a[1] = 0.16; q[i] = 1000; q[1] = 1e-4; h = 1; steps = 120 }
 )"},
+    // A motion along x, from which y moves hardly away.
+    SteepModel{"one_slow", R"(coordinate x, y
+momentum u, v
+H = (u^2 + v^2)/2 + x^4/4 + 20*(1 - cos(y)) + x^2*y^2/10
+scene small { x = 1; y = 1e-8; u = 0.3; v = 1e-8; h = 0.1; steps = 200 }
+)"},
+    // Beads in a row, of which the first one is thrown at the others.
+    SteepModel{"row", R"(coordinate q1, q2, q3, q4
+momentum p1, p2, p3, p4
+H = (p1^2 + p2^2 + p3^2 + p4^2)/2 + exp(40*(q1-q2-1)) + exp(40*(q2-q3-1)) + exp(40*(q3-q4-1)) + exp(40*(-q1-1)) + exp(40*(q4-4))
+scene thrown { p1 = 2; h = 0.01; steps = 300 }
+scene two { p1 = 2; p3 = -3; h = 0.01; steps = 300 }
+)"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
     SteepModel{"next_to_rounding", R"(coordinate x, y

@@ -7,15 +7,15 @@
 //   Y_i = z + h sum_j a_ij J grad H(Y_j),      Z = z + h sum_j b_j J grad H(Y_j)
 // with numbers a_ij for a Runge-Kutta method, and with s = 1, a = I/2 + C, b = 1 for a member.
 // Solved in floating-point numbers of rounding unit eps they hold up to residuals
-//   r_i = eps (|Y_i| + 2^-10 max |Y_i|) + w |h J (g(Y_i) - grad H(Y_i))|,
+//   r_i = eps (|Y_i| + 2^-40 max |Y_i|) + w |h J (g(Y_i) - grad H(Y_i))|,
 // g the gradient in these numbers: no algorithm does better than to round its own solution and to
-// evaluate H's gradient as it is emitted.  (The maximum: a rule that adds up the increments of its
-// unknowns cannot see one that is a thousand times smaller than the others to its last digit.  Y_i
-// lies between two numbers, and g(Y_i) is the worse of the two there: where g is a single product,
-// its error at one of them may vanish by chance.  w is 1, and for a member what I/2 + C has beside
-// its diagonal besides: the parts of h J g that a row of another component takes.)  Then,
-// A = I - h (a J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z
-// but for rounding it, as h J H'' dY = a^-1 (dY - r):
+// evaluate H's gradient as it is emitted.  (The maximum: quad rounds the
+// largest to a 2^-113th, and what is judged by it must be a million times as much.  Y_i lies
+// between two numbers, and g(Y_i) is the worse of the two there: where g is a single product, its
+// error at one of them may vanish by chance.  w is 1, and for a member what I/2 + C has beside its
+// diagonal besides: the parts of h J g that a row of another component takes.)  Then, A = I - h (a
+// J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z but for
+// rounding it, as h J H'' dY = a^-1 (dY - r):
 //   member:  dZ = (I/2 + C)^-1 dY, for the midpoint rule twice dY;
 //   stages:  dZ = b^T a^-1 dY, each stage with its weight d = |b^T a^-1| (HLW IV.8).
 // A step keeps the contract if in every component
@@ -27,7 +27,8 @@
 // A method without equations is a product of explicit steps: the rounded one is the exact one from
 // a state within rounding,
 //   |Z - Z_quad| <= 16 (|dZ/dz| (eps |z| + 2^-10 eps max |z| + |h J (g(z) - grad H(z))|) + eps
-//   |Z|).
+//   |Z|),
+// where the maximum stands for the gradient's errors between z and Z.
 //
 // Z_quad is the step in quad by the same code, and not believed: the residual of the equations as
 // above is evaluated at it, with H's gradient in quad and no part of the solver, and A^-1 times it,
@@ -133,12 +134,12 @@ class Watch {
  private:
   static Quad rounding(Quad x) { return Quad(Code::epsilon) * magnitude(x); }
 
-  // eps (|x| + 2^-10 max |x|)
-  static Vector rounding(const Vector& x) {
+  // eps (|x| + part max |x|)
+  static Vector rounding(const Vector& x, Quad part) {
     Quad longest = 0;
     for (const Quad value : x) longest = larger(longest, magnitude(value));
     Vector result;
-    for (const Quad value : x) result.push_back(rounding(magnitude(value) + longest / 1024));
+    for (const Quad value : x) result.push_back(rounding(magnitude(value) + part * longest));
     return result;
   }
 
@@ -196,7 +197,7 @@ class Watch {
   Vector bound_by_condition(const Vector& z, const Vector& Z, Quad h) const {
     const Matrix slope =
         jacobian(z, [&](const Vector& start) { return exact_.step(start, h).end; });
-    const Vector rounded = rounding(z);
+    const Vector rounded = rounding(z, 1.0 / 1024);
     const Vector error = gradient_error(z, field(z), h);
     Vector bound;
     for (std::size_t k = 0; k < z.size(); ++k) {
@@ -235,7 +236,7 @@ class Watch {
 
   // r of stage j.
   Vector residual_of_rounding(const Equations& e, const Vector& y, const Vector& f, Quad h) const {
-    Vector r = rounding(y);
+    Vector r = rounding(y, 0x1p-40);
     const Vector error = gradient_error(y, f, h);
     for (std::size_t k = 0; k < y.size(); ++k) {
       r[k] += error[k];

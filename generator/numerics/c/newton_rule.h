@@ -12,9 +12,10 @@ typedef struct {
   int grown;
   bool predicted;
   Real move, bend;
+  Real far;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0};
+  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0, 0};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -24,12 +25,36 @@ static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
 static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
   rule->previous = 0;
   rule->grown = 0;
+  rule->far = 0;
   rule->predicted = predicted;
 }
-// size, scale: sums over the unknowns, of their increments and of their values.
-static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
-  if (!(size <= largest)) return failed;
+// An increment as a part of what its unknown is rounded with; of an approximate matrix the
+// increment, if it is not lost in that rounding.
+static inline Real NewtonRule_relative(const NewtonRule* rule, Real moved, Real length) {
+  const Real tiny = 64 * epsilon / largest;
+  if (rule->power == 1) return moved > 8 * epsilon * length + tiny ? moved : 0;
+  return moved > tiny ? moved / length : 0;
+}
+// Is even what all unknowns together move by lost in the rounding of one?
+static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Real size) {
+  if (rule->power == 1) return size <= 8 * epsilon * length;
+  const Real round_off = epsilon * length;
+  const bool straight =
+      rule->previous > 0 || rule->bend * size * size * 1024 <= round_off * rule->move * rule->move;
+  return straight && rule->contraction * size * size * 16 <= round_off;
+}
+// size, scale: sums over the unknowns, of their increments and of their values; uneven: of what is
+// relative of them.
+static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real scale, int iterations,
+                                            Real uneven) {
+  if (!(size <= largest)) {
+    rule->previous = size;
+    return failed;
+  }
   const Real round_off = epsilon * scale;
+  const bool stays = rule->far > 0 && 10 * uneven > 9 * rule->far;
+  const bool waits = rule->power == 1 && uneven > epsilon * epsilon * round_off && !stays;
+  rule->far = uneven;
   if (rule->previous > 0) {
     const Real seen =
         (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
@@ -43,18 +68,23 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
     rule->unchecked = 0;
     // No progress twice in a row: this is round-off if it is small, else it may still recover.
     rule->grown = size < rule->previous ? 0 : rule->grown + 1;
-    if (rule->grown >= 2 && size <= 4096 * round_off) return done;
+    if (rule->grown >= 2 && size <= 4096 * round_off && !waits) return done;
   } else {
     ++rule->unchecked;
   }
   // What an approximate matrix leaves is no chance where it is more than 2^-13 roundings.
   const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
                       rule->contraction * size * 8192 <= round_off;
-  if (size <= round_off && chance) return done;
+  if (size <= round_off && chance && !waits) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
-  if ((rule->previous > 0 || straight) && rule->unchecked < 32 &&
+  const Real parts = size * uneven;
+  const bool bends = rule->previous <= 0 && rule->bend * parts * 1024 >
+                                                epsilon * NewtonRule_power(rule, rule->move);
+  const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
+  const bool serves = rule->power == 1 ? !waits : even;
+  if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;
   }
@@ -62,4 +92,26 @@ static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, 
       rule->predicted && iterations > 1 && 2 * size > rule->previous && size > 4096 * round_off;
   rule->previous = size;
   return iterations < 60 && !astray ? go_on : failed;
+}
+// By how much each unknown moves, and the length that it is rounded with.
+static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, const Real* length,
+                                       int count, int iterations) {
+  Real size = moved[0];
+  Real scale = length[0];
+  Real least = length[0];
+  for (int j = 1; j < count; ++j) {
+    size += moved[j];
+    scale += length[j];
+    least = length[j] < least ? length[j] : least;
+  }
+  Real uneven = 0;
+  const bool lost = NewtonRule_is_lost_in(rule, least, size);
+  for (int j = 0; !lost && j < count; ++j) {
+    uneven += NewtonRule_relative(rule, moved[j], length[j]);
+  }
+  return NewtonRule_check_sums(rule, size, scale, iterations, uneven);
+}
+// Of a single unknown.
+static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
+  return NewtonRule_check_sums(rule, size, scale, iterations, 0);
 }
