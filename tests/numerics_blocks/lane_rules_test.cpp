@@ -227,6 +227,45 @@ TEST(LaneRules, ALaneWithoutATurnIsNotWaitedFor) {
   }
 }
 
+// Increments of an unknown that is a 2^-20th of the other, in each lane by another contraction.
+TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone) {
+  const double contractions[] = {0, 0.1, 0.5, 0.95, 0.01, 0.3, 0.8, 0};
+  constexpr double kSmall = 0x1p-20;
+  lanes::Turn turn;
+  turn.begin(true);
+  turn.step = 1;  // not one that is a check
+  lanes::NewtonRule<1> rule;
+  rule.contraction = 0x1p-13;
+  rule.begin(true, turn);
+  lanes::Real moved[2] = {0x1p-54, 0};
+  const lanes::Real length[2] = {1, kSmall};
+  lanes::Real contraction = 0;
+  for (int lane = 0; lane < 8; ++lane) {
+    moved[1].set(lane, (1 + 200 * lane) * kSmall * 0x1p-52);
+    contraction.set(lane, contractions[lane]);
+  }
+  for (int iteration = 1; iteration <= 60; ++iteration) {
+    if (!any(rule.of_each(moved, length, 2, iteration))) break;
+    moved[1] = moved[1] * contraction;
+  }
+  int waited = 0;
+  for (int lane = 0; lane < 8; ++lane) {
+    of_double::NewtonRule<1> alone;
+    alone.contraction = 0x1p-13;
+    alone.begin(true);
+    double way[2] = {0x1p-54, (1 + 200 * lane) * kSmall * 0x1p-52};
+    const double lengths[2] = {1, kSmall};
+    int iteration = 1;
+    while (alone.of_each(way, lengths, 2, iteration) == of_double::Verdict::go_on) {
+      way[1] = way[1] * contractions[lane];
+      ++iteration;
+    }
+    EXPECT_EQ(rule.taken[lane], iteration) << lane;
+    waited += iteration > 2 ? 1 : 0;
+  }
+  EXPECT_GE(waited, 3);
+}
+
 TEST(LaneRules, WhatALaneForgetsTheOthersKnow) {
   lanes::NewtonRule<2> rule;
   rule.contraction = 0.5;

@@ -119,6 +119,60 @@ TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncrement) {
   EXPECT_EQ(rule(TypeParam::unit * 4, Real(1), 1, Real(1)), Verdict::go_on);
 }
 
+// An unknown that is a 2^-20th of another: of an approximate matrix it is waited for as long as its
+// increments become smaller and are more than 8 of its own roundings.
+TYPED_TEST(NewtonRule, AnApproximateMatrixWaitsForUnknownsThatAreSmall) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real length[2] = {1, TypeParam::two_to(-20)};
+  const auto moved_by = [&](auto& rule, double units, int iteration) {
+    const Real moved[2] = {TypeParam::unit / 4, Real(units) * TypeParam::unit * length[1]};
+    return rule.of_each(moved, length, 2, iteration);
+  };
+  auto rule = this->template taught<1>(TypeParam::two_to(-13));
+  rule.begin(false);
+  EXPECT_EQ(moved_by(rule, 7, 1), Verdict::done);
+  rule.begin(false);
+  EXPECT_EQ(moved_by(rule, 1000, 1), Verdict::go_on);
+  EXPECT_EQ(moved_by(rule, 100, 2), Verdict::go_on);
+  EXPECT_EQ(moved_by(rule, 9, 3), Verdict::go_on);
+  EXPECT_EQ(moved_by(rule, 1, 4), Verdict::done);
+  rule.begin(false);
+  EXPECT_EQ(moved_by(rule, 1000, 1), Verdict::go_on);
+  EXPECT_EQ(moved_by(rule, 999, 2), Verdict::done);  // no more is to be had
+}
+
+// Of each is what their sums and their parts are, whichever of them is small.
+TYPED_TEST(NewtonRule, OfEachIsOfSumsAndParts) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  int done = 0;
+  for (int small = 0; small < 3; ++small) {
+    for (int power = 0; power < TypeParam::bits; ++power) {
+      auto each = this->template taught<2>(1);
+      auto sums = this->template taught<2>(1);
+      each.begin(false);
+      sums.begin(false);
+      Real length[3] = {0.5, 0.25, 0.25};
+      length[small] = TypeParam::two_to(-power);
+      const Real moved[3] = {this->small() / 4, this->small() / 4, this->small() / 4};
+      Real size = moved[0];
+      Real scale = length[0];
+      for (int j = 1; j < 3; ++j) {
+        size += moved[j];
+        scale += length[j];
+      }
+      Real uneven = 0;
+      for (int j = 0; j < 3; ++j) uneven += each.relative(moved[j], length[j]);
+      const Verdict verdict = each.of_each(moved, length, 3, 1);
+      EXPECT_EQ(verdict, sums(size, scale, 1, uneven)) << small << " " << power;
+      done += verdict == Verdict::done ? 1 : 0;
+    }
+  }
+  EXPECT_GT(done, 3);
+  EXPECT_LT(done, 3 * TypeParam::bits);
+}
+
 TYPED_TEST(NewtonRule, NothingMovedIsNoShare) {
   using Real = typename TypeParam::Scalar;
   using Rule = typename TypeParam::template Newton<2>;
