@@ -1,5 +1,5 @@
-// The step as a value: routines made of a dozen kinds of instructions.  The interpreter runs them;
-// what they are as statements, which formats print, is in written_code.hpp.  Whatever has an
+// The step as a value: routines made of the kinds of instructions below.  The interpreter runs
+// them; what they are as statements, which formats print, is in written_code.hpp.  Whatever has an
 // algorithm in it is no instruction but a block of numerics/ that one of them calls.  Routines of a
 // run, those of a Propagator, are made of the same and of some kinds that only they have.
 //

@@ -1,6 +1,6 @@
 // Every method on every scene: interpreted steps keep Note [contract of a solve] in watch.hpp.  The
 // whole lengths of the scenes are left to `ctest -C full`, and of the pairs of a model and a method
-// two thirds.
+// four fifths.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
