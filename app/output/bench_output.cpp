@@ -285,7 +285,7 @@ std::string table_text(const Bench& bench, bool all_rows) {
   if (any([](const BenchRow& row) { return row.is_floor; }))
     text += "floor: smaller steps are no better, for rounding\n";
   if (any([](const BenchRow& row) { return !row.unstable.empty(); }))
-    text += "unstable: over ten times the time; no answer\n";
+    text += "unstable: over ten times the time, or 5000 steps; no answer\n";
   if (bench.is_stopped) text += "stopped before all was measured\n";
   return text;
 }

@@ -10,7 +10,7 @@ std::string_view to_text(Observed observed) {
 
 std::optional<double> error_of(const BenchRow& row, Observed observed) {
   if (!row.ok()) return {};
-  return observed == Observed::energy ? row.relative_energy_error() : row.state_error;
+  return observed == Observed::energy ? row.lasting_energy_error() : row.state_error;
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<BenchRow>& rows, Observed observed) {

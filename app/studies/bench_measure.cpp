@@ -74,6 +74,12 @@ std::optional<double> BenchRow::relative_energy_error() const {
   return *energy_error / energy_scale;
 }
 
+std::optional<double> BenchRow::lasting_energy_error() const {
+  const std::optional<double> error = relative_energy_error();
+  if (!error || !later_energy_error || !(*later_energy_error > 2.0 * *energy_error)) return error;
+  return *later_energy_error / energy_scale;
+}
+
 BenchTime time_of(const BenchRow& row) {
   if (row.samples.empty()) return {};
   std::vector<double> sorted = row.samples;
@@ -154,23 +160,25 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
   row.runs_per_sample = static_cast<long>(std::clamp(std::ceil(2e-3 / row.once), 1.0, 1e5));
 }
 
-std::string instability(const BenchMethod& method, const SceneValues& scene, const BenchRow& row) {
+void look_longer(const BenchMethod& method, const SceneValues& scene, BenchRow& row) {
   constexpr long kTimesAsLong = 10;
+  constexpr long kLeastSteps = 5000;
   constexpr double kTimesTheError = 100.0;
   constexpr double kWorst = 1e-2;  // an orbit may become livelier, and smaller errors with it
   runtime::Integrator integrator(method.loaded.library, start_of(method, scene, row));
   runtime::IntegrateOptions options;
-  options.steps = kTimesAsLong * row.steps;
+  options.steps = std::max(kTimesAsLong * row.steps, kLeastSteps);
   options.stop = method.stop;
   const runtime::RunSummary summary = runtime::integrate(integrator, options);
-  if (is_stopped(method.stop)) return {};
-  if (summary.status != runtime::Status::done) return outcome_of(summary);
-  if (!summary.energy || !row.energy_error || !(row.energy_scale > 0.0)) return {};
-  const double most =
-      kTimesTheError * std::max(*row.energy_error, kWorst * row.energy_scale / kTimesTheError);
+  if (is_stopped(method.stop)) return;
+  if (summary.status != runtime::Status::done) row.unstable = outcome_of(summary);
+  if (!summary.energy || !row.energy_error || !(row.energy_scale > 0.0)) return;
   const double error = summary.energy->max_error();
-  if (error <= most) return {};
-  return fmt::format("energy error {:.2g} in {} steps", error / row.energy_scale, options.steps);
+  row.later_energy_error = error;
+  const double most = std::max(kTimesTheError * *row.energy_error, kWorst * row.energy_scale);
+  if (!row.unstable.empty() || error <= most) return;
+  row.unstable =
+      fmt::format("energy error {:.2g} in {} steps", error / row.energy_scale, options.steps);
 }
 
 void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,

@@ -47,11 +47,12 @@ struct BenchRow {
   std::string unstable;   // how a longer run ends with this step, if badly
   bool is_floor = false;  // rounding: smaller steps are not better
   double iterations_per_step = 0.0;
-  double gradients_per_step = 0.0;       // see gradients_per_step
-  std::optional<double> energy_error;    // max |H - H(0)| over all steps
-  std::optional<double> energy_spread;   // max H - min H
-  double energy_scale = 0.0;             // see runtime::Judge::energy_terms
-  std::optional<double> state_error;     // |z - z*| at the end, Euclidean
+  double gradients_per_step = 0.0;           // see gradients_per_step
+  std::optional<double> energy_error;        // max |H - H(0)| over all steps
+  std::optional<double> energy_spread;       // max H - min H
+  std::optional<double> later_energy_error;  // as energy_error, of the longer run
+  double energy_scale = 0.0;                 // see runtime::Judge::energy_terms
+  std::optional<double> state_error;         // |z - z*| at the end, Euclidean
   std::optional<double> q_error;         // the same of the coordinates alone, and of the momenta:
   std::optional<double> p_error;         // they have units of their own
   std::vector<double> invariant_errors;  // max over about 200 states
@@ -62,6 +63,8 @@ struct BenchRow {
   [[nodiscard]] bool ok() const { return outcome == "done"; }
   // The energy error of its scale; empty if either is not known.
   [[nodiscard]] std::optional<double> relative_energy_error() const;
+  // That of the longer run, where it is more than twice as much.
+  [[nodiscard]] std::optional<double> lasting_energy_error() const;
 };
 
 // Medians of the samples per step of the run, and how far they scatter.
@@ -83,11 +86,11 @@ void measure_errors(const BenchMethod& method, const SceneValues& scene,
                     const ReferenceSolution& reference, BenchRow& row,
                     const RunClock& clock = processor_clock);
 
-// The same steps for ten times as long: how that ends if it fails, or if the energy errors are
-// beyond a hundredth of the scale and a hundred times those of the row; empty if it ends well, or
-// is stopped.
-[[nodiscard]] std::string instability(const BenchMethod& method, const SceneValues& scene,
-                                      const BenchRow& row);
+// The same steps for ten times as long, and 5000 of them at least, for what blows up takes some
+// hundreds of long steps to be seen.  Fills in the energy error, and `unstable` if that run fails
+// or the error is beyond a hundredth of the scale and a hundred times that of the row.  Nothing if
+// it is stopped.
+void look_longer(const BenchMethod& method, const SceneValues& scene, BenchRow& row);
 
 // Adds one sample of the run time.
 void measure_time(const BenchMethod& method, const SceneValues& scene, BenchRow& row,

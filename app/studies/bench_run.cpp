@@ -121,7 +121,7 @@ class BenchWork {
     constexpr int most_refinements = 8;
     for (int refinements = 0;;) {
       const auto row = quickest_within(bench_->methods, bench_->rows, bench_->observed, target);
-      if (!row || lasts(*row) || is_stopped()) return {.target = target, .row = row};
+      if (!row || lasts(*row, target) || is_stopped()) return {.target = target, .row = row};
       if (!request_->refines || refinements++ == most_refinements) continue;
       refine(target, [](double) {});
       measure_times();
@@ -156,12 +156,12 @@ class BenchWork {
                                .on_progress = on_progress});
   }
 
-  bool lasts(std::size_t index) {
+  bool lasts(std::size_t index, double target) {
     BenchRow& row = bench_->rows[index];
     if (!tried_.insert({row.method, row.steps}).second) return true;
     const Work work(request_->on_progress, "longer run");
-    row.unstable = instability(bench_->methods[row.method], request_->scene, row);
-    return row.unstable.empty();
+    look_longer(bench_->methods[row.method], request_->scene, row);
+    return row.unstable.empty() && error_of(row, bench_->observed) <= target;
   }
 
   const BenchRequest* request_;

@@ -23,10 +23,9 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
   if (!options.refuted.empty()) out.comment("//   refuted   ", options.refuted);
   out.comment("//   solve     ", facts.solver);
   if (options.lanes > 0) {
-    out.comment(
-        "//   batch     ",
-        fmt::format("{} trajectories in lanes, functions {}; compile with -ffp-contract=off",
-                    options.lanes, options.library_functions ? "of <cmath>" : "below"));
+    const char* functions = options.library_functions ? "of <cmath>" : "below";
+    out.comment("//   batch     ",
+                fmt::format("{} trajectories in lanes, functions {}", options.lanes, functions));
   }
   bool first = true;
   for (const std::string& item : facts.left_out) {
@@ -34,6 +33,7 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
     first = false;
   }
   out.line("//   cost      " + facts.cost);
+  out.line("//   flags     measured with -O3 -march=native -ffp-contract=off -fno-math-errno");
 }
 
 }  // namespace hamgen

@@ -51,7 +51,7 @@ struct NewtonRule : Iteration {
     const Real round_off = epsilon * length;
     const Mask lost = contraction * size * size * 16 <= round_off;
     if (!begins) return lost;
-    return lost & (motion.bend * size * size * 1024 <= round_off * power(motion.move));
+    return lost & (motion.bend * size * size * 16 <= round_off * power(motion.move));
   }
   // By how much each unknown moves, and the length that it is rounded with.
   Mask of_each(const Real* moved, const Real* length, int count, int iterations) {
@@ -139,7 +139,7 @@ struct NewtonRule : Iteration {
   Mask is_even(const Real& parts, bool measured) const {
     const Mask even = contraction * parts * 16 <= epsilon;
     if (measured) return even;
-    return even & (motion.bend * parts * 1024 <= epsilon * power(motion.move));
+    return even & (motion.bend * parts * 16 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

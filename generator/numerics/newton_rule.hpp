@@ -16,7 +16,9 @@
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment where
 // it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
-// increment across the motion or in unknowns that move less than others.
+// increment across the motion or in unknowns that move less than others.  Where each unknown is
+// asked by itself a 16th of its rounding is what an increment may leave, measured or not: the bend
+// of a linear oscillation, which leaves nothing, is counted as well.
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -73,12 +75,13 @@ struct NewtonRule {
     if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
     return moved > tiny ? moved / length : Real(0);
   }
-  // Need not be asked: is even what all unknowns together move by lost in the rounding of one?
+  // Is even what all unknowns together move by lost in the rounding of one?  The least of them
+  // answers for all: no more need be asked.
   bool is_lost_in(Real length, Real size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
     const Real round_off = epsilon * length;
     const bool straight =
-        previous > 0 || motion.bend * size * size * 1024 <= round_off * power(motion.move);
+        previous > 0 || motion.bend * size * size * 16 <= round_off * power(motion.move);
     return straight && contraction * size * size * 16 <= round_off;
   }
   // By how much each unknown moves, and the length that it is rounded with.
@@ -152,7 +155,7 @@ struct NewtonRule {
   // lacks].
   bool is_even(Real parts) const {
     const bool straight =
-        previous > 0 || motion.bend * parts * 1024 <= epsilon * power(motion.move);
+        previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
     return straight && contraction * parts * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?

@@ -103,6 +103,7 @@ class IterationWriter : public FailureWriter {
     return given;
   }
   void count_iterations() { set(at({"report", "iterations"}), at({"iteration "}), "+="); }
+
   std::set<std::string> kept_;  // locals that an iteration changes
   bool iterates_ = false;
   Place rule_;  // that it iterates by
@@ -124,18 +125,17 @@ class IterationWriter : public FailureWriter {
 
   // What the rule says of increments and of the lengths that their unknowns are rounded with.
   Value judged_of_each(const std::vector<Unknown>& unknowns, const Place& rule) {
-    const bool alone = unknowns.size() == 1;
     std::vector<Value> moved, lengths;
     for (const Unknown& u : unknowns) {
       moved.push_back(magnitude(u.correction));
       lengths.push_back(length(u.symbol, u.start));
     }
-    add(alone ? Define{"Real", "size ", moved[0]} : numbers("moved ", std::move(moved)));
-    add(alone ? Define{"Real", "scale ", lengths[0]} : numbers("length ", std::move(lengths)));
-    if (alone) return action("NewtonRule", rule, "", judged_by_size());
+    const auto count = static_cast<int>(unknowns.size());
+    add(count == 1 ? Define{"Real", "size ", moved[0]} : numbers("moved ", std::move(moved)));
+    add(count == 1 ? Define{"Real", "scale ", lengths[0]} : numbers("length ", std::move(lengths)));
+    if (count == 1) return action("NewtonRule", rule, "", judged_by_size());
     return action("NewtonRule", rule, "of_each",
-                  {object({"moved "}), object({"length "}),
-                   integer(static_cast<int>(unknowns.size())), at({"iteration "})});
+                  {object({"moved "}), object({"length "}), integer(count), at({"iteration "})});
   }
 
   Value is_verdict(const std::string& name) const {

@@ -23,6 +23,8 @@ using app::BenchMethod;
 using app::BenchOptions;
 using app::BenchRow;
 
+const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
+
 // The cost of a step of each method; of all others 1.
 using Costs = std::map<std::string, double>;
 
@@ -146,6 +148,46 @@ TEST(BenchAnswer, LastsTenTimesAsLong) {
   EXPECT_EQ(result.answers.at(0).row, 1u);
 }
 
+// A step of 40/9 of the chain is beyond what blanes-moan-rkn-6 is stable for: its energy error is a
+// thousandth of the scale after 450 steps, ten times the 45 of the row, and it blows up at step
+// 1120.
+TEST(BenchAnswer, LastsFiveThousandSteps) {
+  app::BenchRequest request = app::read_bench({.model = kModels + "fput.ham",
+                                               .schemes = "blanes-moan-rkn-6",
+                                               .h = "40/9,8/3",
+                                               .time = "200",
+                                               .target = "1e-3",
+                                               .rounds = "1",
+                                               .quiet = true});
+  request.clock = clock_of({});
+  request.refines = false;
+  const Bench result = app::run_bench(request);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_LE(result.rows[0].state_error.value(), 1e-3);
+  EXPECT_NE(result.rows[0].unstable, "");
+  EXPECT_EQ(result.rows[1].unstable, "");
+  EXPECT_EQ(result.answers.at(0).row, 1u);
+}
+
+// Two steps of gauss-16 across the pendulum's period have an energy error that is small by chance.
+TEST(BenchAnswer, OfAnEnergyErrorIsWhatLasts) {
+  app::BenchRequest request = app::read_bench({.model = kModels + "pendulum.ham",
+                                               .schemes = "gauss-16",
+                                               .h = "10,2",
+                                               .time = "20",
+                                               .target = "1e-8",
+                                               .rounds = "1",
+                                               .quiet = true});
+  request.observed = app::Observed::energy;
+  request.clock = clock_of({});
+  request.refines = false;
+  const Bench result = app::run_bench(request);
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_LE(result.rows[0].relative_energy_error().value(), 1e-8);
+  EXPECT_GT(result.rows[0].lasting_energy_error().value(), 1e-8);
+  EXPECT_EQ(result.answers.at(0).row, 1u);
+}
+
 // Stopped in the third measurement, it has the rows of the two before and says so.
 TEST(BenchStopped, KeepsTheRowsThatWereMeasured) {
   const Scratch scratch;
@@ -215,8 +257,6 @@ TEST(BenchPicture, LeavesOutLargeStepsThatASmallerOneBeats) {
   ASSERT_EQ(panel.series[0].points.size(), 2u);
   EXPECT_EQ(panel.series[0].points[0].y, 1e-8);
 }
-
-const std::string kModels = HAMGEN_SOURCE_DIR "/hamiltonians/";
 
 // The step of the answer for one method.
 double answered_step(const BenchOptions& options) { return to_double(answer_of(bench(options)).h); }

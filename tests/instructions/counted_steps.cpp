@@ -129,6 +129,7 @@ const std::vector<CountedStep>& main_steps() {
        .scene = "first_mode",
        .sizes = {{"N", 25}}},
       {"stiff_fpu, implicit-midpoint", "stiff_fpu", "w50"},
+      {"stiff_fpu w300, implicit-midpoint", "stiff_fpu", "w300"},
       {"pendulum, stormer-verlet", "pendulum", "paper", "stormer-verlet"},
       {"pendulum, implicit-midpoint, order 8", "pendulum", "paper", "", 8},
       {"kepler, gauss-8", "kepler", "e06", "gauss-8"},

@@ -40,7 +40,7 @@ static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Re
   if (rule->power == 1) return size <= 8 * epsilon * length;
   const Real round_off = epsilon * length;
   const bool straight =
-      rule->previous > 0 || rule->bend * size * size * 1024 <= round_off * rule->move * rule->move;
+      rule->previous > 0 || rule->bend * size * size * 16 <= round_off * rule->move * rule->move;
   return straight && rule->contraction * size * size * 16 <= round_off;
 }
 // size, scale: sums over the unknowns, of their increments and of their values; uneven: of what is
@@ -80,8 +80,8 @@ static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real sc
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
   const Real parts = size * uneven;
-  const bool bends = rule->previous <= 0 && rule->bend * parts * 1024 >
-                                                epsilon * NewtonRule_power(rule, rule->move);
+  const bool bends = rule->previous <= 0 &&
+                     rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
   const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
   const bool serves = rule->power == 1 ? !waits : even;
   if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
@@ -95,7 +95,7 @@ static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real sc
 }
 // By how much each unknown moves, and the length that it is rounded with.
 static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, const Real* length,
-                                       int count, int iterations) {
+                                         int count, int iterations) {
   Real size = moved[0];
   Real scale = length[0];
   Real least = length[0];
