@@ -1,4 +1,4 @@
-// The two problems, H = |p|^2/2 + V(q), as a user without hamgen writes them.  A state is
+// Problems, H = |p|^2/2 + V(q), as a user without hamgen writes them.  A state is
 // (q_1, ..., q_n, p_1, ..., p_n).
 #pragma once
 #include <array>
@@ -55,6 +55,33 @@ struct HenonHeiles {
     hessian[0] = 1 + 2 * q[1];
     hessian[1] = 2 * q[0];
     hessian[2] = 1 - 2 * q[1];
+  }
+};
+
+// V = -1/r, from the pericentre of an ellipse with e = 0.6.
+struct Kepler {
+  static constexpr const char* name = "kepler";
+  static constexpr std::size_t n = 2;
+  static constexpr double h = 0.01;
+  static constexpr Vector<4> start = {0.4, 0, 0, 2};
+  static constexpr std::size_t history = 9;
+
+  template <class Real>
+  Real potential(const Vector<2, Real>& q) const {
+    return -1 / std::sqrt(q[0] * q[0] + q[1] * q[1]);
+  }
+  // dV/dq and the entries (1,1), (1,2), (2,2) of d2V/dq2.
+  template <class Real>
+  void derivatives(const Vector<2, Real>& q, Vector<2, Real>& slope,
+                   Vector<3, Real>& hessian) const {
+    const Real inverse_square = 1 / (q[0] * q[0] + q[1] * q[1]);
+    const Real g = inverse_square * std::sqrt(inverse_square);
+    const Real curvature = 3 * inverse_square * g;
+    slope[0] = g * q[0];
+    slope[1] = g * q[1];
+    hessian[0] = g - curvature * (q[0] * q[0]);
+    hessian[1] = -curvature * (q[0] * q[1]);
+    hessian[2] = g - curvature * (q[1] * q[1]);
   }
 };
 

@@ -1,33 +1,12 @@
-"""What scripts/speed writes, from what the benchmarks printed: docs/speed.md and the table of README.md, their words
-included."""
+"""What scripts/speed writes, from what the benchmarks printed: docs/speed.md, its words included, the table of README.md
+and those of benchmarks/."""
 
 import json
-import pathlib
 import re
 import textwrap
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-KEPT = ROOT / "build/release/speed"
-
-
-def kept(name):
-    return (KEPT / name).read_text()
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines) + "\n"
-
-
-def digits(value, count=3):
-    """1234.5 is 1230 and 0.01234 is 0.0123."""
-    text = f"{value:.{count}g}"
-    return f"{float(text):.0f}" if "e+" in text else text
-
-
-def listed(words):
-    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " and " + words[-1]
-
+import benchmark_tables
+from kept_output import ROOT, digits, kept, listed, table
 
 def span(values, form="{:.1f}"):
     low, high = form.format(min(values)), form.format(max(values))
@@ -69,41 +48,52 @@ of h; its time is per h. odeint's method is another one, explicit and of order 4
 
 
 def by_rows():
-    """Of cost_benchmark: name, solver, [(who, ns)]."""
+    """Of cost_benchmark: name, solver, {who: (ns, what is said of it)}."""
     rows = []
     for line in kept("larger").splitlines():
-        row = re.match(r"  (\S.*?) +([\d.]+) ns/step", line)
+        row = re.match(r"  (\S.*?) +([\d.]+) ns/step(?:   hamgen / this [\d.]+)?(?:   (.*))?$", line)
         if row:
-            rows[-1][2].append((row[1], float(row[2])))
+            rows[-1][2][row[1]] = float(row[2]), row[3] or ""
         elif ": " in line:
             name, solver = line.split(": ", 1)
-            rows.append((name, solver, []))
+            rows.append((name, solver, {}))
     return rows
 
 
 def larger_section():
-    text = ["""## Larger systems
+    text = ["""## Steps of one method
 
-Steps as `hamgen run` compiles them, beside ones by hand (a fixed point with a tuned number of iterations, without
-compensated sums and report; the Stormer-Verlet one has the sums) and GSL's `rk2imp` at twice the step, the same
-trajectory, with a Jacobian by differences. All have the machine's own instructions.
+Steps as `hamgen run` compiles them, in nanoseconds. *By hand*: for an implicit step a fixed point from an extrapolated
+start with as few iterations as somebody chose who looked at the result, without compensated sums and report; how far
+such steps are from the solutions of their equations stands beside, at most, of the largest element. Where that is more
+than rounding the same step is also there with as many iterations as solve them. Stormer-Verlet by hand has compensated
+sums. *GSL*: `rk2imp` at twice the step, the same trajectory, with a Jacobian by differences (left out where its dense
+matrix is larger than 300). *odeint*: for implicit steps `symplectic_rkn_sb3a_mclachlan` at the same step, another method,
+explicit and of order 4; for Stormer-Verlet its `velocity_verlet`, the same method without compensated sums. All have the
+machine's own instructions.
 """]
     rows, slower, faster = [], [], []
     for name, _, times in by_rows():
-        if not times:
-            rows.append([name, "refused", "", ""])
+        if "hamgen" not in times:
+            rows.append([name, "refused", *[""] * 7])
             continue
-        own = times[0][1]
-        others = dict(times[1:])
-        hand, gsl = others.get("hand-written"), others.get("GSL rk2imp 2h")
-        rows.append([name, digits(own), f"{own / hand:.2f}" if hand else "",
-                     f"{gsl / own:.1f}" if gsl else ""])
-        if hand:
-            (slower if own > hand else faster).append((own / hand, name))
-    text.append(table(["step", "hamgen, ns", "hamgen / by hand", "GSL / hamgen"], rows))
+        own = times["hamgen"][0]
+        hand, solved = times.get("hand-written"), times.get("hand-written, solved")
+        gsl = times.get("GSL rk2imp 2h")
+        odeint = next((value for who, value in times.items() if who.startswith("odeint")), None)
+        lack = re.search(r"solved to (\S+)", hand[1]) if hand else None
+        rows.append([name, digits(own), digits(hand[0]) if hand else "", lack[1] if lack else "",
+                     digits(solved[0]) if solved else "", digits(gsl[0]) if gsl else "",
+                     digits(odeint[0]) if odeint else "", f"{own / hand[0]:.2f}" if hand else "",
+                     f"{own / solved[0]:.2f}" if solved else ""])
+        if solved or hand:
+            ratio = own / (solved or hand)[0]
+            (slower if ratio > 1 else faster).append((ratio, name))
+    text.append(table(["step", "hamgen", "by hand", "lacks", "by hand, solved", "GSL", "odeint", "hamgen / by hand",
+                       "hamgen / solved"], rows))
     said = ""
     if slower:
-        said = "Steps by hand are faster, by so many times: " + "; ".join(
+        said = "Steps by hand that solve their equations are faster, by so many times: " + "; ".join(
             f"{name}: {ratio:.1f}" for ratio, name in sorted(slower, reverse=True)) + "."
     if faster:
         said += " The emitted one is the faster: " + "; ".join(
@@ -340,9 +330,18 @@ def readme_table():
             textwrap.fill(said, 116) + "\n")
 
 
+def fill(path, tables):
+    """What stands between the marks of their names."""
+    text = (ROOT / path).read_text()
+    for name, written in tables.items():
+        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+        before, rest = text.split(begin)
+        text = before + begin + written + end + rest.split(end)[1]
+    (ROOT / path).write_text(text)
+
+
 def write():
     (ROOT / "docs/speed.md").write_text(page())
-    path = ROOT / "README.md"
-    before, rest = path.read_text().split("<!-- speed -->\n")
-    after = rest.split("<!-- end of speed -->")[1]
-    path.write_text(before + "<!-- speed -->\n" + readme_table() + "<!-- end of speed -->" + after)
+    fill("README.md", {"speed": readme_table()})
+    fill("benchmarks/README.md", benchmark_tables.of_readme())
+    fill("benchmarks/earlier/README.md", benchmark_tables.of_earlier())

@@ -1,7 +1,7 @@
-// The cost table: steps of larger systems beside hand-written ones and GSL's, and what checking and
-// generating them takes.
+// The cost table: steps beside hand-written ones, GSL's and odeint's, and what checking and
+// generating larger systems takes.
 //
-//   cost_benchmark [TEXT]   the rows whose name holds TEXT
+//   cost_benchmark [steps|commands [TEXT]]   the rows whose name holds TEXT
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,15 +11,15 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
-#include <optional>
 
 #include "app/studies/bench_measure.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/setting.hpp"
 #include "benchmarks/cost/command_cost.hpp"
 #include "benchmarks/cost/cost_models.hpp"
-#include "benchmarks/cost/hand_steps.hpp"
+#include "benchmarks/cost/step_rows.hpp"
 #include "benchmarks/peers/peer.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/language/read_model.hpp"
@@ -30,26 +30,18 @@ namespace {
 
 constexpr int kRounds = 7;
 
-using Values = std::vector<double>;
-// Takes so many steps from the start.
-using Steps = std::function<void(long)>;
-using HandSteps = std::function<Steps(const Values& start, double h)>;
+// A step by hand that errs by no more has solved its equations.
+constexpr double kSolved = 1e-15;
+// Degrees of freedom.
+constexpr std::size_t kMostByGsl = 150;
 
-struct StepRow {
-  std::string name;
-  std::string source;  // a shipped model's file, or the text of one
-  std::string scene;
-  Request request;
-  long steps;
-  HandSteps hand;                     // may be empty
-  bool by_gsl = false;                // rk2imp at twice the step takes the same trajectory
-  std::optional<std::string> h = {};  // else the scene's
-};
+using Values = HandRow::Values;
 
-// A hand-written step or a library's, and the best time seen.
+// A step of hamgen's, one written by hand or a library's, and the best time seen.
 struct Contender {
   std::string name;
   std::function<double()> seconds;  // of all steps
+  std::string note = {};
   double best = std::numeric_limits<double>::infinity();
 };
 
@@ -73,11 +65,9 @@ SceneValues scene_of(const SourceText& source, const StepRow& row) {
 
 // A run of the integrator as `hamgen run` makes it, without its energy.
 std::string add_hamgen(const StepRow& row, const SourceText& source, const SceneValues& scene,
-                       const std::string& solver, std::vector<Contender>& list) {
-  Request request = row.request;
-  request.solver = solver;
+                       std::vector<Contender>& list) {
   const auto method =
-      std::make_shared<app::BenchMethod>(app::bench_method("", source, request, {}));
+      std::make_shared<app::BenchMethod>(app::bench_method("", source, row.request, {}));
   if (!method->refusal.empty()) return method->refusal;
   const runtime::InitialValues start =
       app::initial_values(method->plugin, scene, *method->loaded.library);
@@ -88,7 +78,7 @@ std::string add_hamgen(const StepRow& row, const SourceText& source, const Scene
           ? fmt::format("{:.3g} iterations/step",
                         static_cast<double>(report.iterations) / static_cast<double>(row.steps))
           : fmt::format("ends in step {}", report.steps_done + 1);
-  list.push_back({.name = "hamgen" + (solver.empty() ? "" : " " + solver),
+  list.push_back({.name = "hamgen",
                   .seconds = [=] { return app::processor_clock(*method, start, row.steps); }});
   return method->plugin.solver + ", " + outcome;
 }
@@ -101,26 +91,63 @@ Values start_values(const SceneValues& scene) {
   return z;
 }
 
-void add_gsl(const StepRow& row, const SourceText& source, const SceneValues& scene,
-             std::vector<Contender>& list) {
-  const app::BenchMethod method = app::bench_method("", source, row.request, {});
-  if (!method.refusal.empty()) return;
+// With its tuned number of iterations and, where this leaves equations unsolved, with as many as
+// solve them.
+void add_hand(const StepRow& row, const SceneValues& scene, std::vector<Contender>& list) {
+  const HandRow& hand = *row.hand;
+  const Values start = start_values(scene);
+  const double h = to_double(*scene.h);
+  const auto add = [&](const std::string& name, int iterations, double lack) {
+    list.push_back(
+        {.name = name,
+         .seconds = [=, &row] { return row.hand->seconds(start, h, iterations, row.steps); },
+         .note =
+             hand.lack ? fmt::format("{} iterations, solved to {:.1e}", iterations, lack) : ""});
+  };
+  if (!hand.lack) return add("hand-written", 0, 0.0);
+  const long looked_at = std::min(row.steps, 2000L);
+  const double tuned = hand.lack(start, h, hand.iterations, looked_at);
+  add("hand-written", hand.iterations, tuned);
+  if (tuned <= kSolved) return;
+  for (int iterations = hand.iterations + 1; iterations < 20; ++iterations) {
+    const double lack = hand.lack(start, h, iterations, looked_at);
+    if (lack <= kSolved) return add("hand-written, solved", iterations, lack);
+  }
+}
+
+void add_peers(const StepRow& row, const SourceText& source, const SceneValues& scene,
+               std::vector<Contender>& list) {
+  // The gradient is the same by every method.
+  const app::BenchMethod method = app::bench_method(
+      "", source, {.scheme = "implicit-midpoint", .sizes = row.request.sizes}, {});
   const runtime::InitialValues start =
       app::initial_values(method.plugin, scene, *method.loaded.library);
-  Values parameters;
-  for (const runtime::Wide& value : start.parameters) parameters.push_back(value.hi);
-  const auto flow = std::make_shared<peers::Flow>(method.loaded.library, parameters);
-  const std::vector<peers::Peer> peers = peers::gsl_peers();
-  const auto midpoint = std::ranges::find(peers, "GSL rk2imp", &peers::Peer::name);
-  const double h = scene.h->get_d();
-  const long steps = std::max(1L, row.steps / 20);
-  const peers::Peer peer = *midpoint;
-  list.push_back({.name = "GSL rk2imp 2h", .seconds = [=, z0 = start_values(scene)] {
-                    Values z = z0;
-                    const double time = 2 * h * static_cast<double>(steps);
-                    return timed([&] { (void)peer.integrate(*flow, z, time, 2 * h, {}); }) *
-                           static_cast<double>(row.steps) / (2.0 * static_cast<double>(steps));
-                  }});
+  const auto flow =
+      std::make_shared<peers::Flow>(method.loaded.library, app::rounded(start.parameters));
+  const double h = to_double(*scene.h);
+  std::vector<peers::Peer> all = peers::gsl_peers();
+  std::ranges::move(peers::odeint_peers(), std::back_inserter(all));
+  for (const std::string& name : row.peers) {
+    const peers::Peer peer = *std::ranges::find(all, name, &peers::Peer::name);
+    if (flow->n() > kMostByGsl && name.starts_with("GSL")) continue;  // a dense matrix
+    if (!peer.suits(*flow, start_values(scene))) continue;
+    // rk2imp at twice the step takes the same trajectory, in steps of some thousand times.
+    const bool doubled = name == "GSL rk2imp";
+    const long steps = doubled ? std::max(1L, row.steps / (flow->n() > 10 ? 200 : 20)) : row.steps;
+    const double step = doubled ? 2 * h : h;
+    list.push_back({.name = name + (doubled ? " 2h" : ""),
+                    .seconds =
+                        [=, z0 = start_values(scene)] {
+                          Values z = z0;
+                          const double time = step * static_cast<double>(steps);
+                          return timed([&] { (void)peer.integrate(*flow, z, time, step, {}); }) *
+                                 static_cast<double>(row.steps) /
+                                 static_cast<double>(doubled ? 2 * steps : steps);
+                        },
+                    .note = doubled                 ? ""
+                            : name == "odeint sb3a" ? "another method, of order 4"
+                                                    : ""});
+  }
 }
 
 void measure(StepRow row) {
@@ -129,14 +156,9 @@ void measure(StepRow row) {
   // `hamgen run` makes a step for its scene.
   row.request.scene = {.asked = {.scene = row.scene, .h = row.h}, .values = scene, .kept = {}};
   std::vector<Contender> list;
-  const std::string solver = add_hamgen(row, source, scene, row.request.solver.text(), list);
-  if (row.hand) {
-    list.push_back({.name = "hand-written", .seconds = [&] {
-                      const Steps steps = row.hand(start_values(scene), to_double(*scene.h));
-                      return timed([&] { steps(row.steps); });
-                    }});
-  }
-  if (row.by_gsl) add_gsl(row, source, scene, list);
+  const std::string solver = add_hamgen(row, source, scene, list);
+  if (row.hand) add_hand(row, scene, list);
+  add_peers(row, source, scene, list);
   for (int round = 0; round < kRounds; ++round) {
     for (Contender& c : list) c.best = std::min(c.best, c.seconds());
   }
@@ -144,74 +166,9 @@ void measure(StepRow row) {
   for (const Contender& c : list) {
     fmt::print("  {:<24}{:>12.1f} ns/step", c.name, 1e9 * c.best / static_cast<double>(row.steps));
     if (&c != &list.front()) fmt::print("   hamgen / this {:.2f}", list.front().best / c.best);
-    fmt::print("\n");
+    fmt::print("{}{}\n", c.note.empty() ? "" : "   ", c.note);
   }
   std::fflush(stdout);
-}
-
-template <class Hand>
-Steps steps_by(std::shared_ptr<Hand> hand) {
-  return [hand](long steps) { hand->advance(steps); };
-}
-
-template <class Problem>
-HandSteps midpoint_of(const Problem& problem) {
-  return [problem](const Values& z, double h) {
-    return steps_by(std::make_shared<HandMidpoint<Problem>>(problem, h, z));
-  };
-}
-
-HandSteps verlet_of_chain() {
-  return [](const Values& z, double h) {
-    return steps_by(std::make_shared<HandVerlet<1000>>(0.25, h, z));
-  };
-}
-
-Request sized(long n, const std::string& scheme = "", int order = 0) {
-  return {.scheme = scheme, .order = order, .sizes = {{"N", n}}};
-}
-
-std::vector<StepRow> step_rows() {
-  HandBodies<6, 5, 1> planets;
-  planets.mass = {1.00000597682,      0.000954786104043,  0.000285583733151,
-                  0.0000437273164546, 0.0000517759138449, 1 / 1.3e8};
-  planets.strength = 2.95912208286e-4;
-  HandBodies<50, 5, 1> bodies;
-  bodies.mass.fill(1.0);
-  bodies.strength = 1.0 / 50;
-  bodies.softening = 0.01;
-  return {
-      {"pendulum, midpoint", "pendulum.ham", "paper", {}, 400000, {}, true},
-      {"Henon-Heiles, midpoint", "henon_heiles.ham", "regular", {}, 400000, {}, true},
-      {"Kepler, midpoint", "kepler.ham", "", {}, 400000, {}, true},
-      {"outer solar system, midpoint, h = 10 d",
-       "outer_solar_system.ham",
-       "short_step",
-       {},
-       20000,
-       midpoint_of(planets),
-       true},
-      {"50 bodies, midpoint", kBodies, "disk", {}, 500, midpoint_of(bodies)},
-      {"chain of 24, midpoint", "fput.ham", "first_mode", sized(24), 20000,
-       midpoint_of(HandFput<24>()), false, "1/20"},
-      {"chain of 25, midpoint", "fput.ham", "first_mode", sized(25), 20000,
-       midpoint_of(HandFput<25>()), false, "1/20"},
-      {"stiff FPU m = 3, midpoint, h = 0.001",
-       "stiff_fpu.ham",
-       "w300",
-       {},
-       200000,
-       midpoint_of(HandStiffFpu()),
-       true},
-      {"FPU N = 1000, midpoint", "fput.ham", "first_mode", sized(1000), 2000,
-       midpoint_of(HandFput<1000>()), false, "1/20"},
-      {"FPU N = 1000, midpoint, plucked", "fput.ham", "pluck", sized(1000), 2000,
-       midpoint_of(HandFput<1000>())},
-      {"FPU N = 1000, Stormer-Verlet", "fput.ham", "pluck", sized(1000, "stormer-verlet"), 10000,
-       verlet_of_chain()},
-      {"FPU N = 1000, midpoint of order 4", "fput.ham", "pluck", sized(1000, "", 4), 500, {}},
-      {"mean field N = 200, midpoint", kMeanField, "half", {}, 500, {}},
-  };
 }
 
 struct CommandRow {
@@ -247,18 +204,36 @@ void measure(const CommandRow& row) {
   std::fflush(stdout);
 }
 
-void measure_all(const std::string& text) {
-  const auto wanted = [&](const std::string& name) { return name.find(text) != name.npos; };
+bool holds(const std::string& name, const std::string& text) {
+  return name.find(text) != name.npos;
+}
+
+void measure_steps(const std::string& text) {
   for (const StepRow& row : step_rows()) {
-    if (wanted(row.name)) measure(row);
+    if (holds(row.name, text)) measure(row);
   }
+}
+
+void measure_commands(const std::string& text) {
   const std::filesystem::path directory =
       std::filesystem::temp_directory_path() / fmt::format("hamgen-cost-{}", getpid());
   std::filesystem::create_directory(directory);
   for (const CommandRow& row : command_rows(directory)) {
-    if (wanted(row.name)) measure(row);
+    if (holds(row.name, text)) measure(row);
   }
   std::filesystem::remove_all(directory);
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string what = words.empty() ? "" : words.front();
+  if (words.size() > 2 || (what != "" && what != "steps" && what != "commands")) {
+    fmt::print(stderr, "usage: cost_benchmark [steps|commands [TEXT]]\n");
+    return 2;
+  }
+  const std::string text = words.size() == 2 ? words.back() : "";
+  if (what != "commands") measure_steps(text);
+  if (what != "steps") measure_commands(text);
+  return 0;
 }
 
 }  // namespace
@@ -266,8 +241,7 @@ void measure_all(const std::string& text) {
 
 int main(int count, char** words) {
   try {
-    hamgen::cost_table::measure_all(count > 1 ? words[1] : "");
-    return 0;
+    return hamgen::cost_table::run({words + 1, words + count});
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

@@ -117,7 +117,7 @@ class StepBuilder {
   // opposite signs is on their grid, not on its own.  Whether pbar is such a sum, of p and a force,
   // depends on which way the motion goes, and so does qbar after a long increment: the mean of the
   // pattern over those coarse numbers is a force or a velocity that knows the direction, and with
-  // h omega from 1 on it drifts by up to 2e-3 units (soft chains in benchmarks/README.md).  Of two
+  // h omega from 1 on it drifts by up to 2e-3 units (soft chains in benchmarks/drift).  Of two
   // parts of the constant, of which neither is a simple fraction, the larger product is rounded
   // without a pattern and the smaller one loses nothing: one operation and a sum more.  Sums of
   // other terms have all digits; so only products with sums of stage values are split, and h times

@@ -1,4 +1,4 @@
-// The commands of benchmarks/README.md, most of which take too long to be run by a test: the
+// The commands of the pages of benchmarks/, most of which take too long to be run by a test: the
 // presets, the targets and the options are there.
 #include <gtest/gtest.h>
 
@@ -20,10 +20,9 @@ const std::map<std::string, std::string> programs = {
     {"contract_table", "contract"}, {"rounding", "rounding"}};
 
 // The lines of its blocks, and what stands between grave accents in its sentences.
-std::vector<std::string> commands_of_page() {
-  std::vector<std::string> commands;
+void add_commands(const std::string& page, std::vector<std::string>& commands) {
   bool inside = false;
-  for (std::string line : lines(read(root + "/benchmarks/README.md"))) {
+  for (std::string line : lines(read(page))) {
     if (line.starts_with("```")) {
       inside = !inside;
     } else if (inside) {
@@ -33,6 +32,12 @@ std::vector<std::string> commands_of_page() {
       for (std::sregex_iterator it(line.begin(), line.end(), quoted), end; it != end; ++it)
         commands.push_back((*it)[1]);
     }
+  }
+}
+std::vector<std::string> commands_of_pages() {
+  std::vector<std::string> commands;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root + "/benchmarks")) {
+    if (entry.path().filename() == "README.md") add_commands(entry.path().string(), commands);
   }
   return commands;
 }
@@ -79,10 +84,10 @@ void expect_options_are_there(const std::string& program, const std::vector<std:
   }
 }
 
-TEST(BenchmarkPage, NamesWhatIsThere) {
+TEST(BenchmarkPages, NameWhatIsThere) {
   std::set<std::string> seen;
   std::size_t builds = 0;
-  for (const std::string& command : commands_of_page()) {
+  for (const std::string& command : commands_of_pages()) {
     const std::vector<std::string> words = words_of(command);
     if (words.empty()) continue;
     const std::string program = std::filesystem::path(words.front()).filename();

@@ -19,7 +19,9 @@ set(expected bin/hamgen
   ${LIBDIR}/cmake/hamgen/hamgenTargets-release.cmake ${LIBDIR}/cmake/hamgen/hamgenTargets.cmake
   share/bash-completion/completions/hamgen share/man/man1/hamgen.1
   share/zsh/site-functions/_hamgen share/doc/hamgen/README.md share/doc/hamgen/LICENSE
-  share/doc/hamgen/benchmarks/README.md share/doc/hamgen/benchmarks/earlier/README.md)
+  share/doc/hamgen/benchmarks/README.md share/doc/hamgen/benchmarks/contract/README.md
+  share/doc/hamgen/benchmarks/drift/README.md share/doc/hamgen/benchmarks/earlier/README.md
+  share/doc/hamgen/benchmarks/rounding/README.md)
 file(GLOB models RELATIVE ${SOURCE} ${SOURCE}/hamiltonians/*)
 list(TRANSFORM models PREPEND share/doc/hamgen/)
 file(GLOB_RECURSE pages RELATIVE ${SOURCE}/docs ${SOURCE}/docs/*.md ${SOURCE}/docs/*.svg
