@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_724b403d::float64 {
+namespace hamgen_4787dd00::float64 {
 using Real = double;
 
-#ifndef HAMGEN_724B403D_FLOAT64_STEP_REPORT
-#define HAMGEN_724B403D_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_4787DD00_FLOAT64_STEP_REPORT
+#define HAMGEN_4787DD00_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_VOCABULARY
-#define HAMGEN_724B403D_FLOAT64_VOCABULARY
+#ifndef HAMGEN_4787DD00_FLOAT64_VOCABULARY
+#define HAMGEN_4787DD00_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_TWO_SUM
-#define HAMGEN_724B403D_FLOAT64_TWO_SUM
+#ifndef HAMGEN_4787DD00_FLOAT64_TWO_SUM
+#define HAMGEN_4787DD00_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_SUM_WITH_REST
-#define HAMGEN_724B403D_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_4787DD00_FLOAT64_SUM_WITH_REST
+#define HAMGEN_4787DD00_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_SUMS
-#define HAMGEN_724B403D_FLOAT64_SUMS
+#ifndef HAMGEN_4787DD00_FLOAT64_SUMS
+#define HAMGEN_4787DD00_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_BAND_MATRIX
-#define HAMGEN_724B403D_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_4787DD00_FLOAT64_BAND_MATRIX
+#define HAMGEN_4787DD00_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_724B403D_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_4787DD00_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_4787DD00_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_VERDICT
-#define HAMGEN_724B403D_FLOAT64_VERDICT
+#ifndef HAMGEN_4787DD00_FLOAT64_VERDICT
+#define HAMGEN_4787DD00_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_NEWTON_RULE
-#define HAMGEN_724B403D_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_4787DD00_FLOAT64_NEWTON_RULE
+#define HAMGEN_4787DD00_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -401,6 +401,13 @@ enum class Verdict { go_on, done, failed };
 // 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
 // unknowns, and none may be left, as long as they become smaller.
 //
+// Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
+// hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
+// asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
+// of their roundings.  So 16 times the way that the step has moved it stands for its length where
+// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
+// length, for what never moves.
+//
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
@@ -435,11 +442,16 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // An increment as a part of what its unknown is rounded with; nothing at the smallest numbers.
-  // Of an approximate matrix the increment, if it is not lost in that rounding.
-  static Real relative(Real moved, Real length) {
+  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
+  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
+  static Real relative(Real moved, Real length, Real way) {
     if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
-    return moved > tiny ? moved / length : Real(0);
+    return moved > tiny ? moved / felt(length, way) : Real(0);
+  }
+  // Of its length and its way in the step.
+  static Real felt(Real length, Real way) {
+    const Real least = 16 * way + length / 1048576;
+    return Power == 2 && least < length ? least : length;
   }
   // Is even what all unknowns together move by lost in the rounding of one?  The least of them
   // answers for all: no more need be asked.
@@ -450,22 +462,28 @@ struct NewtonRule {
         previous > 0 || motion.bend * size * size * 16 <= round_off * power(motion.move);
     return straight && contraction * size * size * 16 <= round_off;
   }
-  // By how much each unknown moves, and the length that it is rounded with.
-  Verdict of_each(const Real* moved, const Real* length, int count, int iterations) {
+  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+  // the lengths again where no way counts.
+  Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
+                  int iterations) {
     Real size = moved[0];
     Real scale = length[0];
     Real least = length[0];
+    Real nearest = way[0];
     for (int j = 1; j < count; ++j) {
       size += moved[j];
       scale += length[j];
       least = length[j] < least ? length[j] : least;
+      nearest = way[j] < nearest ? way[j] : nearest;
     }
-    const Real uneven = is_lost_in(least, size) ? Real(0) : relative(moved, length, count);
+    const Real shortest = way == length ? least : felt(least, nearest);
+    const bool lost = is_lost_in(shortest, size);
+    const Real uneven = lost ? Real(0) : relative(moved, length, way, count);
     return (*this)(size, scale, iterations, uneven);
   }
-  static Real relative(const Real* moved, const Real* length, int count) {
+  static Real relative(const Real* moved, const Real* length, const Real* way, int count) {
     Real sum = 0;
-    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j]);
+    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j], way[j]);
     return sum;
   }
   // size, scale: sums over the unknowns of their increments and of their values; uneven: of what is
@@ -520,8 +538,7 @@ struct NewtonRule {
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
   bool is_even(Real parts) const {
-    const bool straight =
-        previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
+    const bool straight = previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
     return straight && contraction * parts * 16 <= epsilon;
   }
   // Is bend (size / move)^Power lost in rounding?
@@ -532,8 +549,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_724B403D_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_4787DD00_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_4787DD00_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRule of an iteration that many steps do without: these are not watched.
 template <int Power>
 struct WaitingNewtonRule : NewtonRule<Power> {
@@ -555,8 +572,8 @@ struct WaitingNewtonRule : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_724B403D_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_4787DD00_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_4787DD00_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -635,8 +652,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_724B403D_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_4787DD00_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_4787DD00_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -724,8 +741,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_REFINEMENT
-#define HAMGEN_724B403D_FLOAT64_REFINEMENT
+#ifndef HAMGEN_4787DD00_FLOAT64_REFINEMENT
+#define HAMGEN_4787DD00_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -859,8 +876,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_HISTORY
-#define HAMGEN_724B403D_FLOAT64_HISTORY
+#ifndef HAMGEN_4787DD00_FLOAT64_HISTORY
+#define HAMGEN_4787DD00_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -952,8 +969,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_724B403D_FLOAT64_FORGET
-#define HAMGEN_724B403D_FLOAT64_FORGET
+#ifndef HAMGEN_4787DD00_FLOAT64_FORGET
+#define HAMGEN_4787DD00_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -963,17 +980,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_724b403d::float64
+}  // namespace hamgen_4787dd00::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xd48f22cf
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x8a2b8a5b
 namespace fput::implicit_midpoint {
-inline namespace emitted_d48f22cf {
+inline namespace emitted_8a2b8a5b {
 
-namespace numerics = ::hamgen_724b403d::float64;
+namespace numerics = ::hamgen_4787dd00::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1160,7 +1177,7 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
       size += magnitude(start.lack[i]);
       scale += magnitude(start.value[i]) + magnitude(z.q[i]);
       uneven += start.newton_rule.relative(magnitude(start.lack[i]), magnitude(start.value[i]) +
-                                           magnitude(z.q[i]));
+                                           magnitude(z.q[i]), magnitude(start.value[i] - z.q[i]));
     }
     const Verdict verdict = start.newton_rule(size, scale, iteration, uneven);
     if (verdict == Verdict::failed) {
@@ -1305,9 +1322,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_d48f22cf
+}  // namespace emitted_8a2b8a5b
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xd48f22cf
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x8a2b8a5b
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -23,6 +23,7 @@ class MachineAddresses {
     Address target;
     CompiledExpression<Real> start, correction;
     int memory = 0;
+    bool by_torn = false;
   };
 
   struct Range {
@@ -49,6 +50,7 @@ class MachineAddresses {
   struct Array2 {
     Address value, increment;
     CompiledExpression<Real> beside;
+    bool by_torn = false;
   };
   struct Whole {
     Address first;
@@ -198,7 +200,8 @@ class MachineAddresses {
   std::vector<Compiled> compiled(const std::vector<Unknown>& unknowns) {
     std::vector<Compiled> result;
     for (const Unknown& u : unknowns) {
-      result.push_back({address(u.symbol), compiled(u.start), compiled(u.correction), u.memory});
+      result.push_back(
+          {address(u.symbol), compiled(u.start), compiled(u.correction), u.memory, u.by_torn});
     }
     return result;
   }

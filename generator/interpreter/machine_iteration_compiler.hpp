@@ -64,7 +64,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
   Step operator()(const IterateArray& iterate) {
     std::vector<Array2> unknowns;
     for (const UnknownArray& u : iterate.unknowns) {
-      unknowns.push_back({address(u.value), address(u.increment), compiled(u.beside)});
+      unknowns.push_back({address(u.value), address(u.increment), compiled(u.beside), u.by_torn});
     }
     std::vector<Range> ranges;
     for (const KernelRange& range : iterate.ranges) ranges.push_back(range_of(range));

@@ -105,11 +105,15 @@ class MachineIterations : public MachineAddresses<Real> {
                                           int iteration) const {
     Lengths lengths;
     each([&](const Array2& u) {
+      const Real value = m_.frame.at(u.value);
+      const Real beside = u.beside(m_.frame);
       const Real moved = magnitude(m_.frame.at(u.increment));
-      const Real length = magnitude(m_.frame.at(u.value)) + magnitude(u.beside(m_.frame));
+      const Real length = magnitude(value) + magnitude(beside);
       lengths.size += moved;
       lengths.scale += length;
-      if (of_each) lengths.uneven += rule.relative(moved, length);
+      if (!of_each) return;
+      const Real way = u.by_torn ? magnitude(value - beside) : length;
+      lengths.uneven += rule.relative(moved, length, way);
     });
     const Answer answer = rule(lengths.size, lengths.scale, iteration, lengths.uneven);
     return {answer, lengths.size};
@@ -125,12 +129,15 @@ class MachineIterations : public MachineAddresses<Real> {
                                  const std::vector<Real>& corrections, int iteration) const {
     std::vector<Real> moved;
     std::vector<Real> lengths;
+    std::vector<Real> ways;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      const Real value = m_.frame.at(unknowns[j].target);
+      const Real start = unknowns[j].start(m_.frame);
       moved.push_back(magnitude(corrections[j]));
-      lengths.push_back(magnitude(m_.frame.at(unknowns[j].target)) +
-                        magnitude(unknowns[j].start(m_.frame)));
+      lengths.push_back(magnitude(value) + magnitude(start));
+      ways.push_back(unknowns[j].by_torn ? magnitude(value - start) : lengths.back());
     }
-    const Answer answer = rule.of_each(moved, lengths, iteration);
+    const Answer answer = rule.of_each(moved, lengths, ways, iteration);
     return {answer, rule.last()};
   }
   Distance move_all(const std::vector<Compiled>& unknowns,

@@ -77,14 +77,14 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
     return answer(rule_(size, scale, iteration, uneven));
   }
-  [[nodiscard]] Real relative(Real moved, Real length) const override {
-    return rule_.relative(moved, length);
+  [[nodiscard]] Real relative(Real moved, Real length, Real way) const override {
+    return rule_.relative(moved, length, way);
   }
   Answer of_each(std::span<const Real> moved, std::span<const Real> length,
-                 int iteration) override {
+                 std::span<const Real> way, int iteration) override {
     const auto count = static_cast<int>(moved.size());
     if (count == 1) return answer(rule_(moved[0], length[0], iteration));
-    return answer(rule_.of_each(moved.data(), length.data(), count, iteration));
+    return answer(rule_.of_each(moved.data(), length.data(), way.data(), count, iteration));
   }
   [[nodiscard]] Real last() const override { return rule_.previous; }
 
@@ -103,7 +103,7 @@ class LinearRuleOf final : public AnyNewtonRule<Real> {
   Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
     return answer(rule_(size, scale, iteration, uneven));
   }
-  [[nodiscard]] Real relative(Real moved, Real length) const override {
+  [[nodiscard]] Real relative(Real moved, Real length, Real /*way*/) const override {
     return rule_.relative(moved, length);
   }
 

@@ -68,10 +68,10 @@ struct AnyNewtonRule {
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
   virtual Answer operator()(Real size, Real scale, int iteration, Real uneven) = 0;
-  [[nodiscard]] virtual Real relative(Real moved, Real length) const = 0;
+  [[nodiscard]] virtual Real relative(Real moved, Real length, Real way) const = 0;
   // Of unknowns that are written out, one by one, and what they were moved by together.
   virtual Answer of_each(std::span<const Real> /*moved*/, std::span<const Real> /*length*/,
-                         int /*iteration*/) {
+                         std::span<const Real> /*way*/, int /*iteration*/) {
     return Answer::failed;
   }
   [[nodiscard]] virtual Real last() const { return 0; }

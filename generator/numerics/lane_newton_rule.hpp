@@ -40,10 +40,14 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // What an increment is of what its unknown is rounded with, or the increment.
-  static Real relative(const Real& moved, const Real& length) {
+  // What an increment is of what it must be lost in, or the increment.
+  static Real relative(const Real& moved, const Real& length, const Real& way) {
     if (Power == 1) return select(moved > 8 * epsilon * length + tiny, moved, Real(0));
-    return select(moved > tiny, moved / length, Real(0));
+    return select(moved > tiny, moved / felt(length, way), Real(0));
+  }
+  static Real felt(const Real& length, const Real& way) {
+    const Real least = 16 * way + length / 1048576;
+    return Power == 2 ? select(least < length, least, length) : length;
   }
   // Is even what all unknowns together move by lost in the rounding of one?
   Mask is_lost_in(const Real& length, const Real& size) const {
@@ -53,19 +57,23 @@ struct NewtonRule : Iteration {
     if (!begins) return lost;
     return lost & (motion.bend * size * size * 16 <= round_off * power(motion.move));
   }
-  // By how much each unknown moves, and the length that it is rounded with.
-  Mask of_each(const Real* moved, const Real* length, int count, int iterations) {
+  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+  // the lengths again where no way counts.
+  Mask of_each(const Real* moved, const Real* length, const Real* way, int count, int iterations) {
     Real size = moved[0];
     Real scale = length[0];
+    Real least = length[0];
+    Real nearest = way[0];
     for (int j = 1; j < count; ++j) {
       size += moved[j];
       scale += length[j];
+      least = select(length[j] < least, length[j], least);
+      nearest = select(way[j] < nearest, way[j], nearest);
     }
-    Mask lost = true;
-    for (int j = 0; j < count; ++j) lost = lost & is_lost_in(length[j], size);
+    const Mask lost = is_lost_in(way == length ? least : felt(least, nearest), size);
     Real uneven = 0;
     if (!all(lost)) {
-      for (int j = 0; j < count; ++j) uneven += relative(moved[j], length[j]);
+      for (int j = 0; j < count; ++j) uneven += relative(moved[j], length[j], way[j]);
       uneven = select(lost, Real(0), uneven);
     }
     return (*this)(size, scale, iterations, uneven);

@@ -152,6 +152,9 @@ struct Unknown {
   Expression start;       // where nothing is known from earlier steps
   Expression correction;  // known after the body
   int memory = 0;         // where in start.value its solution is kept
+  // Is it moved by a momentum that is torn out of the equations?  Then its way counts: see Note
+  // [what every unknown lacks] in numerics/newton_rule.hpp.
+  bool by_torn = false;
 };
 enum class Rule { newton, simplified_newton, fixed_point, linear };
 // The body over and over, until the rule is content.  The last correction of Newton is not made:
@@ -169,6 +172,7 @@ struct Iterate {
 struct UnknownArray {
   std::string value, increment;
   Expression beside;
+  bool by_torn = false;  // see Unknown
 };
 // As Iterate, for arrays whose values are there before it begins.  The body leaves the increments.
 // The rule is a field of start.

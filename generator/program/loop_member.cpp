@@ -358,7 +358,8 @@ class LoopMember : LoopStage {
       const std::vector<AffineIndex> index = {affine("i", first)};
       list.push_back({.value = b.at("start", "value", index).name(),
                       .increment = b.at("start", "lack", index).name(),
-                      .beside = state(b, "z", first == 0 ? "q" : "p")});
+                      .beside = state(b, "z", first == 0 ? "q" : "p"),
+                      .by_torn = arrays_.reduced});
     }
     return list;
   }

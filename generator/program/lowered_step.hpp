@@ -20,6 +20,7 @@ struct LoopVariable {
   Expression cold;        // its start value when nothing is known from earlier steps
   Expression next;        // fixed point and sweeps: the new value
   Expression correction;  // Newton, size <= 3: what is added
+  bool by_torn = false;   // see Unknown
 };
 
 // A loop.

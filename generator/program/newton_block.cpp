@@ -81,7 +81,9 @@ void StepBuilder::add_newton(const Block& block) {
   solve_linear_system(newton, pending);
   for (std::size_t j = 0; j < block.unknowns.size(); ++j) {
     const int x = block.unknowns[j];
-    pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
+    const bool by_torn =
+        std::ranges::find(block.torn, x < n_ ? x + n_ : x - n_) != block.torn.end();
+    pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}, by_torn});
     pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
     if (written_out) {
       pending.correction.push_back(lowering_.want(newton.increments[j], newton.where));

@@ -134,7 +134,8 @@ class SolveRoutine {
       iterate.unknowns.push_back({.symbol = v.name,
                                   .start = v.cold,
                                   .correction = newton ? v.correction : v.next,
-                                  .memory = memory_++});
+                                  .memory = memory_++,
+                                  .by_torn = v.by_torn});
       if (!solve.corrections.empty()) {
         iterate.kept.push_back(solve.corrections[j]);
         iterate.unknowns.back().correction =

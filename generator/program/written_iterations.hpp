@@ -110,32 +110,24 @@ class IterationWriter : public FailureWriter {
   std::string rule_type_ = "NewtonRule";
 
  private:
-  // |-x| = |x|
-  static Value magnitude(const Expression& e) {
-    return call("magnitude", {formula(e.split_coefficient().first < 0 ? -e : e)});
-  }
-
-  // The parts of what an unknown is rounded with.
-  static std::vector<Value> rounded_with(const std::string& value, const Expression& beside) {
-    return {magnitude(Expression::symbol(value)), magnitude(beside)};
-  }
-  static Value length(const std::string& value, const Expression& beside) {
-    return joined("+", rounded_with(value, beside));
-  }
-
-  // What the rule says of increments and of the lengths that their unknowns are rounded with.
+  // What the rule says of increments, of the lengths that their unknowns are rounded with, and of
+  // their ways.
   Value judged_of_each(const std::vector<Unknown>& unknowns, const Place& rule) {
-    std::vector<Value> moved, lengths;
+    std::vector<Value> moved, lengths, ways;
     for (const Unknown& u : unknowns) {
       moved.push_back(magnitude(u.correction));
       lengths.push_back(length(u.symbol, u.start));
+      ways.push_back(u.by_torn ? way(u.symbol, u.start) : lengths.back());
     }
     const auto count = static_cast<int>(unknowns.size());
     add(count == 1 ? Define{"Real", "size ", moved[0]} : numbers("moved ", std::move(moved)));
     add(count == 1 ? Define{"Real", "scale ", lengths[0]} : numbers("length ", std::move(lengths)));
     if (count == 1) return action("NewtonRule", rule, "", judged_by_size());
+    const bool has_ways = std::ranges::any_of(unknowns, &Unknown::by_torn);
+    if (has_ways) add(numbers("way ", std::move(ways)));
     return action("NewtonRule", rule, "of_each",
-                  {object({"moved "}), object({"length "}), integer(count), at({"iteration "})});
+                  {object({"moved "}), object({"length "}), object({has_ways ? "way " : "length "}),
+                   integer(count), at({"iteration "})});
   }
 
   Value is_verdict(const std::string& name) const {
@@ -230,8 +222,9 @@ class IterationWriter : public FailureWriter {
           set(at({"size "}), moved, "+=");
           set(at({"scale "}), length(u.value, u.beside), "+=");
           if (!of_each) continue;
-          set(at({"uneven "}), action(type, rule, "relative", {moved, length(u.value, u.beside)}),
-              "+=");
+          std::vector<Value> parts = {moved, length(u.value, u.beside)};
+          if (!linear) parts.push_back(u.by_torn ? way(u.value, u.beside) : parts.back());
+          set(at({"uneven "}), action(type, rule, "relative", std::move(parts)), "+=");
         }
       };
       over(iterate.ranges, measure, Shape::braces);

@@ -39,6 +39,10 @@ namespace hamgen::written {
 [[nodiscard]] inline Value call(const std::string& block, std::vector<Value> arguments) {
   return with_parts(Value::Kind::call, block, std::move(arguments));
 }
+// |-x| = |x|
+[[nodiscard]] inline Value magnitude(const Expression& e) {
+  return call("magnitude", {formula(e.split_coefficient().first < 0 ? -e : e)});
+}
 [[nodiscard]] inline Value in_parentheses(Value of) { return call("", {std::move(of)}); }
 [[nodiscard]] inline Value list(std::vector<Value> parts) {
   return with_parts(Value::Kind::list, "", std::move(parts));
@@ -49,6 +53,13 @@ namespace hamgen::written {
 [[nodiscard]] inline Value joined(const std::string& sign, std::vector<Value> parts) {
   if (parts.size() == 1) return std::move(parts.front());
   return with_parts(Value::Kind::joined, sign, std::move(parts));
+}
+// What an unknown is rounded with, and its way in a step that it begins beside.
+[[nodiscard]] inline Value length(const std::string& unknown, const Expression& beside) {
+  return joined("+", {magnitude(Expression::symbol(unknown)), magnitude(beside)});
+}
+[[nodiscard]] inline Value way(const std::string& unknown, const Expression& beside) {
+  return magnitude(Expression::symbol(unknown) - beside);
 }
 [[nodiscard]] inline Value prefix(const std::string& sign, Value of) {
   return with_parts(Value::Kind::prefix, sign, {std::move(of)});

@@ -71,6 +71,7 @@ TEST(StepsInLanes, KeepTheContractByOtherMethods) {
                300),
        case_of("hard_beads", "shot", {.batch = 2}, 100),
        case_of("one_small", "slow", {.batch = 2}, 100),
+       case_of("row", "two", {.scheme = "kahan-li-8b", .batch = 2}, 150),
        case_of("next_to_rounding", "still", {.scheme = "gauss-4", .batch = 2}, 20)});
 }
 

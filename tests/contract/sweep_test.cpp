@@ -140,6 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"order-6", {{"one_slow", "small"}}, 200},
                     Row{"newton", {{"row", "thrown"}, {"row", "two"}}, 300},
                     Row{"member", {{"row", "thrown"}, {"row", "two"}}, 300},
+                    Row{"sofroniou-spaletta-10", {{"row", "two"}}, 300},
                     Row{"gauss-4", kWalls, 700}, Row{"gauss-4-newton", kWalls, 700},
                     Row{"gauss-8", kWalls, 700}, Row{"kahan-li-8", kCore, 800},
                     Row{"newton", {{"hard_beads", "shot"}}, 150},

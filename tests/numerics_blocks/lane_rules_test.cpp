@@ -245,7 +245,7 @@ TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone)
     contraction.set(lane, contractions[lane]);
   }
   for (int iteration = 1; iteration <= 60; ++iteration) {
-    if (!any(rule.of_each(moved, length, 2, iteration))) break;
+    if (!any(rule.of_each(moved, length, length, 2, iteration))) break;
     moved[1] = moved[1] * contraction;
   }
   int waited = 0;
@@ -256,7 +256,7 @@ TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone)
     double way[2] = {0x1p-54, (1 + 200 * lane) * kSmall * 0x1p-52};
     const double lengths[2] = {1, kSmall};
     int iteration = 1;
-    while (alone.of_each(way, lengths, 2, iteration) == of_double::Verdict::go_on) {
+    while (alone.of_each(way, lengths, lengths, 2, iteration) == of_double::Verdict::go_on) {
       way[1] = way[1] * contractions[lane];
       ++iteration;
     }

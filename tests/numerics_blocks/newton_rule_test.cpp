@@ -127,7 +127,7 @@ TYPED_TEST(NewtonRule, AnApproximateMatrixWaitsForUnknownsThatAreSmall) {
   const Real length[2] = {1, TypeParam::two_to(-20)};
   const auto moved_by = [&](auto& rule, double units, int iteration) {
     const Real moved[2] = {TypeParam::unit / 4, Real(units) * TypeParam::unit * length[1]};
-    return rule.of_each(moved, length, 2, iteration);
+    return rule.of_each(moved, length, length, 2, iteration);
   };
   auto rule = this->template taught<1>(TypeParam::two_to(-13));
   rule.begin(false);
@@ -162,9 +162,12 @@ TYPED_TEST(NewtonRule, OfEachIsOfSumsAndParts) {
         size += moved[j];
         scale += length[j];
       }
+      // One of them goes a small part of its length, or nearly none.
+      Real way[3] = {length[0], length[1], length[2]};
+      way[(small + 1) % 3] = power % 2 == 0 ? TypeParam::two_to(-power) : Real(0);
       Real uneven = 0;
-      for (int j = 0; j < 3; ++j) uneven += each.relative(moved[j], length[j]);
-      const Verdict verdict = each.of_each(moved, length, 3, 1);
+      for (int j = 0; j < 3; ++j) uneven += each.relative(moved[j], length[j], way[j]);
+      const Verdict verdict = each.of_each(moved, length, way, 3, 1);
       EXPECT_EQ(verdict, sums(size, scale, 1, uneven)) << small << " " << power;
       done += verdict == Verdict::done ? 1 : 0;
     }
@@ -176,8 +179,35 @@ TYPED_TEST(NewtonRule, OfEachIsOfSumsAndParts) {
 TYPED_TEST(NewtonRule, NothingMovedIsNoShare) {
   using Real = typename TypeParam::Scalar;
   using Rule = typename TypeParam::template Newton<2>;
-  EXPECT_TRUE(Rule::relative(Real(0), Real(0)) <= 0);
-  EXPECT_TRUE(Rule::relative(Real(1), Real(4)) * 4 <= 1);
+  EXPECT_TRUE(Rule::relative(Real(0), Real(0), Real(0)) <= 0);
+  EXPECT_TRUE(Rule::relative(Real(1), Real(4), Real(4)) * 4 <= 1);
+}
+
+// What hardly moves is moved by a momentum that is as small: its increment is a part of its way.
+TYPED_TEST(NewtonRule, OfWhatHardlyMovesTheWayCounts) {
+  using Real = typename TypeParam::Scalar;
+  using Exact = typename TypeParam::template Newton<2>;
+  using Approximate = typename TypeParam::template Newton<1>;
+  const Real way = TypeParam::two_to(-14);
+  const Real moved = TypeParam::unit * 16;
+  EXPECT_EQ(Exact::felt(Real(1), way), TypeParam::two_to(-10) + TypeParam::two_to(-20));
+  EXPECT_EQ(Exact::felt(Real(1), Real(0)), TypeParam::two_to(-20));  // and not nothing
+  EXPECT_EQ(Exact::felt(Real(1), Real(1) / 8), Real(1));             // and not more than its length
+  EXPECT_EQ(Exact::relative(moved, Real(1), Real(0)), moved * 1048576);
+  EXPECT_EQ(Approximate::relative(moved, Real(1), way), moved);
+  EXPECT_EQ(Approximate::relative(TypeParam::unit * 7, Real(1), way), Real(0));
+
+  // The same increments, of an unknown that goes all its length and of one that goes a part of it.
+  using Verdict = typename TypeParam::Answer;
+  const Real length[2] = {1, 1};
+  const Real moves[2] = {this->small(), this->small()};
+  const Real far[2] = {1, 1};
+  const Real near[2] = {1, TypeParam::two_to(-24)};
+  auto rule = this->template taught<2>(1);
+  rule.begin(false);
+  EXPECT_EQ(rule.of_each(moves, length, far, 2, 1), Verdict::done);
+  rule.begin(false);
+  EXPECT_EQ(rule.of_each(moves, length, near, 2, 1), Verdict::go_on);
 }
 
 // The wall: what was measured has become false, but the motion bends.

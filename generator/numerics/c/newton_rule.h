@@ -28,12 +28,18 @@ static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
   rule->far = 0;
   rule->predicted = predicted;
 }
-// An increment as a part of what its unknown is rounded with; of an approximate matrix the
-// increment, if it is not lost in that rounding.
-static inline Real NewtonRule_relative(const NewtonRule* rule, Real moved, Real length) {
+// What the increment of an unknown must be lost in: the rounding of its length, or its way in the
+// step.
+static inline Real NewtonRule_felt(const NewtonRule* rule, Real length, Real way) {
+  const Real least = 16 * way + length / 1048576;
+  return rule->power == 2 && least < length ? least : length;
+}
+// An increment as a part of that; of an approximate matrix the increment, if it is not lost in the
+// rounding of its unknown.
+static inline Real NewtonRule_relative(const NewtonRule* rule, Real moved, Real length, Real way) {
   const Real tiny = 64 * epsilon / largest;
   if (rule->power == 1) return moved > 8 * epsilon * length + tiny ? moved : 0;
-  return moved > tiny ? moved / length : 0;
+  return moved > tiny ? moved / NewtonRule_felt(rule, length, way) : 0;
 }
 // Is even what all unknowns together move by lost in the rounding of one?
 static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Real size) {
@@ -80,8 +86,8 @@ static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real sc
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
   const Real parts = size * uneven;
-  const bool bends = rule->previous <= 0 &&
-                     rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
+  const bool bends =
+      rule->previous <= 0 && rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
   const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
   const bool serves = rule->power == 1 ? !waits : even;
   if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
@@ -93,21 +99,25 @@ static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real sc
   rule->previous = size;
   return iterations < 60 && !astray ? go_on : failed;
 }
-// By how much each unknown moves, and the length that it is rounded with.
+// By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+// the lengths again where no way counts.
 static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, const Real* length,
-                                         int count, int iterations) {
+                                         const Real* way, int count, int iterations) {
   Real size = moved[0];
   Real scale = length[0];
   Real least = length[0];
+  Real nearest = way[0];
   for (int j = 1; j < count; ++j) {
     size += moved[j];
     scale += length[j];
     least = length[j] < least ? length[j] : least;
+    nearest = way[j] < nearest ? way[j] : nearest;
   }
   Real uneven = 0;
-  const bool lost = NewtonRule_is_lost_in(rule, least, size);
+  const Real shortest = way == length ? least : NewtonRule_felt(rule, least, nearest);
+  const bool lost = NewtonRule_is_lost_in(rule, shortest, size);
   for (int j = 0; !lost && j < count; ++j) {
-    uneven += NewtonRule_relative(rule, moved[j], length[j]);
+    uneven += NewtonRule_relative(rule, moved[j], length[j], way[j]);
   }
   return NewtonRule_check_sums(rule, size, scale, iterations, uneven);
 }
