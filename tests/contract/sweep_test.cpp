@@ -35,6 +35,12 @@ std::vector<std::string> uniquely_solved_models() {
   return models;
 }
 
+// h times the frequency of its spring is 3.5: an approximate matrix contracts by 0.3 an increment,
+// in quad the 60 of an iteration are not enough, and there is nothing to judge the step by.
+bool is_beyond_quad(const std::string& model, const Method& method) {
+  return model == "next_to_rounding" && method.request.order > 0;
+}
+
 // A fixed point need not contract, an explicit step may be far too long, and a step of a general
 // member or of higher order need not have a solution.
 bool may_fail(const Method& method) {
@@ -69,7 +75,7 @@ TEST(EveryMethod, KeepsItOnEveryScene) {
     for (std::size_t k = 0; k < methods.size(); ++k) {
       if ((i + k) % stride != 0) continue;
       const Method& method = methods[k];
-      if (large && !is_worth_it(method)) continue;
+      if ((large && !is_worth_it(method)) || is_beyond_quad(models[i], method)) continue;
       const std::vector<Case> cases = scenes_of(interpretable.model(), source, method, 3);
       std::vector<Defects> found;
       try {
