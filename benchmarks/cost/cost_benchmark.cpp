@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 
 #include "app/studies/bench_measure.hpp"
@@ -32,8 +31,6 @@ constexpr int kRounds = 7;
 
 // A step by hand that errs by no more has solved its equations.
 constexpr double kSolved = 1e-15;
-// Degrees of freedom.
-constexpr std::size_t kMostByGsl = 150;
 
 using Values = HandRow::Values;
 
@@ -115,38 +112,42 @@ void add_hand(const StepRow& row, const SceneValues& scene, std::vector<Contende
   }
 }
 
-void add_peers(const StepRow& row, const SourceText& source, const SceneValues& scene,
-               std::vector<Contender>& list) {
+std::vector<peers::Peer> peers_of(const StepRow& row, const SourceText& source,
+                                  const SceneValues& scene) {
+  const Model model = read_request(source, row.request);
+  if (auto list = peers::peers_by_hand(model.name, scene.name, row.request.sizes)) return *list;
   // The gradient is the same by every method.
   const app::BenchMethod method = app::bench_method(
       "", source, {.scheme = "implicit-midpoint", .sizes = row.request.sizes}, {});
   const runtime::InitialValues start =
       app::initial_values(method.plugin, scene, *method.loaded.library);
-  const auto flow =
-      std::make_shared<peers::Flow>(method.loaded.library, app::rounded(start.parameters));
+  return peers::peers_of(std::make_shared<const peers::EmittedSystem>(
+      method.loaded.library, app::rounded(start.parameters), start_values(scene)));
+}
+
+void add_peers(const StepRow& row, const SourceText& source, const SceneValues& scene,
+               std::vector<Contender>& list) {
+  const std::vector<peers::Peer> all = peers_of(row, source, scene);
   const double h = to_double(*scene.h);
-  std::vector<peers::Peer> all = peers::gsl_peers();
-  std::ranges::move(peers::odeint_peers(), std::back_inserter(all));
+  const Values z0 = start_values(scene);
   for (const std::string& name : row.peers) {
-    const peers::Peer peer = *std::ranges::find(all, name, &peers::Peer::name);
-    if (flow->n() > kMostByGsl && name.starts_with("GSL")) continue;  // a dense matrix
-    if (!peer.suits(*flow, start_values(scene))) continue;
+    const auto found = std::ranges::find(all, name, &peers::Peer::name);
+    if (found == all.end()) continue;  // it does not take such a system
+    const peers::Peer peer = *found;
     // rk2imp at twice the step takes the same trajectory, in steps of some thousand times.
     const bool doubled = name == "GSL rk2imp";
-    const long steps = doubled ? std::max(1L, row.steps / (flow->n() > 10 ? 200 : 20)) : row.steps;
+    const long steps = doubled ? std::max(1L, row.steps / (z0.size() > 20 ? 200 : 20)) : row.steps;
     const double step = doubled ? 2 * h : h;
     list.push_back({.name = name + (doubled ? " 2h" : ""),
                     .seconds =
-                        [=, z0 = start_values(scene)] {
+                        [=] {
                           Values z = z0;
                           const double time = step * static_cast<double>(steps);
-                          return timed([&] { (void)peer.integrate(*flow, z, time, step, {}); }) *
+                          return timed([&] { (void)peer.integrate(z, time, step, {}); }) *
                                  static_cast<double>(row.steps) /
                                  static_cast<double>(doubled ? 2 * steps : steps);
                         },
-                    .note = doubled                 ? ""
-                            : name == "odeint sb3a" ? "another method, of order 4"
-                                                    : ""});
+                    .note = name == "odeint sb3a" ? "another method, of order 4" : ""});
   }
 }
 

@@ -5,11 +5,14 @@
 
 #include "benchmarks/cost/cost_models.hpp"
 #include "benchmarks/cost/hand_steps.hpp"
+#include "benchmarks/hand_problems.hpp"
 #include "benchmarks/hand_written.hpp"
 #include "runtime/processor_time.hpp"
 
 namespace hamgen::cost_table {
 namespace {
+
+using namespace benchmarks;  // NOLINT(google-build-using-namespace): problems
 
 using Values = HandRow::Values;
 
@@ -91,14 +94,6 @@ const std::string kVerlet = "odeint velocity_verlet";
 }  // namespace
 
 std::vector<StepRow> step_rows() {
-  HandBodies<6, 5, 1> planets;
-  planets.mass = {1.00000597682,      0.000954786104043,  0.000285583733151,
-                  0.0000437273164546, 0.0000517759138449, 1 / 1.3e8};
-  planets.strength = 2.95912208286e-4;
-  HandBodies<50, 5, 1> bodies;
-  bodies.mass.fill(1.0);
-  bodies.strength = 1.0 / 50;
-  bodies.softening = 0.01;
   const Request verlet = {.scheme = "stormer-verlet"};
   const std::vector<std::string> both = {kMidpoint, kOrder4};
   return {
@@ -136,9 +131,9 @@ std::vector<StepRow> step_rows() {
        "short_step",
        {},
        20000,
-       midpoint_of(planets),
+       midpoint_of(outer_planets()),
        both},
-      {"50 bodies, midpoint", kBodies, "disk", {}, 500, midpoint_of(bodies), both},
+      {"50 bodies, midpoint", kBodies, "disk", {}, 500, midpoint_of(fifty_bodies()), both},
       {"chain of 24, midpoint", "fput.ham", "first_mode", sized(24), 20000,
        midpoint_of(HandFput<24>()), both, "1/20"},
       {"chain of 25, midpoint", "fput.ham", "first_mode", sized(25), 20000,
@@ -201,7 +196,7 @@ std::vector<StepRow> step_rows() {
        "short_step",
        verlet,
        20000,
-       verlet_of(planets),
+       verlet_of(outer_planets()),
        {kVerlet}},
       {"FPU N = 1000, Stormer-Verlet",
        "fput.ham",

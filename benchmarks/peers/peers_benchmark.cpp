@@ -1,5 +1,4 @@
-// Error against run time: hamgen's methods beside Boost.odeint's and GSL's, on the same models and
-// with the same emitted gradient.
+// Error against run time: hamgen's methods beside Boost.odeint's and GSL's on the same models.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -129,10 +130,10 @@ double add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::Bench
   return scale;
 }
 
-void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& start,
+using Energy = std::function<double(const std::vector<double>&)>;
+
+void add_peer(const Peer& peer, const Energy& energy_of, const std::vector<double>& start,
               const Problem& problem, std::vector<Result>& results) {
-  if (!peer.suits(flow, start)) return;
-  if (flow.n() > peer.most_degrees_of_freedom) return;
   const double time = problem.time.get_d();
   std::vector<double> settings;
   if (peer.adaptive) {
@@ -142,19 +143,19 @@ void add_peer(const Peer& peer, const Flow& flow, const std::vector<double>& sta
     for (int power = kLargestPower; power >= kSmallestPower; --power)
       settings.push_back(problem.scene.h->get_d() * std::ldexp(1.0, power));
   }
-  const double energy = flow.energy(start);
+  const double energy = energy_of(start);
   for (const double setting : settings) {
     Result result{.method = peer.name, .is_peer = true, .setting = setting};
     std::vector<double> z = start;
-    const bool done = peer.integrate(flow, z, time, setting, [&](const std::vector<double>& now) {
-      result.energy_error = std::max(result.energy_error, std::fabs(flow.energy(now) - energy));
+    const bool done = peer.integrate(z, time, setting, [&](const std::vector<double>& now) {
+      result.energy_error = std::max(result.energy_error, std::fabs(energy_of(now) - energy));
     });
     result.state_error = distance(z, problem.reference.state);
     if (!done || !std::isfinite(result.state_error)) continue;
-    const auto once = [peer, &flow, &start, time, setting] {
+    const auto once = [peer, &start, time, setting] {
       std::vector<double> state = start;
       const double begin = runtime::thread_seconds();
-      peer.integrate(flow, state, time, setting, {});
+      peer.integrate(state, time, setting, {});
       return runtime::thread_seconds() - begin;
     };
     const int runs = static_cast<int>(std::clamp(std::ceil(2e-3 / once()), 1.0, 1e4));
@@ -228,11 +229,19 @@ void compare(const Case& chosen, bool all_rows) {
   const app::BenchMethod& first = *methods.front();
   const runtime::InitialValues values =
       app::initial_values(first.plugin, problem.scene, *first.loaded.library);
-  const Flow flow(first.loaded.library, app::rounded(values.parameters));
+  const std::vector<double> parameters = app::rounded(values.parameters);
   const std::vector<double> start = app::rounded(values.state);
-  for (const auto& peers : {odeint_peers(), gsl_peers()}) {
-    for (const Peer& peer : peers) add_peer(peer, flow, start, problem, results);
+  const Energy energy = [&](const std::vector<double>& z) {
+    return first.loaded.library->energy(parameters, z);
+  };
+  const std::string name = std::filesystem::path(chosen.path).stem().string();
+  std::optional<std::vector<Peer>> peers = peers_by_hand(name, chosen.scene, chosen.sizes);
+  const bool by_hand = peers.has_value();
+  if (!by_hand) {
+    peers =
+        peers_of(std::make_shared<const EmittedSystem>(first.loaded.library, parameters, start));
   }
+  for (const Peer& peer : *peers) add_peer(peer, energy, start, problem, results);
   if (scale > 0.0) {
     for (Result& result : results) result.energy_error /= scale;
   }
@@ -246,6 +255,8 @@ void compare(const Case& chosen, bool all_rows) {
       "\n{}, scene {}{}, T = {:g}; the reference's own error is {:.1e}, the energy's scale "
       "{:.3g}\n",
       chosen.path, problem.scene.name, sizes, time, problem.reference.error, scale);
+  fmt::print("  the libraries have derivatives {}\n",
+             by_hand ? "written by hand" : "by the gradient that hamgen emitted");
   std::vector<double> spreads;
   for (const Result& result : results) spreads.push_back(result.spread());
   std::ranges::sort(spreads);

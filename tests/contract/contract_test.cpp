@@ -29,7 +29,9 @@ TEST(CompiledSteps, HaveTheDefectsOfInterpretedOnes) {
       case_of("wall", "bounce", {.scheme = "stormer-verlet"}, 300),
       case_of("harmonic", "stiff", {.alpha = "3/10", .beta = "1/5", .gamma = "-1/10"}, 300),
       case_of("box", "soft", {.scalar = "long-double"}, 300),
-      case_of("hard_beads", "shot", {}, 100)};
+      case_of("hard_beads", "shot", {}, 100),
+      case_of("row", "two", {.scheme = "sofroniou-spaletta-10"}, 100),
+      case_of("hard_beads", "shot", {.scheme = "sofroniou-spaletta-10", .solver = "newton"}, 60)};
   const std::vector<Defects> compiled = measure(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Defects& d = compiled[i];
