@@ -75,7 +75,7 @@ std::string add_hamgen(const StepRow& row, const SourceText& source, const Scene
           ? fmt::format("{:.3g} iterations/step",
                         static_cast<double>(report.iterations) / static_cast<double>(row.steps))
           : fmt::format("ends in step {}", report.steps_done + 1);
-  list.push_back({.name = "hamgen",
+  list.push_back({.name = row.request.plain_sums ? "hamgen --plain-sums" : "hamgen",
                   .seconds = [=] { return app::processor_clock(*method, start, row.steps); }});
   return method->plugin.solver + ", " + outcome;
 }
@@ -158,6 +158,11 @@ void measure(StepRow row) {
   row.request.scene = {.asked = {.scene = row.scene, .h = row.h}, .values = scene, .kept = {}};
   std::vector<Contender> list;
   const std::string solver = add_hamgen(row, source, scene, list);
+  if (std::ranges::find(row.peers, "odeint velocity_verlet") != row.peers.end()) {
+    StepRow plain = row;  // as odeint's are
+    plain.request.plain_sums = true;
+    add_hamgen(plain, source, scene, list);
+  }
   if (row.hand) add_hand(row, scene, list);
   add_peers(row, source, scene, list);
   for (int round = 0; round < kRounds; ++round) {

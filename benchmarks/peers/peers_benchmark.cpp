@@ -94,12 +94,25 @@ Problem read_problem(const Case& chosen) {
   return problem;
 }
 
+bool is_explicit(const std::string& spec) {
+  const Scheme* scheme = find_scheme(spec);
+  return scheme != nullptr && std::holds_alternative<Splitting>(scheme->method);
+}
+
 // Returns the energy's scale, that of the last row.
 double add_hamgen(const Problem& problem, std::vector<std::unique_ptr<app::BenchMethod>>& methods,
                   std::vector<Result>& results) {
   double scale = 0.0;
+  std::vector<std::pair<std::string, bool>> specs;  // with plain sums?
   for (const std::string& spec : app::default_specs(problem.mechanics)) {
-    const Request request = app::request_of_spec(spec, {.sizes = problem.sizes});
+    specs.emplace_back(spec, false);
+    // As those of the libraries are.
+    if (is_explicit(spec)) specs.emplace_back(spec, true);
+  }
+  for (const auto& [of, plain_sums] : specs) {
+    const Request request =
+        app::request_of_spec(of, {.plain_sums = plain_sums, .sizes = problem.sizes});
+    const std::string spec = of + (plain_sums ? " --plain-sums" : "");
     methods.push_back(
         std::make_unique<app::BenchMethod>(app::bench_method(spec, problem.source, request, {})));
     const app::BenchMethod& method = *methods.back();
