@@ -105,7 +105,8 @@ constexpr FixedBlock kCBlocks[] = {
     {kVocabulary, "magnitude largest"},
     {"newton_rule",
      "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "
-     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_check_sums NewtonRule_of_each "
+     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_check_sums "
+     "NewtonRule_of_each "
      "NewtonRule_check"},
 };
 

@@ -218,7 +218,7 @@ TEST(Drift, NewtonInLoopsMovesByTheGradientOfItsLastIteration) {
       {{change + move, move + "  evaluate(par, k, z, carry, start);\n" +
                            "  for (int i = 0; i < n; ++i) start.change[i] = 0;\n"}},
       {.model = soft_chain(25), .request = {.solver = "newton"}, .h = 1},
-      {.steps = 80'000, .starts = 16});
+      {.steps = 80'000, .starts = 48});
 }
 
 // Of twelfths, as h b_i are here, a sum loses a pattern.
