@@ -88,11 +88,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_4787dd00::float64 {
+namespace hamgen_03c39604::float64 {
 using Real = double;
 
-#ifndef HAMGEN_4787DD00_FLOAT64_STEP_REPORT
-#define HAMGEN_4787DD00_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_03C39604_FLOAT64_STEP_REPORT
+#define HAMGEN_03C39604_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -102,15 +102,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_VOCABULARY
-#define HAMGEN_4787DD00_FLOAT64_VOCABULARY
+#ifndef HAMGEN_03C39604_FLOAT64_VOCABULARY
+#define HAMGEN_03C39604_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_TWO_SUM
-#define HAMGEN_4787DD00_FLOAT64_TWO_SUM
+#ifndef HAMGEN_03C39604_FLOAT64_TWO_SUM
+#define HAMGEN_03C39604_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -120,8 +120,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_SUM_WITH_REST
-#define HAMGEN_4787DD00_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_03C39604_FLOAT64_SUM_WITH_REST
+#define HAMGEN_03C39604_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -133,14 +133,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_VERDICT
-#define HAMGEN_4787DD00_FLOAT64_VERDICT
+#ifndef HAMGEN_03C39604_FLOAT64_VERDICT
+#define HAMGEN_03C39604_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_NEWTON_RULE
-#define HAMGEN_4787DD00_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_03C39604_FLOAT64_NEWTON_RULE
+#define HAMGEN_03C39604_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -169,22 +169,6 @@ enum class Verdict { go_on, done, failed };
 // Kepler's orbit (order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a step.  Where
 // that counts one more increment follows, which is made of rounding alone.
 //
-// Note [what every unknown lacks]
-// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
-// each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
-// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
-// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
-// unknowns, and none may be left, as long as they become smaller.
-//
-// Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
-// hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
-// asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
-// of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
-// length, for what never moves.
-//
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
@@ -201,7 +185,7 @@ struct NewtonRule {
   Real previous = 0;  // what the last increment was
   int grown = 0;
   bool predicted = false;
-  Real far = 0;  // of an approximate matrix, what was uneven in the iteration before
+  Real far = 0;  // what was uneven in the iteration before
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -210,7 +194,7 @@ struct NewtonRule {
   void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
-    if (Power == 1) far = 0;
+    far = 0;
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
@@ -219,59 +203,23 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
-  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
-  static Real relative(Real moved, Real length, Real way) {
-    if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
-    return moved > tiny ? moved / felt(length, way) : Real(0);
+  // size, scale: of the increment and of the value.
+  Verdict operator()(Real size, Real scale, int iterations) {
+    return judge<false>(size, scale, iterations, 0,
+                        [&](Real units) { return size <= units * epsilon * scale; });
   }
-  // Of its length and its way in the step.
-  static Real felt(Real length, Real way) {
-    const Real least = 16 * way + length / 1048576;
-    return Power == 2 && least < length ? least : length;
-  }
-  // Is even what all unknowns together move by lost in the rounding of one?  The least of them
-  // answers for all: no more need be asked.
-  bool is_lost_in(Real length, Real size) const {
-    if (Power == 1) return size <= 8 * epsilon * length;
-    const Real round_off = epsilon * length;
-    const bool straight =
-        previous > 0 || motion.bend * size * size * 16 <= round_off * power(motion.move);
-    return straight && contraction * size * size * 16 <= round_off;
-  }
-  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
-  // the lengths again where no way counts.
-  Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
-                  int iterations) {
-    Real size = moved[0];
-    Real scale = length[0];
-    Real least = length[0];
-    Real nearest = way[0];
-    for (int j = 1; j < count; ++j) {
-      size += moved[j];
-      scale += length[j];
-      least = length[j] < least ? length[j] : least;
-      nearest = way[j] < nearest ? way[j] : nearest;
-    }
-    const Real shortest = way == length ? least : felt(least, nearest);
-    const bool lost = is_lost_in(shortest, size);
-    const Real uneven = lost ? Real(0) : relative(moved, length, way, count);
-    return (*this)(size, scale, iterations, uneven);
-  }
-  static Real relative(const Real* moved, const Real* length, const Real* way, int count) {
-    Real sum = 0;
-    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j], way[j]);
-    return sum;
-  }
-  // size, scale: sums over the unknowns of their increments and of their values; uneven: of what is
-  // relative of them, where each counts.
-  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
+  // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
+  // many units of rounding of them all?
+  template <bool Many, class IsWithin>
+  Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
     }
     const Real round_off = epsilon * scale;
-    const bool waits = is_waited_for(uneven, round_off);
+    const bool stays = Many && far > 0 && 10 * uneven > 9 * far;
+    const bool waits = Power == 1 && uneven > epsilon * epsilon * round_off && !stays;
+    if (Many) far = uneven;
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -284,28 +232,22 @@ struct NewtonRule {
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && size <= 4096 * round_off && !waits) return Verdict::done;
+      if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
     } else {
       ++unchecked;
     }
-    if (size <= round_off && is_chance(size, round_off) && !waits) return Verdict::done;
-    const bool looked = previous > 0 || is_straight(size, round_off);
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
+    if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
+    // Where nothing converges by squares any more it is rounding.
+    const bool slow = Many && Power == 2 && previous > 0 && 1024 * size > previous;
+    if (slow && is_within(1)) return Verdict::done;
+    const bool looked = previous > 0 || is_straight(size, round_off);
     if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
-    const bool astray =
-        predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
+    const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
-  }
-  // Are there unknowns of which an approximate matrix leaves more than their rounding, and is there
-  // more to be had?  See Note [what every unknown lacks].
-  bool is_waited_for(Real uneven, Real round_off) {
-    if (Power == 2) return false;
-    const bool stays = far > 0 && 10 * uneven > 9 * far;
-    far = uneven;
-    return uneven > epsilon * epsilon * round_off && !stays;
   }
   // See Note [what is below rounding].
   bool is_chance(Real size, Real round_off) const {
@@ -326,8 +268,139 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_HISTORY
-#define HAMGEN_4787DD00_FLOAT64_HISTORY
+#ifndef HAMGEN_03C39604_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_03C39604_FLOAT64_NEWTON_RULE_OF_MANY
+// NewtonRule of several unknowns.
+//
+// Note [units]
+// Nothing may hang on the units in which they are written: sums of what is 1e-5 in one unknown and
+// 1 in another do not see the wall that the first runs into, and were off by 5e6 roundings.  So
+// increments are added as parts of the sizes that their unknowns have had.  A size is taken anew
+// where its unknown has become more than twice as large, and is halved, in every 32nd step, where
+// it is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by, so
+// that it may begin at zero, and at least a 2^-40th of all together.
+//
+// Note [what every unknown lacks]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
+// each the next increment is taken to be the same part of the last one as of all together; `uneven`
+// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
+// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
+// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
+// unknowns, and none may be left, as long as they become smaller.
+//
+// Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
+// hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
+// asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
+// of their roundings.  So 16 times the way that the step has moved it stands for its length where
+// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
+// length, for what never moves.
+//
+template <int Power, int Unknowns>
+struct NewtonRuleOfMany : NewtonRule<Power> {
+  using One = NewtonRule<Power>;
+  Real unit[Unknowns] = {};  // one over the size of each, see Note [units]; 0: not known yet
+  int age = 0;
+
+  static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
+
+  static Real size_of(Real length, Real moved) { return magnitude(length) + 32 * magnitude(moved); }
+  // The sizes, from a first iteration.
+  void know(const Real* length, const Real* moved, int count) {
+    if (!(unit[0] > 0)) begin_with(length, moved, count);
+  }
+  // These are seldom done, and no part of a step's code.
+  __attribute__((noinline)) void begin_with(const Real* length, const Real* moved, int count) {
+    Real total = 0;
+    for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
+    if (!(total > 0 && total <= largest)) return;
+    for (int j = 0; j < count; ++j)
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
+  }
+  // Where a size is another one, the contraction is measured anew in the next step.
+  __attribute__((noinline)) void follow(const Real* value, int count) {
+    age = 0;
+    Real least = unit[0];
+    for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
+    for (int j = 0; j < count; ++j) {
+      const Real part = magnitude(value[j]) * unit[j];
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
+      if (part <= 2 && !falls) continue;
+      unit[j] = falls ? 2 * unit[j] : 1 / magnitude(value[j]);
+      this->unchecked = 32;
+    }
+  }
+  // The solution of a step, from the unknown `first` on, before the history records it.
+  template <class Past, int All>
+  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
+    if (++age >= 16) follow(solution + first, count);
+    this->motion.move = past.error(0, solution, first, count, unit);
+    this->motion.bend = past.error(Power + 1, solution, first, count, unit);
+  }
+  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
+  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
+  static Real relative(Real moved, Real length, Real way) {
+    if (Power == 1) return moved > 8 * epsilon * length + One::tiny ? moved : Real(0);
+    return moved > One::tiny ? moved / felt(length, way) : Real(0);
+  }
+  // Of its length and its way in the step.
+  static Real felt(Real length, Real way) {
+    const Real least = 16 * way + length / 1048576;
+    return Power == 2 && least < length ? least : length;
+  }
+  // Is even what all unknowns together move by lost in the rounding of one?  The least of them
+  // answers for all: no more need be asked.
+  bool is_lost_in(Real length, Real size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const Motion& m = this->motion;
+    const bool straight =
+        this->previous > 0 || m.bend * size * size * 16 <= round_off * One::power(m.move);
+    return straight && this->contraction * size * size * 16 <= round_off;
+  }
+  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+  // the lengths again where no way counts.
+  Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
+                  int iterations) {
+    know(length, moved, count);
+    Real size = moved[0] * unit[0];
+    Real least = length[0] * unit[0];
+    Real nearest = way[0] * unit[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j] * unit[j];
+      const Real part = length[j] * unit[j];
+      least = part < least ? part : least;
+      const Real gone = way[j] * unit[j];
+      nearest = gone < nearest ? gone : nearest;
+    }
+    const Real shortest = way == length ? least : felt(least, nearest);
+    Real uneven = 0;
+    if (!is_lost_in(shortest, size)) {
+      for (int j = 0; j < count; ++j) {
+        uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
+      }
+    }
+    return this->template judge<true>(size, Real(count), iterations, uneven, [&](Real units) {
+      Real together = moved[0];
+      Real scale = length[0];
+      for (int j = 1; j < count; ++j) {
+        together += moved[j];
+        scale += length[j];
+      }
+      return together <= units * epsilon * scale;
+    });
+  }
+  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
+  // of increments and of lengths.
+  Verdict of_sums(Real size, Real uneven, Real moved, Real scale, int count, int iterations) {
+    return this->template judge<true>(size, Real(count), iterations, uneven,
+                                      [&](Real units) { return moved <= units * epsilon * scale; });
+  }
+};
+#endif
+
+#ifndef HAMGEN_03C39604_FLOAT64_HISTORY
+#define HAMGEN_03C39604_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -397,6 +470,16 @@ struct History {
   // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
   // known, and 0 if none is: summed over `count` unknowns.
   Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
+    return error_in(degree, solution, first, count, [](int) { return Real(1); });
+  }
+  // The same with each in a unit of its own, one over so much.
+  Real error(int degree, const Real (&solution)[Unknowns], int first, int count,
+             const Real* unit) const {
+    return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
+  }
+  template <class Weight>
+  Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
+                const Weight& weight) const {
     if (known == 0) return 0;
     if (degree >= known) degree = known - 1;
     Real sum_of_errors = 0;
@@ -405,12 +488,16 @@ struct History {
       // In parts that do not wait for each other.
       Real parts[8] = {};
       for (; i + 8 <= first + count; i += 8) {
-        for (int k = 0; k < 8; ++k)
-          parts[k] += magnitude(solution[i + k] - predicted[degree][i + k]);
+        for (int k = 0; k < 8; ++k) {
+          const Real gap = magnitude(solution[i + k] - predicted[degree][i + k]);
+          parts[k] += gap * weight(i + k - first);
+        }
       }
       for (const Real part : parts) sum_of_errors += part;
     }
-    for (; i < first + count; ++i) sum_of_errors += magnitude(solution[i] - predicted[degree][i]);
+    for (; i < first + count; ++i) {
+      sum_of_errors += magnitude(solution[i] - predicted[degree][i]) * weight(i - first);
+    }
     return sum_of_errors;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {
@@ -419,8 +506,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_4787DD00_FLOAT64_FORGET
-#define HAMGEN_4787DD00_FLOAT64_FORGET
+#ifndef HAMGEN_03C39604_FLOAT64_FORGET
+#define HAMGEN_03C39604_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -430,25 +517,25 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_4787dd00::float64
+}  // namespace hamgen_03c39604::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x37f13ce2
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x1d4c0af3
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_37f13ce2 {
+inline namespace emitted_1d4c0af3 {
 
-namespace numerics = ::hamgen_4787dd00::float64;
+namespace numerics = ::hamgen_03c39604::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
-    numerics::NewtonRule, numerics::History, numerics::forget;
+    numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
 // Start values of the implicit equations and what is remembered of their solution.
 struct Start {
   Real value[2] = {};
   bool known = false;  // else the state itself is the start
-  NewtonRule<2> rule_0;
+  NewtonRuleOfMany<2, 2> rule_0;
 };
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
@@ -628,9 +715,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_37f13ce2
+}  // namespace emitted_1d4c0af3
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x37f13ce2
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x1d4c0af3
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

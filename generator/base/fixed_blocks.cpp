@@ -27,6 +27,7 @@ constexpr FixedBlock kCppBlocks[] = {
     {"inverse", "invert"},
     {"verdict", "Verdict"},
     {"newton_rule", "NewtonRule"},
+    {"newton_rule_of_many", "NewtonRuleOfMany"},
     {"waiting_newton_rule", "WaitingNewtonRule"},
     {"fixed_point_rule", "FixedPointRule Distance"},
     {"contraction_rule", "ContractionRule"},
@@ -84,6 +85,7 @@ constexpr FixedBlock kLaneBlocks[] = {
     {"lane_kept_matrix", "KeptMatrix"},
     {"lane_inverse", "invert"},
     {"lane_newton_rule", "NewtonRule"},
+    {"lane_newton_rule_of_many", "NewtonRuleOfMany"},
     {"lane_waiting_newton_rule", "WaitingNewtonRule"},
     {.name = "lane_fixed_point_rule", .defines = "FixedPointRule Distance", .helpers = "Judgement"},
     {"lane_contraction_rule", "ContractionRule"},
@@ -105,7 +107,8 @@ constexpr FixedBlock kCBlocks[] = {
     {kVocabulary, "magnitude largest"},
     {"newton_rule",
      "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "
-     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_check_sums "
+     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_judge "
+     "NewtonRule_size_of NewtonRule_know NewtonRule_follow "
      "NewtonRule_of_each "
      "NewtonRule_check"},
 };

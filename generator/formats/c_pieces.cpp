@@ -84,7 +84,7 @@ class CPieceWriter {
     for (const Field& field : record.fields) {
       if (!field.type.starts_with("NewtonRule")) continue;
       out_.line(fmt::format("start.{} = {}({});", field.name, c_.block("NewtonRule_of_power"),
-                            field.type == "NewtonRule<2>" ? 2 : 1));
+                            field.type.find("<2") != std::string::npos ? 2 : 1));
     }
     out_.line("return start;");
     close();

@@ -73,9 +73,8 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    return [this, unknowns, ranges, residual, of_each = iterate.of_each,
-            leaves_last = iterate.leaves_last, start, flag, are_whole, body, rule = iterate.rule,
-            name = iterate.name, work = iterate.work] {
+    return [this, unknowns, ranges, residual, leaves_last = iterate.leaves_last, start, flag,
+            are_whole, body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
       Object<Real>& memory = object(start);
       const auto each = [&](const std::function<void(const Array2&)>& use) {
         for_all(ranges, 0, [&] {
@@ -87,7 +86,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
         AnyNewtonRule<Real>& newton = *memory.rules.at(name);
         return run_newton(
             newton, known, body,
-            [&](int iteration) { return this->judged_in_loops(newton, each, of_each, iteration); },
+            [&](int iteration) {
+              return this->judged_in_loops(newton, each, unknowns.size(), iteration);
+            },
             [&] { this->move_each(each); });
       }
       const auto measure = [&] { return this->measure_each(each, are_whole, unknowns.size()); };

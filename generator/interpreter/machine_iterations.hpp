@@ -24,13 +24,6 @@ class MachineIterations : public MachineAddresses<Real> {
     return std::ranges::all_of(steps, [](const Step& step) { return step(); });
   }
 
-  // What an iteration measures of its unknowns is summed in the order in which it is written.
-  struct Lengths {
-    Real size = 0;
-    Real scale = 0;
-    Real uneven = 0;
-  };
-
   // The rule hears of the corrections before they are made; the last ones are not made here.
   template <class Judge, class Correct>
   bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const Steps& body, const Judge& judge,
@@ -101,22 +94,36 @@ class MachineIterations : public MachineAddresses<Real> {
     each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
   }
   template <class Each>
-  std::pair<Answer, Real> judged_in_loops(AnyNewtonRule<Real>& rule, const Each& each, bool of_each,
-                                          int iteration) const {
-    Lengths lengths;
+  std::pair<Answer, Real> judged_in_loops(AnyNewtonRule<Real>& rule, const Each& each,
+                                          std::size_t arrays, int iteration) const {
+    std::size_t count = 0;
+    each([&](const Array2&) { ++count; });
+    // They stand in their order, one array after the other; what is summed is one of each.
+    std::size_t next = 0;
+    const auto unknown = [&] { return next % arrays * (count / arrays) + next / arrays; };
+    std::vector<Real> all_values(count), all_moved(count);
+    each([&](const Array2& u) {
+      all_values[unknown()] = m_.frame.at(u.value);
+      all_moved[unknown()] = m_.frame.at(u.increment);
+      ++next;
+    });
+    rule.know(all_values, all_moved);
+    // In the order in which it is written.
+    typename AnyNewtonRule<Real>::Sums sums;
+    next = 0;
     each([&](const Array2& u) {
       const Real value = m_.frame.at(u.value);
       const Real beside = u.beside(m_.frame);
       const Real moved = magnitude(m_.frame.at(u.increment));
       const Real length = magnitude(value) + magnitude(beside);
-      lengths.size += moved;
-      lengths.scale += length;
-      if (!of_each) return;
+      sums.size += moved * rule.unit(unknown());
+      ++next;
+      sums.moved += moved;
+      sums.scale += length;
       const Real way = u.by_torn ? magnitude(value - beside) : length;
-      lengths.uneven += rule.relative(moved, length, way);
+      sums.uneven += rule.relative(moved, length, way);
     });
-    const Answer answer = rule(lengths.size, lengths.scale, iteration, lengths.uneven);
-    return {answer, lengths.size};
+    return {rule.of_sums(sums, static_cast<int>(count), iteration), sums.size};
   }
   // All together, where they are written out: the corrections, then the sums from the left, term by
   // term.

@@ -50,18 +50,22 @@ class HistoryOf final : public AnyHistory<Real> {
     NumericsOf<Real>::look_twice(history_, all.padded);
     std::copy_n(all.padded, solution.size(), solution.begin());
   }
-  [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first,
-                           int count) const override {
-    return history_.error(degree, Padded<Real, Size>(solution).padded, first, count);
+  [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first, int count,
+                           const Real* unit) const override {
+    const Padded<Real, Size> all(solution);
+    return unit == nullptr ? history_.error(degree, all.padded, first, count)
+                           : history_.error(degree, all.padded, first, count, unit);
   }
 
  private:
   typename NumericsOf<Real>::template Past<Size> history_;
 };
 
-template <class Real, int Power>
+// Of a single unknown where Size is 0.
+template <class Real, int Power, int Size>
 class NewtonRuleOf final : public AnyNewtonRule<Real> {
  public:
+  using Sums = typename AnyNewtonRule<Real>::Sums;
   explicit NewtonRuleOf(bool waits) : waits_(waits) {}
   void begin(bool predicted) override {
     rule_.begin(predicted);
@@ -70,26 +74,49 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
              int count) override {
     const bool watched = used_ || !waits_;
-    rule_.motion.move = watched ? past.error(0, solution, first, count) : Real(0);
-    rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count) : Real(0);
+    const Real* unit = nullptr;
+    if constexpr (Size > 0) {
+      if (watched && ++rule_.age >= 16) rule_.follow(solution.data() + first, count);
+      unit = rule_.unit;
+    }
+    rule_.motion.move = watched ? past.error(0, solution, first, count, unit) : Real(0);
+    rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count, unit) : Real(0);
     used_ = false;
   }
-  Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
-    return answer(rule_(size, scale, iteration, uneven));
+  Answer of_sums(const Sums& sums, int count, int iteration) override {
+    if constexpr (Size > 0) {
+      return answer(
+          rule_.of_sums(sums.size, sums.uneven, sums.moved, sums.scale, count, iteration));
+    } else {
+      return answer(rule_(sums.moved, sums.scale, iteration));
+    }
+  }
+  void know(std::span<const Real> value, std::span<const Real> moved) override {
+    if constexpr (Size > 0) rule_.know(value.data(), moved.data(), static_cast<int>(value.size()));
+  }
+  [[nodiscard]] Real unit(std::size_t unknown) const override {
+    if constexpr (Size > 0) return rule_.unit[unknown];
+    return 1;
   }
   [[nodiscard]] Real relative(Real moved, Real length, Real way) const override {
-    return rule_.relative(moved, length, way);
+    if constexpr (Size > 0) return rule_.relative(moved, length, way);
+    return 0;
   }
   Answer of_each(std::span<const Real> moved, std::span<const Real> length,
                  std::span<const Real> way, int iteration) override {
-    const auto count = static_cast<int>(moved.size());
-    if (count == 1) return answer(rule_(moved[0], length[0], iteration));
-    return answer(rule_.of_each(moved.data(), length.data(), way.data(), count, iteration));
+    if constexpr (Size > 0) {
+      const auto count = static_cast<int>(moved.size());
+      return answer(rule_.of_each(moved.data(), length.data(), way.data(), count, iteration));
+    } else {
+      return answer(rule_(moved[0], length[0], iteration));
+    }
   }
   [[nodiscard]] Real last() const override { return rule_.previous; }
 
  private:
-  typename NumericsOf<Real>::template Newton<Power> rule_;
+  using One = typename NumericsOf<Real>::template Newton<Power>;
+  using Many = typename NumericsOf<Real>::template NewtonOfMany<Power, (Size > 0 ? Size : 1)>;
+  std::conditional_t<(Size > 0), Many, One> rule_;
   bool waits_;  // as WaitingNewtonRule
   bool used_ = false;
 };
@@ -97,11 +124,12 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
 template <class Real>
 class LinearRuleOf final : public AnyNewtonRule<Real> {
  public:
+  using Sums = typename AnyNewtonRule<Real>::Sums;
   void begin(bool /*predicted*/) override { rule_.begin(); }
   void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
              int /*count*/) override {}
-  Answer operator()(Real size, Real scale, int iteration, Real uneven) override {
-    return answer(rule_(size, scale, iteration, uneven));
+  Answer of_sums(const Sums& sums, int /*count*/, int iteration) override {
+    return answer(rule_(sums.moved, sums.scale, iteration, sums.uneven));
   }
   [[nodiscard]] Real relative(Real moved, Real length, Real /*way*/) const override {
     return rule_.relative(moved, length);
@@ -239,9 +267,16 @@ std::unique_ptr<AnyHistory<Real>> Blocks<Real>::history(int size) {
 }
 
 template <class Real>
-std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, bool waits) {
-  if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1>>(waits);
-  return std::make_unique<NewtonRuleOf<Real, 2>>(waits);
+std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, int unknowns,
+                                                               bool waits) {
+  using Made = std::unique_ptr<AnyNewtonRule<Real>>;
+  if (unknowns == 0 && power == 1) return std::make_unique<NewtonRuleOf<Real, 1, 0>>(waits);
+  if (unknowns == 0) return std::make_unique<NewtonRuleOf<Real, 2, 0>>(waits);
+  return at_least<4096>(unknowns, [&](auto n) -> Made {
+    constexpr int most = decltype(n)::value;
+    if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1, most>>(waits);
+    return std::make_unique<NewtonRuleOf<Real, 2, most>>(waits);
+  });
 }
 
 template <class Real>

@@ -58,8 +58,9 @@ struct AnyHistory {
   virtual void record(std::span<const Real> solution) = 0;
   virtual void extrapolate(std::span<Real> solution) const = 0;
   virtual void extrapolate_twice(std::span<Real> solution) const = 0;
-  [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first,
-                                   int count) const = 0;
+  // With one over the size of each, or where sizes do not count.
+  [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first, int count,
+                                   const Real* unit) const = 0;
 };
 template <class Real>
 struct AnyNewtonRule {
@@ -67,8 +68,16 @@ struct AnyNewtonRule {
   virtual void begin(bool predicted) = 0;
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
-  virtual Answer operator()(Real size, Real scale, int iteration, Real uneven) = 0;
+  // Over the unknowns of arrays: of increments as parts of sizes, of what is relative of each, of
+  // increments and of lengths.
+  struct Sums {
+    Real size = 0, uneven = 0, moved = 0, scale = 0;
+  };
+  virtual Answer of_sums(const Sums& sums, int count, int iteration) = 0;
   [[nodiscard]] virtual Real relative(Real moved, Real length, Real way) const = 0;
+  // One over the size of each unknown, once a first iteration is known.
+  virtual void know(std::span<const Real> /*value*/, std::span<const Real> /*moved*/) {}
+  [[nodiscard]] virtual Real unit(std::size_t /*unknown*/) const { return 1; }
   // Of unknowns that are written out, one by one, and what they were moved by together.
   virtual Answer of_each(std::span<const Real> /*moved*/, std::span<const Real> /*length*/,
                          std::span<const Real> /*way*/, int /*iteration*/) {
@@ -126,7 +135,8 @@ struct AnyMatrix {
 template <class Real>
 struct Blocks {
   [[nodiscard]] static std::unique_ptr<AnyHistory<Real>> history(int size);  // up to 4096 unknowns
-  [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule(int power, bool waits);
+  [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule(int power, int unknowns,
+                                                                        bool waits);
   [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> linear_rule();
   [[nodiscard]] static std::unique_ptr<AnySimplifiedNewtonRule<Real>> simplified_newton_rule();
   // Of this type; null if there is none.

@@ -34,10 +34,12 @@ void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
     object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows(), code.matrix->symmetric);
-  } else if (field.type.starts_with("NewtonRule")) {
-    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), false);
+  } else if (field.type.starts_with("NewtonRule<")) {
+    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), 0, false);
+  } else if (field.type.starts_with("NewtonRuleOfMany")) {
+    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), sizes.at(1), false);
   } else if (field.type.starts_with("WaitingNewtonRule")) {
-    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), true);
+    object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), sizes.at(1), true);
   } else if (field.type == "LinearRule") {
     object.rules[field.name] = Blocks<Real>::linear_rule();
   } else if (field.type.starts_with("SimplifiedNewtonRule")) {

@@ -58,9 +58,10 @@ struct History {
     }
   }
   // The difference of order Degree + 1 at the solution that came, of lower order if fewer steps are
-  // known, and 0 if none is: summed over `count` unknowns.
+  // known, and 0 if none is: summed over `count` unknowns, each in a unit of its own.
   template <int Degree>
-  Real error(const Real (&solution)[Unknowns], int first, int count) const {
+  Real error(const Real (&solution)[Unknowns], int first, int count,
+             const Real* unit = nullptr) const {
     Real total = 0;
     if (known > Degree) {
       for (int i = first; i < first + count; ++i) {
@@ -70,10 +71,10 @@ struct History {
           binomial = -binomial * (Degree + 1 - k) / (k + 1);
           difference += binomial * past[newest + k][i];
         }
-        total += magnitude(difference);
+        total += unit == nullptr ? magnitude(difference) : magnitude(difference) * unit[i - first];
       }
     } else if constexpr (Degree > 0) {
-      total = error<Degree - 1>(solution, first, count);
+      total = error<Degree - 1>(solution, first, count, unit);
     }
     return total;
   }

@@ -14,6 +14,7 @@ struct NewtonRule : Iteration {
   Mask predicted = false;
   bool checks = false;
   bool begins = true;
+  Mask unmeasured = false;  // lanes whose contraction is to be measured before it is believed
   Real far = 0;
   Motion motion;
 
@@ -23,7 +24,7 @@ struct NewtonRule : Iteration {
   void begin(const Mask& from_prediction, const Turn& turn) {
     Iteration::begin(turn);
     grown = 0;
-    if (Power == 1) far = 0;
+    far = 0;
     predicted = from_prediction;
     checks = turn.is_check();
     begins = true;
@@ -40,52 +41,23 @@ struct NewtonRule : Iteration {
     motion.move = past.template error<0>(solution, first, count);
     motion.bend = past.template error<Power + 1>(solution, first, count);
   }
-  // What an increment is of what it must be lost in, or the increment.
-  static Real relative(const Real& moved, const Real& length, const Real& way) {
-    if (Power == 1) return select(moved > 8 * epsilon * length + tiny, moved, Real(0));
-    return select(moved > tiny, moved / felt(length, way), Real(0));
-  }
-  static Real felt(const Real& length, const Real& way) {
-    const Real least = 16 * way + length / 1048576;
-    return Power == 2 ? select(least < length, least, length) : length;
-  }
-  // Is even what all unknowns together move by lost in the rounding of one?
-  Mask is_lost_in(const Real& length, const Real& size) const {
-    if (Power == 1) return size <= 8 * epsilon * length;
-    const Real round_off = epsilon * length;
-    const Mask lost = contraction * size * size * 16 <= round_off;
-    if (!begins) return lost;
-    return lost & (motion.bend * size * size * 16 <= round_off * power(motion.move));
-  }
-  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
-  // the lengths again where no way counts.
-  Mask of_each(const Real* moved, const Real* length, const Real* way, int count, int iterations) {
-    Real size = moved[0];
-    Real scale = length[0];
-    Real least = length[0];
-    Real nearest = way[0];
-    for (int j = 1; j < count; ++j) {
-      size += moved[j];
-      scale += length[j];
-      least = select(length[j] < least, length[j], least);
-      nearest = select(way[j] < nearest, way[j], nearest);
-    }
-    const Mask lost = is_lost_in(way == length ? least : felt(least, nearest), size);
-    Real uneven = 0;
-    if (!all(lost)) {
-      for (int j = 0; j < count; ++j) uneven += relative(moved[j], length[j], way[j]);
-      uneven = select(lost, Real(0), uneven);
-    }
-    return (*this)(size, scale, iterations, uneven);
-  }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
-  Mask operator()(const Real& size, const Real& scale, int iterations,
-                  const Real& uneven = Real(0)) {
+  Mask operator()(const Real& size, const Real& scale, int iterations) {
+    return judge(size, scale, iterations, Real(0),
+                 [&](double units) { return size <= units * epsilon * scale; });
+  }
+  template <class IsWithin>
+  Mask judge(const Real& size, const Real& scale, int iterations, const Real& uneven,
+             const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
     const Real parts = size * uneven;
-    const Mask waits = waited_for(uneven, round_off);
+    const Mask stays = (far > 0) & (10 * uneven > 9 * far);
+    far = uneven;
+    Mask waits = false;
+    if (Power == 1) waits = (uneven > epsilon * epsilon * round_off) & !stays;
     const bool first = iterations == 1 && !checks;
-    const Mask alone = first ? is_lost(size, round_off) & serves(parts, waits, false) : Mask(false);
+    const Mask alone =
+        first ? is_lost(size, round_off) & serves(parts, waits, false) & !unmeasured : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -93,47 +65,42 @@ struct NewtonRule : Iteration {
     }
     taken = select(open, Real(iterations), taken);
     end_with(open & !(size <= largest), size);
-    Mask done = size <= round_off;
+    Mask done = alone;
+    Mask noise = false;
+    if (iterations > 1) {
+      noise = is_within(4096);
+      learn(size, round_off);
+      done = (grown >= 2) & noise & !waits;
+    }
+    const Mask served = serves(parts, waits, iterations > 1);
+    Mask lost = (size <= round_off) & (served | stays);
     if (Power == 1) {
       const Mask leaves = contraction * size * 8192 > round_off;
-      done = done & !waits & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
+      lost = lost & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
     }
-    if (iterations > 1) {
-      done = done | (learn(size, round_off) & !waits);
-      done = done | (is_next_lost(size, round_off) & serves(parts, waits, true));
-    } else {
-      done = done | alone;
-    }
+    done = done | lost;
+    if (Power == 2 && iterations > 1) done = done | ((1024 * size > previous) & is_within(1));
+    if (iterations > 1) done = done | (is_next_lost(size, round_off) & served);
     open = open & !done;
-    if (iterations > 1) {
-      end_with(open & predicted & (2 * size > previous) & (size > 4096 * round_off), size);
-    }
+    if (iterations > 1) end_with(open & predicted & (2 * size > previous) & !noise, size);
     if (iterations >= 60) end_with(open, size);
     previous = size;
     begins = false;
     return open;
   }
-  // Is more to be had of unknowns of which an approximate matrix leaves more than their rounding?
-  Mask waited_for(const Real& uneven, const Real& round_off) {
-    if (Power == 2) return false;
-    const Mask stays = (far > 0) & (10 * uneven > 9 * far);
-    far = uneven;
-    return (uneven > epsilon * epsilon * round_off) & !stays;
-  }
   Mask serves(const Real& parts, const Mask& waits, bool measured) const {
     return Power == 1 ? !waits : is_even(parts, measured);
   }
-  // Lanes that make no progress any more.
-  Mask learn(const Real& size, const Real& round_off) {
+  void learn(const Real& size, const Real& round_off) {
     const Real seen = select(size < round_off, round_off, size) / power(previous);
     // It may rise at once but falls slowly: one small increment may be luck.
     const Mask rises = (contraction >= largest) | ((size > 64 * round_off) & (seen > contraction));
     const Mask falls = open & !rises & (seen < contraction);
     const Real lower = select(4 * seen < contraction, contraction / 4, seen);
+    unmeasured = unmeasured & !open;
     contraction = select(open & rises, select(seen < largest, seen, Real(largest)),
                          select(falls, lower, contraction));
     grown = select(open, select(size < previous, Real(0), grown + 1), grown);
-    return (grown >= 2) & (size <= 4096 * round_off);
   }
   // Would the next increment be?
   Mask is_next_lost(const Real& size, const Real& round_off) const {

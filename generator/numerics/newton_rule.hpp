@@ -26,22 +26,6 @@
 // Kepler's orbit (order 4, h = 0.1) the angular momentum fell by 1.6e-4 roundings a step.  Where
 // that counts one more increment follows, which is made of rounding alone.
 //
-// Note [what every unknown lacks]
-// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
-// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
-// each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
-// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
-// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
-// unknowns, and none may be left, as long as they become smaller.
-//
-// Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
-// hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
-// asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
-// of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
-// length, for what never moves.
-//
 // Note [a prediction is followed while increments halve]
 // They do where Newton and Kantorovich's theorem promises a solution, which then is not further
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
@@ -58,7 +42,7 @@ struct NewtonRule {
   Real previous = 0;  // what the last increment was
   int grown = 0;
   bool predicted = false;
-  Real far = 0;  // of an approximate matrix, what was uneven in the iteration before
+  Real far = 0;  // what was uneven in the iteration before
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -67,7 +51,7 @@ struct NewtonRule {
   void begin(bool from_prediction) {
     previous = 0;
     grown = 0;
-    if (Power == 1) far = 0;
+    far = 0;
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
@@ -76,59 +60,23 @@ struct NewtonRule {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
-  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
-  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
-  static Real relative(Real moved, Real length, Real way) {
-    if (Power == 1) return moved > 8 * epsilon * length + tiny ? moved : Real(0);
-    return moved > tiny ? moved / felt(length, way) : Real(0);
+  // size, scale: of the increment and of the value.
+  Verdict operator()(Real size, Real scale, int iterations) {
+    return judge<false>(size, scale, iterations, 0,
+                        [&](Real units) { return size <= units * epsilon * scale; });
   }
-  // Of its length and its way in the step.
-  static Real felt(Real length, Real way) {
-    const Real least = 16 * way + length / 1048576;
-    return Power == 2 && least < length ? least : length;
-  }
-  // Is even what all unknowns together move by lost in the rounding of one?  The least of them
-  // answers for all: no more need be asked.
-  bool is_lost_in(Real length, Real size) const {
-    if (Power == 1) return size <= 8 * epsilon * length;
-    const Real round_off = epsilon * length;
-    const bool straight =
-        previous > 0 || motion.bend * size * size * 16 <= round_off * power(motion.move);
-    return straight && contraction * size * size * 16 <= round_off;
-  }
-  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
-  // the lengths again where no way counts.
-  Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
-                  int iterations) {
-    Real size = moved[0];
-    Real scale = length[0];
-    Real least = length[0];
-    Real nearest = way[0];
-    for (int j = 1; j < count; ++j) {
-      size += moved[j];
-      scale += length[j];
-      least = length[j] < least ? length[j] : least;
-      nearest = way[j] < nearest ? way[j] : nearest;
-    }
-    const Real shortest = way == length ? least : felt(least, nearest);
-    const bool lost = is_lost_in(shortest, size);
-    const Real uneven = lost ? Real(0) : relative(moved, length, way, count);
-    return (*this)(size, scale, iterations, uneven);
-  }
-  static Real relative(const Real* moved, const Real* length, const Real* way, int count) {
-    Real sum = 0;
-    for (int j = 0; j < count; ++j) sum += relative(moved[j], length[j], way[j]);
-    return sum;
-  }
-  // size, scale: sums over the unknowns of their increments and of their values; uneven: of what is
-  // relative of them, where each counts.
-  Verdict operator()(Real size, Real scale, int iterations, Real uneven = 0) {
+  // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
+  // many units of rounding of them all?
+  template <bool Many, class IsWithin>
+  Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
     }
     const Real round_off = epsilon * scale;
-    const bool waits = is_waited_for(uneven, round_off);
+    const bool stays = Many && far > 0 && 10 * uneven > 9 * far;
+    const bool waits = Power == 1 && uneven > epsilon * epsilon * round_off && !stays;
+    if (Many) far = uneven;
     if (previous > 0) {
       const Real seen = (size < round_off ? round_off : size) / power(previous);
       // It may rise at once but falls slowly: one small increment may be luck.
@@ -141,28 +89,22 @@ struct NewtonRule {
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && size <= 4096 * round_off && !waits) return Verdict::done;
+      if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
     } else {
       ++unchecked;
     }
-    if (size <= round_off && is_chance(size, round_off) && !waits) return Verdict::done;
-    const bool looked = previous > 0 || is_straight(size, round_off);
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
+    if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
+    // Where nothing converges by squares any more it is rounding.
+    const bool slow = Many && Power == 2 && previous > 0 && 1024 * size > previous;
+    if (slow && is_within(1)) return Verdict::done;
+    const bool looked = previous > 0 || is_straight(size, round_off);
     if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
       return Verdict::done;
     }
-    const bool astray =
-        predicted && iterations > 1 && 2 * size > previous && size > 4096 * round_off;
+    const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
-  }
-  // Are there unknowns of which an approximate matrix leaves more than their rounding, and is there
-  // more to be had?  See Note [what every unknown lacks].
-  bool is_waited_for(Real uneven, Real round_off) {
-    if (Power == 2) return false;
-    const bool stays = far > 0 && 10 * uneven > 9 * far;
-    far = uneven;
-    return uneven > epsilon * epsilon * round_off && !stays;
   }
   // See Note [what is below rounding].
   bool is_chance(Real size, Real round_off) const {

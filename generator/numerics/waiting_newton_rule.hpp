@@ -1,16 +1,17 @@
-// NewtonRule of an iteration that many steps do without: these are not watched.
-template <int Power>
-struct WaitingNewtonRule : NewtonRule<Power> {
+// NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
+template <int Power, int Unknowns>
+struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
+  using Watched = NewtonRuleOfMany<Power, Unknowns>;
   bool used = false;
 
   void begin(bool from_prediction) {
-    NewtonRule<Power>::begin(from_prediction);
+    Watched::begin(from_prediction);
     used = true;
   }
-  template <class Past, int Unknowns>
-  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+  template <class Past, int All>
+  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
     if (used) {
-      NewtonRule<Power>::watch(past, solution, first, count);
+      Watched::watch(past, solution, first, count);
     } else {
       this->motion = {};
     }

@@ -67,6 +67,11 @@ void add_events(Program& code, const Environment& environment, const LoweredStep
                                       "Values whose zeros are the events: " + list + "."));
 }
 
+std::string type_of_newton(int power, std::size_t unknowns) {
+  if (unknowns == 1) return fmt::format("NewtonRule<{}>", power);
+  return fmt::format("NewtonRuleOfMany<{}, {}>", power, unknowns);
+}
+
 // What is remembered from step to step.
 Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
   Record start{
@@ -80,8 +85,9 @@ Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
           "Start values of the implicit equations and what is remembered of their solution."}};
   for (std::size_t s = 0; s < solves.size(); ++s) {
     if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
-    start.fields.push_back({.name = fmt::format("rule_{}", s),
-                            .type = solves[s]->simplified ? "NewtonRule<1>" : "NewtonRule<2>"});
+    start.fields.push_back(
+        {.name = fmt::format("rule_{}", s),
+         .type = type_of_newton(solves[s]->simplified ? 1 : 2, solves[s]->variables.size())});
   }
   return start;
 }

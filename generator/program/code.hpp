@@ -153,7 +153,7 @@ struct Unknown {
   Expression correction;  // known after the body
   int memory = 0;         // where in start.value its solution is kept
   // Is it moved by a momentum that is torn out of the equations?  Then its way counts: see Note
-  // [what every unknown lacks] in numerics/newton_rule.hpp.
+  // [what every unknown lacks] in numerics/newton_rule_of_many.hpp.
   bool by_torn = false;
 };
 enum class Rule { newton, simplified_newton, fixed_point, linear };
@@ -172,7 +172,8 @@ struct Iterate {
 struct UnknownArray {
   std::string value, increment;
   Expression beside;
-  bool by_torn = false;  // see Unknown
+  bool by_torn = false;    // see Unknown
+  AffineIndex index = {};  // of the value among all unknowns
 };
 // As Iterate, for arrays whose values are there before it begins.  The body leaves the increments.
 // The rule is a field of start.
@@ -185,8 +186,9 @@ struct IterateArray {
   int lanes = 0;  // so many of one array of unknowns are moved at once, as of For
   // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
   std::optional<int> work = {};
-  // Of Newton: whether the increment of each unknown counts, not their sum alone.
-  bool of_each = false;
+  // Of Newton and linear equations: all values, all increments, and their number.
+  Place values = {}, increments = {};
+  int count = 0;
   // Of a fixed point: whether the increment with which it ends is left to Refinement, unless a
   // ContractionRule makes it.
   bool leaves_last = false;

@@ -89,8 +89,8 @@ class LoopMember : LoopStage {
       array("change", arrays_.reduced ? n_ : 2 * n_, "of the slope by the last increment");
     }
     if (newton()) {
-      start.fields.push_back(
-          {.name = "rule", .type = is_linear() ? "LinearRule" : "NewtonRule<2>"});
+      const std::string rule = fmt::format("NewtonRuleOfMany<2, {}>", unknowns());
+      start.fields.push_back({.name = "rule", .type = is_linear() ? "LinearRule" : rule});
     }
     if (newton() || both()) {
       start.fields.push_back({.name = "matrix", .type = "Matrix"});
@@ -99,7 +99,8 @@ class LoopMember : LoopStage {
       }
     }
     if (both()) {
-      start.fields.push_back({.name = "newton_rule", .type = "WaitingNewtonRule<2>"});
+      start.fields.push_back(
+          {.name = "newton_rule", .type = fmt::format("WaitingNewtonRule<2, {}>", unknowns())});
       start.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
@@ -227,8 +228,7 @@ class LoopMember : LoopStage {
                                      .name = "rule",
                                      .ranges = {elements()},
                                      .unknowns = unknown_arrays(b),
-                                     .body = std::move(body),
-                                     .of_each = true},
+                                     .body = std::move(body)},
                         {"Linear equations are solved for what they lack."}});
   }
 
@@ -245,7 +245,9 @@ class LoopMember : LoopStage {
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
                          .body = std::move(body),
-                         .of_each = true};
+                         .values = {"start", "value"},
+                         .increments = {"start", "lack"},
+                         .count = static_cast<int>(unknowns())};
     b.body().push_back({std::move(iterate), {"Newton's iteration on what the equations lack."}});
     add_change_of_slope(b.body());
     const Expression value = b.at("start", "value", {affine("i")});
@@ -359,7 +361,8 @@ class LoopMember : LoopStage {
       list.push_back({.value = b.at("start", "value", index).name(),
                       .increment = b.at("start", "lack", index).name(),
                       .beside = state(b, "z", first == 0 ? "q" : "p"),
-                      .by_torn = arrays_.reduced});
+                      .by_torn = arrays_.reduced,
+                      .index = index.front()});
     }
     return list;
   }

@@ -212,25 +212,7 @@ class IterationWriter : public FailureWriter {
     rule_type_ = type;
     iterate_with([&] {
       write(iterate.body);
-      add(Define{"Real", "size ", integer(0), true});
-      add(Define{"Real", "scale ", integer(0), true});
-      const bool of_each = iterate.of_each;
-      if (of_each) add(Define{"Real", "uneven ", integer(0), true});
-      const auto measure = [&] {
-        for (const UnknownArray& u : iterate.unknowns) {
-          const Value moved = magnitude(Expression::symbol(u.increment));
-          set(at({"size "}), moved, "+=");
-          set(at({"scale "}), length(u.value, u.beside), "+=");
-          if (!of_each) continue;
-          std::vector<Value> parts = {moved, length(u.value, u.beside)};
-          if (!linear) parts.push_back(u.by_torn ? way(u.value, u.beside) : parts.back());
-          set(at({"uneven "}), action(type, rule, "relative", std::move(parts)), "+=");
-        }
-      };
-      over(iterate.ranges, measure, Shape::braces);
-      std::vector<Value> judged = judged_by_size();
-      if (of_each) judged.push_back(at({"uneven "}));
-      Value verdict = action(type, rule, "", std::move(judged));
+      Value verdict = linear ? judged_of_lengths(iterate) : judged_of_parts(iterate);
       if (form_.lanes) {
         look_at_moving(std::move(verdict));
         return move(iterate, at({"moving "}));
@@ -242,15 +224,60 @@ class IterationWriter : public FailureWriter {
     if (form_.lanes) end_lanes(rule);
   }
 
+  // What the rule says of sums over the unknowns: of increments as parts of their sizes, and of
+  // what each must be lost in.
+  Value judged_of_parts(const IterateArray& iterate) {
+    const Place rule{"start", iterate.name};
+    add(Do{action("NewtonRule", rule, "know",
+                  {object(iterate.values), object(iterate.increments), integer(iterate.count)})});
+    for (const char* sum : {"size ", "uneven ", "moved ", "scale "})
+      add(Define{"Real", sum, integer(0), true});
+    over_unknowns(iterate, [&](const UnknownArray& u) {
+      const Value moved = magnitude(Expression::symbol(u.increment));
+      const Value unit = at({"start", iterate.name + ".unit", {u.index}});
+      set(at({"size "}), joined("*", {moved, unit}), "+=");
+      set(at({"moved "}), moved, "+=");
+      set(at({"scale "}), length(u.value, u.beside), "+=");
+      Value longest = length(u.value, u.beside);
+      Value gone = u.by_torn ? way(u.value, u.beside) : longest;
+      set(at({"uneven "}),
+          action("NewtonRule", rule, "relative", {moved, std::move(longest), std::move(gone)}),
+          "+=");
+    });
+    return action("NewtonRule", rule, "of_sums",
+                  {at({"size "}), at({"uneven "}), at({"moved "}), at({"scale "}),
+                   integer(iterate.count), at({"iteration "})});
+  }
+  // Of linear equations it is told the increments, and what their unknowns are rounded with.
+  Value judged_of_lengths(const IterateArray& iterate) {
+    const Place rule{"start", iterate.name};
+    for (const char* sum : {"size ", "scale ", "uneven "})
+      add(Define{"Real", sum, integer(0), true});
+    over_unknowns(iterate, [&](const UnknownArray& u) {
+      const Value moved = magnitude(Expression::symbol(u.increment));
+      set(at({"size "}), moved, "+=");
+      set(at({"scale "}), length(u.value, u.beside), "+=");
+      set(at({"uneven "}),
+          action("LinearRule", rule, "relative", {moved, length(u.value, u.beside)}), "+=");
+    });
+    std::vector<Value> judged = judged_by_size();
+    judged.push_back(at({"uneven "}));
+    return action("LinearRule", rule, "", std::move(judged));
+  }
+  void over_unknowns(const IterateArray& iterate,
+                     const std::function<void(const UnknownArray&)>& write_one) {
+    const auto each = [&] {
+      for (const UnknownArray& u : iterate.unknowns) write_one(u);
+    };
+    over(iterate.ranges, each, Shape::braces);
+  }
+
   // Of trajectories in lanes in these.
   void move(const IterateArray& iterate, const std::optional<Value>& lanes = {}) {
-    const auto lines = [&] {
-      for (const UnknownArray& u : iterate.unknowns) {
-        lanes ? move_lanes(*lanes, symbol(u.value), symbol(u.increment))
-              : set(symbol(u.value), symbol(u.increment), "+=");
-      }
-    };
-    over(iterate.ranges, lines, Shape::braces);
+    over_unknowns(iterate, [&](const UnknownArray& u) {
+      lanes ? move_lanes(*lanes, symbol(u.value), symbol(u.increment))
+            : set(symbol(u.value), symbol(u.increment), "+=");
+    });
   }
 
   void end_newton() {
@@ -341,12 +368,9 @@ class IterationWriter : public FailureWriter {
                        at(u.beside, Value::Kind::given), index(count, Value::Kind::count)});
     }
     if (!arrays.empty()) return;
-    const auto lines = [&] {
-      for (const UnknownArray& u : iterate.unknowns) {
-        add_to_distance({magnitude(Expression::symbol(u.increment)), length(u.value, u.beside)});
-      }
-    };
-    over(iterate.ranges, lines, Shape::braces);
+    over_unknowns(iterate, [&](const UnknownArray& u) {
+      add_to_distance({magnitude(Expression::symbol(u.increment)), length(u.value, u.beside)});
+    });
   }
 
   // What the rule says of an iteration, and what follows from it.

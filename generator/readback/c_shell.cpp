@@ -86,9 +86,9 @@ Pattern c_defaults_pattern(const Record& parameters) {
 Pattern c_start_pattern(const Record& start) {
   std::string text = "static inline N::Start N::start(void) { N::Start start = {0};";
   for (const Field& field : start.fields) {
-    if (field.type.starts_with("NewtonRule<"))
+    if (field.type.starts_with("NewtonRule"))
       text += fmt::format("start.{} = hamgen::NewtonRule_of_power({});", field.name,
-                          field.type.substr(11, field.type.size() - 12));
+                          field.type.at(field.type.find('<') + 1));
   }
   return {text + "return start; }"};
 }

@@ -103,7 +103,7 @@ void expect_rules_answer_alike() {
   using Real = typename Cpp::Scalar;
   Sizes<Real> sizes;
   Numbers chance;
-  typename Cpp::template Newton<Power> in_cpp;
+  typename Cpp::template NewtonOfMany<Power, 3> in_cpp;
   typename C::Rule in_c(Power);
   std::vector<int> answers(3);
   for (int step = 0; step < 30000; ++step) {
@@ -138,6 +138,7 @@ void expect_rules_answer_alike() {
       ASSERT_EQ(in_cpp.previous, in_c.of.previous);
       ASSERT_EQ(in_cpp.unchecked, in_c.of.unchecked);
       ASSERT_EQ(in_cpp.grown, in_c.of.grown);
+      for (int j = 0; j < 3; ++j) ASSERT_EQ(in_cpp.unit[j], in_c.of.unit[j]);
       for (Real& each : moved) each *= shrinks;
     }
     ++answers[static_cast<std::size_t>(answer)];
@@ -162,9 +163,11 @@ TYPED_TEST(CBlock, HistoriesPredictAlike) {
   using Real = typename Cpp::Scalar;
   typename Cpp::template Past<3> in_cpp;
   typename C::Past in_c;
-  typename Cpp::template Newton<2> rule;
+  typename Cpp::template NewtonOfMany<2, 3> rule;
   typename C::Rule rule_in_c(2);
   Numbers noise;
+  // As if known from a first iteration: much larger, smaller and far smaller than what comes.
+  for (const int i : {0, 1, 2}) rule.unit[i] = rule_in_c.of.unit[i] = i == 0 ? Real(1) / 64 : 64;
   Real x = 1;
   Real y = 0;
   bool moved = false;
@@ -177,6 +180,8 @@ TYPED_TEST(CBlock, HistoriesPredictAlike) {
     in_c.watch(rule_in_c, solution);
     ASSERT_EQ(rule.motion.move, rule_in_c.of.move) << step;
     ASSERT_EQ(rule.motion.bend, rule_in_c.of.bend) << step;
+    for (int i = 0; i < 3; ++i) ASSERT_EQ(rule.unit[i], rule_in_c.of.unit[i]) << step;
+    ASSERT_EQ(rule.unchecked, rule_in_c.of.unchecked) << step;
     moved = moved || rule.motion.bend > 0;
     in_cpp.record(solution);
     in_c.record(solution);

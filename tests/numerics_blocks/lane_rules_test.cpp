@@ -12,17 +12,17 @@ template <int Power>
 void expect_newton_ends_as_alone(double uneven) {
   for (const bool predicted : {false, true}) {
     for (const int batch : {0, 1}) {
-      lanes::NewtonRule<Power> rule;
+      lanes::NewtonRuleOfMany<Power, 1> rule;
       rule.begin(predicted, turn_of_all());
       ask_together(batch, [&](const lanes::Real& size, int iteration) {
-        return rule(size, lanes::Real(1), iteration, lanes::Real(uneven));
+        return rule.of_sums(size, lanes::Real(uneven), size, lanes::Real(1), 1, iteration);
       });
       for (int lane = 0; lane < kCount; ++lane) {
-        of_double::NewtonRule<Power> alone;
+        of_double::NewtonRuleOfMany<Power, 1> alone;
         alone.begin(predicted);
         const Increments& increments = increments_of(batch, lane);
         const End end = end_alone(increments, [&](double size, int iteration) {
-          return alone(size, 1, iteration, uneven);
+          return alone.of_sums(size, uneven, size, 1, 1, iteration);
         });
         EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted << Power;
       }
@@ -191,12 +191,12 @@ TEST(LaneRules, ALaneThatDoesWithoutNewtonIsNotWatched) {
   for (const int lane : {2, 5}) used.set(lane, 0);
   lanes::Turn turn;
   turn.begin(used > 0);
-  lanes::WaitingNewtonRule<2> rule;
+  lanes::WaitingNewtonRule<2, 1> rule;
+  rule.unit[0] = 0.5;
   rule.begin(false, turn);
   const lanes::Real solution[1] = {3};
   rule.watch(history, solution, 0, 1);
-  for (int lane = 0; lane < kCount; ++lane)
-    EXPECT_EQ(rule.motion.move[lane], 2 * used[lane]) << lane;
+  for (int lane = 0; lane < kCount; ++lane) EXPECT_EQ(rule.motion.move[lane], used[lane]) << lane;
   rule.watch(history, solution, 0, 1);
   EXPECT_EQ(rule.motion.move[0], 0);
 }
@@ -234,7 +234,7 @@ TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone)
   lanes::Turn turn;
   turn.begin(true);
   turn.step = 1;  // not one that is a check
-  lanes::NewtonRule<1> rule;
+  lanes::NewtonRuleOfMany<1, 2> rule;
   rule.contraction = 0x1p-13;
   rule.begin(true, turn);
   lanes::Real moved[2] = {0x1p-54, 0};
@@ -250,7 +250,7 @@ TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone)
   }
   int waited = 0;
   for (int lane = 0; lane < 8; ++lane) {
-    of_double::NewtonRule<1> alone;
+    of_double::NewtonRuleOfMany<1, 2> alone;
     alone.contraction = 0x1p-13;
     alone.begin(true);
     double way[2] = {0x1p-54, (1 + 200 * lane) * kSmall * 0x1p-52};
@@ -266,8 +266,63 @@ TEST(LaneRules, SmallUnknownsOfAnApproximateMatrixAreWaitedForInEachLaneAsAlone)
   EXPECT_GE(waited, 3);
 }
 
+// Each lane has units of its own, which follow its unknowns, and measures where one has changed.
+TEST(LaneRules, SizesFollowTheUnknownsOfEachLaneAsAlone) {
+  lanes::NewtonRuleOfMany<2, 3> rule;
+  lanes::History<3> history;
+  of_double::NewtonRuleOfMany<2, 3> alone[kCount];
+  of_double::History<3> histories[kCount];
+  Numbers chance;
+  int measured = 0;
+  for (int step = 0; step < 1000; ++step) {
+    lanes::Real length[3], moved[3], solution[3];
+    lanes::Turn turn;
+    turn.begin(true);
+    turn.step = 1;  // not one that is a check
+    rule.begin(step > 0, turn);
+    for (int j = 0; j < 3; ++j) {
+      for (int lane = 0; lane < kCount; ++lane) {
+        const double size = std::ldexp(1 + chance.next() / 2, -step * lane * j / 100);
+        solution[j].set(lane, chance.next() > 0.9 ? size * 8 : size);
+        length[j].set(lane, 2 * solution[j][lane]);
+        moved[j].set(lane, std::abs(size * chance.next()) * 0x1p-45);
+      }
+    }
+    const lanes::Mask open = rule.of_each(moved, length, length, 3, 1);
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::NewtonRuleOfMany<2, 3>& one = alone[lane];
+      one.contraction = rule.contraction[lane];
+      const bool forced = one.unchecked >= 32;
+      if (!forced) one.unchecked = 0;
+      measured += forced ? 1 : 0;
+      one.begin(step > 0);
+      double lengths[3], ways[3], values[3];
+      for (int j = 0; j < 3; ++j) {
+        lengths[j] = length[j][lane];
+        ways[j] = moved[j][lane];
+        values[j] = solution[j][lane];
+      }
+      const auto verdict = one.of_each(ways, lengths, lengths, 3, 1);
+      EXPECT_EQ(open[lane], verdict == of_double::Verdict::go_on) << step << " " << lane;
+      for (int j = 0; j < 3; ++j) EXPECT_EQ(rule.unit[j][lane], one.unit[j]) << step << " " << j;
+      if (verdict == of_double::Verdict::go_on) one.unchecked = 0;
+      one.watch(histories[lane], values, 0, 3);
+      histories[lane].record(values);
+    }
+    if (any(open)) {
+      for (lanes::Real& each : moved) each = each * 0x1p-20;
+      (void)rule.of_each(moved, length, length, 3, 2);
+    }
+    rule.contraction = 0x1p-10;
+    rule.watch(history, solution, 0, 3);
+    history.record(solution);
+  }
+  EXPECT_GT(measured, 100);
+}
+
 TEST(LaneRules, WhatALaneForgetsTheOthersKnow) {
-  lanes::NewtonRule<2> rule;
+  lanes::NewtonRuleOfMany<2, 2> rule;
+  rule.unit[1] = 3;
   rule.contraction = 0.5;
   rule.motion.move = 1;
   lanes::Real lane_2 = 0;
@@ -277,6 +332,8 @@ TEST(LaneRules, WhatALaneForgetsTheOthersKnow) {
   EXPECT_EQ(rule.motion.move[2], 0);
   EXPECT_EQ(rule.contraction[1], 0.5);
   EXPECT_EQ(rule.motion.move[1], 1);
+  EXPECT_EQ(rule.unit[1][2], 0);
+  EXPECT_EQ(rule.unit[1][1], 3);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
                        "contracts slowly; momenta torn out, in loops\n"))
       << both.plan;
   EXPECT_TRUE(contains(both.header, "ContractionRule rule;"));
-  EXPECT_TRUE(contains(both.header, "WaitingNewtonRule<2> newton_rule;"));
+  EXPECT_TRUE(contains(both.header, "WaitingNewtonRule<2, 64> newton_rule;"));
   const Outcome newton = outcome(chain(64), {.solver = "newton"});
   EXPECT_TRUE(contains(newton.plan, "solver: banded Newton of size 64;")) << newton.plan;
   EXPECT_FALSE(contains(newton.header, "ContractionRule"));

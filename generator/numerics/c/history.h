@@ -16,14 +16,16 @@ static inline void History_forget(History* history) {
   history->age = 15;
 }
 // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
-// known, and 0 if none is: summed over `count` unknowns.
+// known, and 0 if none is: summed over `count` unknowns, each in its own unit, one over so much, or
+// all in the same one.
 static inline Real History_error(const History* history, int degree, const Real* solution,
-                                 int first, int count) {
+                                 int first, int count, const Real* unit) {
   if (history->known == 0) return 0;
   if (degree >= history->known) degree = history->known - 1;
   Real sum_of_errors = 0;
   for (int i = first; i < first + count; ++i) {
-    sum_of_errors += magnitude(solution[i] - history->predicted[degree][i]);
+    const Real gap = magnitude(solution[i] - history->predicted[degree][i]);
+    sum_of_errors += unit ? gap * unit[i - first] : gap;
   }
   return sum_of_errors;
 }
@@ -31,7 +33,7 @@ static inline void History_choose(History* history, const Real* solution) {
   history->age = 0;
   Real least = 0;
   for (int degree = 0; degree < history->known; ++degree) {
-    const Real now = History_error(history, degree, solution, 0, Unknowns);
+    const Real now = History_error(history, degree, solution, 0, Unknowns, 0);
     if (degree == 0 || now < least) {
       least = now;
       history->best = degree;
@@ -61,6 +63,8 @@ static inline void History_extrapolate(const History* history, Real* solution) {
 // The solution of a step, from the unknown `first` on, before the history records it.
 static inline void History_watch(const History* history, NewtonRule* rule, const Real* solution,
                                  int first, int count) {
-  rule->move = History_error(history, 0, solution, first, count);
-  rule->bend = History_error(history, rule->power + 1, solution, first, count);
+  const Real* unit = count > 1 ? rule->unit : 0;
+  if (unit) NewtonRule_follow(rule, solution + first, count);
+  rule->move = History_error(history, 0, solution, first, count, unit);
+  rule->bend = History_error(history, rule->power + 1, solution, first, count, unit);
 }

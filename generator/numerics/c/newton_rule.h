@@ -2,7 +2,9 @@
 //   next <= contraction * size^power,
 // power = 2 with the exact matrix, 1 with an approximate one.  The contraction is measured, kept
 // from step to step and checked at least every 32nd step; the motion of the step before says how
-// curved the equations are.  The rule and its reasons are those of newton_rule.hpp.
+// curved the equations are.  Increments of several unknowns are added as parts of the sizes that
+// these have had.  The rules and their reasons are those of newton_rule.hpp and
+// newton_rule_of_many.hpp.
 typedef enum { go_on, done, failed } Verdict;
 typedef struct {
   int power;
@@ -13,9 +15,11 @@ typedef struct {
   bool predicted;
   Real move, bend;
   Real far;
+  Real unit[3];  // one over the size of each unknown, of which there are at most three; 0: unknown
+  int age;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0, 0};
+  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -27,6 +31,59 @@ static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
   rule->grown = 0;
   rule->far = 0;
   rule->predicted = predicted;
+}
+// size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
+// relative of them; moved, length: the sums of increments and of lengths, whatever their units.
+static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, int iterations,
+                                       Real uneven, Real moved, Real length) {
+  if (!(size <= largest)) {
+    rule->previous = size;
+    return failed;
+  }
+  const Real round_off = epsilon * scale;
+  const bool stays = rule->far > 0 && 10 * uneven > 9 * rule->far;
+  const bool waits = rule->power == 1 && uneven > epsilon * epsilon * round_off && !stays;
+  rule->far = uneven;
+  if (rule->previous > 0) {
+    const Real seen =
+        (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
+    // It may rise at once but falls slowly: one small increment may be luck.
+    const bool first = rule->contraction >= largest;
+    if (first || (size > 64 * round_off && seen > rule->contraction)) {
+      rule->contraction = seen < largest ? seen : largest;
+    } else if (seen < rule->contraction) {
+      rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
+    }
+    rule->unchecked = 0;
+    // No progress twice in a row: this is round-off if it is small, else it may still recover.
+    rule->grown = size < rule->previous ? 0 : rule->grown + 1;
+    if (rule->grown >= 2 && moved <= 4096 * epsilon * length && !waits) return done;
+  } else {
+    ++rule->unchecked;
+  }
+  // What an approximate matrix leaves is no chance where it is more than 2^-13 roundings.
+  const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
+                      rule->contraction * size * 8192 <= round_off;
+  const Real parts = size * uneven;
+  const bool bends =
+      rule->previous <= 0 && rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
+  const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
+  const bool serves = rule->power == 1 ? !waits : even;
+  if (size <= round_off && chance && (serves || stays)) return done;
+  // Where nothing converges by squares any more it is rounding.
+  const bool slow = rule->power == 2 && rule->previous > 0 && 1024 * size > rule->previous;
+  if (slow && moved <= epsilon * length) return done;
+  const Real bend = rule->bend > size ? rule->bend : size;
+  const bool straight =
+      bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
+  if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
+      rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
+    return done;
+  }
+  const bool astray = rule->predicted && iterations > 1 && 2 * size > rule->previous &&
+                      moved > 4096 * epsilon * length;
+  rule->previous = size;
+  return iterations < 60 && !astray ? go_on : failed;
 }
 // What the increment of an unknown must be lost in: the rounding of its length, or its way in the
 // step.
@@ -49,79 +106,68 @@ static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Re
       rule->previous > 0 || rule->bend * size * size * 16 <= round_off * rule->move * rule->move;
   return straight && rule->contraction * size * size * 16 <= round_off;
 }
-// size, scale: sums over the unknowns, of their increments and of their values; uneven: of what is
-// relative of them.
-static inline Verdict NewtonRule_check_sums(NewtonRule* rule, Real size, Real scale, int iterations,
-                                            Real uneven) {
-  if (!(size <= largest)) {
-    rule->previous = size;
-    return failed;
+static inline Real NewtonRule_size_of(Real length, Real moved) {
+  return magnitude(length) + 32 * magnitude(moved);
+}
+// The sizes of unknowns from a first iteration.
+static inline void NewtonRule_know(NewtonRule* rule, const Real* length, const Real* moved,
+                                   int count) {
+  const Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
+  if (rule->unit[0] > 0) return;
+  Real total = 0;
+  for (int j = 0; j < count; ++j) total += NewtonRule_size_of(length[j], moved[j]);
+  if (!(total > 0 && total <= largest)) return;
+  for (int j = 0; j < count; ++j) {
+    const Real size = NewtonRule_size_of(length[j], moved[j]) + total / 1099511627776;
+    rule->unit[j] = 1 / (size + smallest);
   }
-  const Real round_off = epsilon * scale;
-  const bool stays = rule->far > 0 && 10 * uneven > 9 * rule->far;
-  const bool waits = rule->power == 1 && uneven > epsilon * epsilon * round_off && !stays;
-  rule->far = uneven;
-  if (rule->previous > 0) {
-    const Real seen =
-        (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
-    // It may rise at once but falls slowly: one small increment may be luck.
-    const bool first = rule->contraction >= largest;
-    if (first || (size > 64 * round_off && seen > rule->contraction)) {
-      rule->contraction = seen < largest ? seen : largest;
-    } else if (seen < rule->contraction) {
-      rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
-    }
-    rule->unchecked = 0;
-    // No progress twice in a row: this is round-off if it is small, else it may still recover.
-    rule->grown = size < rule->previous ? 0 : rule->grown + 1;
-    if (rule->grown >= 2 && size <= 4096 * round_off && !waits) return done;
-  } else {
-    ++rule->unchecked;
+}
+// What the unknowns of a step have come to.
+static inline void NewtonRule_follow(NewtonRule* rule, const Real* value, int count) {
+  if (++rule->age < 16) return;
+  rule->age = 0;
+  Real least = rule->unit[0];
+  for (int j = 1; j < count; ++j) least = rule->unit[j] < least ? rule->unit[j] : least;
+  for (int j = 0; j < count; ++j) {
+    const Real part = magnitude(value[j]) * rule->unit[j];
+    const bool falls = part > 0 && 1024 * part < 1 && rule->unit[j] < 1099511627776 * least;
+    if (part <= 2 && !falls) continue;
+    rule->unit[j] = falls ? 2 * rule->unit[j] : 1 / magnitude(value[j]);
+    rule->unchecked = 32;
   }
-  // What an approximate matrix leaves is no chance where it is more than 2^-13 roundings.
-  const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
-                      rule->contraction * size * 8192 <= round_off;
-  if (size <= round_off && chance && !waits) return done;
-  const Real bend = rule->bend > size ? rule->bend : size;
-  const bool straight =
-      bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
-  const Real parts = size * uneven;
-  const bool bends =
-      rule->previous <= 0 && rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
-  const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
-  const bool serves = rule->power == 1 ? !waits : even;
-  if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
-      rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
-    return done;
-  }
-  const bool astray =
-      rule->predicted && iterations > 1 && 2 * size > rule->previous && size > 4096 * round_off;
-  rule->previous = size;
-  return iterations < 60 && !astray ? go_on : failed;
 }
 // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
 // the lengths again where no way counts.
 static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, const Real* length,
                                          const Real* way, int count, int iterations) {
-  Real size = moved[0];
-  Real scale = length[0];
-  Real least = length[0];
-  Real nearest = way[0];
+  NewtonRule_know(rule, length, moved, count);
+  Real size = moved[0] * rule->unit[0];
+  Real least = length[0] * rule->unit[0];
+  Real nearest = way[0] * rule->unit[0];
   for (int j = 1; j < count; ++j) {
-    size += moved[j];
-    scale += length[j];
-    least = length[j] < least ? length[j] : least;
-    nearest = way[j] < nearest ? way[j] : nearest;
+    size += moved[j] * rule->unit[j];
+    const Real part = length[j] * rule->unit[j];
+    least = part < least ? part : least;
+    const Real gone = way[j] * rule->unit[j];
+    nearest = gone < nearest ? gone : nearest;
   }
-  Real uneven = 0;
   const Real shortest = way == length ? least : NewtonRule_felt(rule, least, nearest);
-  const bool lost = NewtonRule_is_lost_in(rule, shortest, size);
-  for (int j = 0; !lost && j < count; ++j) {
-    uneven += NewtonRule_relative(rule, moved[j], length[j], way[j]);
+  Real uneven = 0;
+  if (!NewtonRule_is_lost_in(rule, shortest, size)) {
+    for (int j = 0; j < count; ++j) {
+      const Real part = NewtonRule_relative(rule, moved[j], length[j], way[j]);
+      uneven += part * (rule->power == 1 ? rule->unit[j] : 1);
+    }
   }
-  return NewtonRule_check_sums(rule, size, scale, iterations, uneven);
+  Real together = moved[0];
+  Real scale = length[0];
+  for (int j = 1; j < count; ++j) {
+    together += moved[j];
+    scale += length[j];
+  }
+  return NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale);
 }
 // Of a single unknown.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
-  return NewtonRule_check_sums(rule, size, scale, iterations, 0);
+  return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale);
 }

@@ -1,0 +1,109 @@
+// NewtonRule of several unknowns in each lane: as the rule of one trajectory does
+// (newton_rule_of_many.hpp has the reasons).
+template <int Power, int Unknowns>
+struct NewtonRuleOfMany : NewtonRule<Power> {
+  using One = NewtonRule<Power>;
+  Real unit[Unknowns] = {};  // one over the size of each; 0: not known yet
+  int age = 0;
+
+  static constexpr double smallest = 1 / largest / (epsilon * epsilon * epsilon);
+
+  void forget(const Mask& lanes) {
+    One::forget(lanes);
+    for (Real& each : unit) each = select(lanes, Real(0), each);
+  }
+  static Real size_of(const Real& length, const Real& moved) {
+    return magnitude(length) + 32 * magnitude(moved);
+  }
+  // The sizes, from a first iteration.
+  void know(const Real* length, const Real* moved, int count) {
+    if (!all(unit[0] > 0)) begin_with(length, moved, count);
+  }
+  // These are seldom done, and no part of a step's code.
+  __attribute__((noinline)) void begin_with(const Real* length, const Real* moved, int count) {
+    Real total = 0;
+    for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
+    const Mask unknown = (!(unit[0] > 0)) & (total > 0) & (total <= largest);
+    for (int j = 0; j < count; ++j) {
+      const Real size = size_of(length[j], moved[j]) + total / 1099511627776;
+      unit[j] = select(unknown, 1 / (size + smallest), unit[j]);
+    }
+  }
+  __attribute__((noinline)) void follow(const Real* value, int count) {
+    age = 0;
+    Real least = unit[0];
+    for (int j = 1; j < count; ++j) least = select(unit[j] < least, unit[j], least);
+    for (int j = 0; j < count; ++j) {
+      const Real part = magnitude(value[j]) * unit[j];
+      const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1099511627776 * least);
+      const Mask changes = falls | (part > 2);
+      unit[j] = select(changes, select(falls, 2 * unit[j], 1 / magnitude(value[j])), unit[j]);
+      this->unmeasured = this->unmeasured | changes;
+    }
+  }
+  // The solution of a step, from the unknown `first` on, before the history records it.
+  template <class Past, int All>
+  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
+    if (++age >= 16) follow(solution + first, count);
+    this->motion.move = past.template error<0>(solution, first, count, unit);
+    this->motion.bend = past.template error<Power + 1>(solution, first, count, unit);
+  }
+  // What an increment is of what it must be lost in, or the increment.
+  static Real relative(const Real& moved, const Real& length, const Real& way) {
+    if (Power == 1) return select(moved > 8 * epsilon * length + One::tiny, moved, Real(0));
+    return select(moved > One::tiny, moved / felt(length, way), Real(0));
+  }
+  static Real felt(const Real& length, const Real& way) {
+    const Real least = 16 * way + length / 1048576;
+    return Power == 2 ? select(least < length, least, length) : length;
+  }
+  // Is even what all unknowns together move by lost in the rounding of one?
+  Mask is_lost_in(const Real& length, const Real& size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const Mask lost = this->contraction * size * size * 16 <= round_off;
+    if (!this->begins) return lost;
+    const Motion& m = this->motion;
+    return lost & (m.bend * size * size * 16 <= round_off * One::power(m.move));
+  }
+  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+  // the lengths again where no way counts.
+  Mask of_each(const Real* moved, const Real* length, const Real* way, int count, int iterations) {
+    know(length, moved, count);
+    Real size = moved[0] * unit[0];
+    Real least = length[0] * unit[0];
+    Real nearest = way[0] * unit[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j] * unit[j];
+      const Real part = length[j] * unit[j];
+      least = select(part < least, part, least);
+      const Real gone = way[j] * unit[j];
+      nearest = select(gone < nearest, gone, nearest);
+    }
+    const Mask lost = is_lost_in(way == length ? least : felt(least, nearest), size);
+    Real uneven = 0;
+    if (!all(lost)) {
+      for (int j = 0; j < count; ++j) {
+        const Real part = relative(moved[j], length[j], way[j]);
+        uneven += Power == 1 ? part * unit[j] : part;
+      }
+      uneven = select(lost, Real(0), uneven);
+    }
+    return this->judge(size, Real(count), iterations, uneven, [&](double units) {
+      Real together = moved[0];
+      Real scale = length[0];
+      for (int j = 1; j < count; ++j) {
+        together += moved[j];
+        scale += length[j];
+      }
+      return together <= units * epsilon * scale;
+    });
+  }
+  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
+  // of increments and of lengths.
+  Mask of_sums(const Real& size, const Real& uneven, const Real& moved, const Real& scale,
+               int count, int iterations) {
+    return this->judge(size, Real(count), iterations, uneven,
+                       [&](double units) { return moved <= units * epsilon * scale; });
+  }
+};

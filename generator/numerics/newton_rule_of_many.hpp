@@ -1,0 +1,127 @@
+// NewtonRule of several unknowns.
+//
+// Note [units]
+// Nothing may hang on the units in which they are written: sums of what is 1e-5 in one unknown and
+// 1 in another do not see the wall that the first runs into, and were off by 5e6 roundings.  So
+// increments are added as parts of the sizes that their unknowns have had.  A size is taken anew
+// where its unknown has become more than twice as large, and is halved, in every 32nd step, where
+// it is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by, so
+// that it may begin at zero, and at least a 2^-40th of all together.
+//
+// Note [what every unknown lacks]
+// Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
+// second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
+// each the next increment is taken to be the same part of the last one as of all together; `uneven`
+// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
+// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
+// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
+// unknowns, and none may be left, as long as they become smaller.
+//
+// Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
+// hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
+// asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
+// of their roundings.  So 16 times the way that the step has moved it stands for its length where
+// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
+// length, for what never moves.
+//
+template <int Power, int Unknowns>
+struct NewtonRuleOfMany : NewtonRule<Power> {
+  using One = NewtonRule<Power>;
+  Real unit[Unknowns] = {};  // one over the size of each, see Note [units]; 0: not known yet
+  int age = 0;
+
+  static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
+
+  static Real size_of(Real length, Real moved) { return magnitude(length) + 32 * magnitude(moved); }
+  // The sizes, from a first iteration.
+  void know(const Real* length, const Real* moved, int count) {
+    if (!(unit[0] > 0)) begin_with(length, moved, count);
+  }
+  // These are seldom done, and no part of a step's code.
+  __attribute__((noinline)) void begin_with(const Real* length, const Real* moved, int count) {
+    Real total = 0;
+    for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
+    if (!(total > 0 && total <= largest)) return;
+    for (int j = 0; j < count; ++j)
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
+  }
+  // Where a size is another one, the contraction is measured anew in the next step.
+  __attribute__((noinline)) void follow(const Real* value, int count) {
+    age = 0;
+    Real least = unit[0];
+    for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
+    for (int j = 0; j < count; ++j) {
+      const Real part = magnitude(value[j]) * unit[j];
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
+      if (part <= 2 && !falls) continue;
+      unit[j] = falls ? 2 * unit[j] : 1 / magnitude(value[j]);
+      this->unchecked = 32;
+    }
+  }
+  // The solution of a step, from the unknown `first` on, before the history records it.
+  template <class Past, int All>
+  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
+    if (++age >= 16) follow(solution + first, count);
+    this->motion.move = past.error(0, solution, first, count, unit);
+    this->motion.bend = past.error(Power + 1, solution, first, count, unit);
+  }
+  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
+  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
+  static Real relative(Real moved, Real length, Real way) {
+    if (Power == 1) return moved > 8 * epsilon * length + One::tiny ? moved : Real(0);
+    return moved > One::tiny ? moved / felt(length, way) : Real(0);
+  }
+  // Of its length and its way in the step.
+  static Real felt(Real length, Real way) {
+    const Real least = 16 * way + length / 1048576;
+    return Power == 2 && least < length ? least : length;
+  }
+  // Is even what all unknowns together move by lost in the rounding of one?  The least of them
+  // answers for all: no more need be asked.
+  bool is_lost_in(Real length, Real size) const {
+    if (Power == 1) return size <= 8 * epsilon * length;
+    const Real round_off = epsilon * length;
+    const Motion& m = this->motion;
+    const bool straight =
+        this->previous > 0 || m.bend * size * size * 16 <= round_off * One::power(m.move);
+    return straight && this->contraction * size * size * 16 <= round_off;
+  }
+  // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
+  // the lengths again where no way counts.
+  Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
+                  int iterations) {
+    know(length, moved, count);
+    Real size = moved[0] * unit[0];
+    Real least = length[0] * unit[0];
+    Real nearest = way[0] * unit[0];
+    for (int j = 1; j < count; ++j) {
+      size += moved[j] * unit[j];
+      const Real part = length[j] * unit[j];
+      least = part < least ? part : least;
+      const Real gone = way[j] * unit[j];
+      nearest = gone < nearest ? gone : nearest;
+    }
+    const Real shortest = way == length ? least : felt(least, nearest);
+    Real uneven = 0;
+    if (!is_lost_in(shortest, size)) {
+      for (int j = 0; j < count; ++j) {
+        uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
+      }
+    }
+    return this->template judge<true>(size, Real(count), iterations, uneven, [&](Real units) {
+      Real together = moved[0];
+      Real scale = length[0];
+      for (int j = 1; j < count; ++j) {
+        together += moved[j];
+        scale += length[j];
+      }
+      return together <= units * epsilon * scale;
+    });
+  }
+  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
+  // of increments and of lengths.
+  Verdict of_sums(Real size, Real uneven, Real moved, Real scale, int count, int iterations) {
+    return this->template judge<true>(size, Real(count), iterations, uneven,
+                                      [&](Real units) { return moved <= units * epsilon * scale; });
+  }
+};
