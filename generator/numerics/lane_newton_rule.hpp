@@ -43,10 +43,10 @@ struct NewtonRule : Iteration {
   }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations) {
-    return judge(size, scale, iterations, Real(0),
-                 [&](double units) { return size <= units * epsilon * scale; });
+    return judge<false>(size, scale, iterations, Real(0),
+                        [&](double units) { return size <= units * epsilon * scale; });
   }
-  template <class IsWithin>
+  template <bool Many, class IsWithin>
   Mask judge(const Real& size, const Real& scale, int iterations, const Real& uneven,
              const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
@@ -57,7 +57,8 @@ struct NewtonRule : Iteration {
     if (Power == 1) waits = (uneven > epsilon * epsilon * round_off) & !stays;
     const bool first = iterations == 1 && !checks;
     const Mask alone =
-        first ? is_lost(size, round_off) & serves(parts, waits, false) & !unmeasured : Mask(false);
+        first ? is_lost<Many>(size, round_off) & serves(parts, waits, false) & !unmeasured
+              : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -107,8 +108,9 @@ struct NewtonRule : Iteration {
     return contraction * power(size) * 1048576 <= round_off;
   }
   // The same of the first.
+  template <bool Many>
   Mask is_lost(const Real& size, const Real& round_off) const {
-    return is_next_lost(size, round_off) & is_straight(size, round_off);
+    return is_next_lost(size, round_off) & is_straight(size, (Many ? 8 : 1) * round_off);
   }
   // Is the next increment lost in the rounding of each unknown?
   Mask is_even(const Real& parts, bool measured) const {

@@ -89,7 +89,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       }
       uneven = select(lost, Real(0), uneven);
     }
-    return this->judge(size, Real(count), iterations, uneven, [&](double units) {
+    return this->template judge<true>(size, Real(count), iterations, uneven, [&](double units) {
       Real together = moved[0];
       Real scale = length[0];
       for (int j = 1; j < count; ++j) {
@@ -103,7 +103,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // of increments and of lengths.
   Mask of_sums(const Real& size, const Real& uneven, const Real& moved, const Real& scale,
                int count, int iterations) {
-    return this->judge(size, Real(count), iterations, uneven,
-                       [&](double units) { return moved <= units * epsilon * scale; });
+    return this->template judge<true>(size, Real(count), iterations, uneven, [&](double units) {
+      return moved <= units * epsilon * scale;
+    });
   }
 };

@@ -16,9 +16,9 @@
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment where
 // it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
-// increment across the motion or in unknowns that move less than others.  Where each unknown is
-// asked by itself a 16th of its rounding is what an increment may leave, measured or not: the bend
-// of a linear oscillation, which leaves nothing, is counted as well.
+// increment across the motion.  Of several unknowns, each in its own unit, they count 2^7 times,
+// and where each is asked by itself a 16th of its rounding is what an increment may leave, measured
+// or not: the bend of a linear oscillation, which leaves nothing, is counted as well.
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -38,8 +38,8 @@ struct Motion {
 template <int Power>
 struct NewtonRule {
   Real contraction = largest;
-  int unchecked = 0;
-  Real previous = 0;  // what the last increment was
+  int unchecked = 32;  // steps since it was measured
+  Real previous = 0;   // what the last increment was
   int grown = 0;
   bool predicted = false;
   Real far = 0;  // what was uneven in the iteration before
@@ -50,8 +50,6 @@ struct NewtonRule {
   // From a prediction, or else from the state itself.
   void begin(bool from_prediction) {
     previous = 0;
-    grown = 0;
-    far = 0;
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
@@ -62,49 +60,64 @@ struct NewtonRule {
   }
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
+    const Real round_off = epsilon * scale;
+    if (iterations == 1 && ends_at_once(size, round_off, round_off)) return Verdict::done;
     return judge<false>(size, scale, iterations, 0,
                         [&](Real units) { return size <= units * epsilon * scale; });
+  }
+  // Most steps do, with their first increment: where what the motion shows, and what was measured,
+  // is lost in this.
+  bool ends_at_once(Real size, Real shown, Real measured) {
+    const bool ends = unchecked < 31 && is_straight(size, shown) && is_next_lost(size, measured);
+    unchecked += ends;
+    return ends;
   }
   // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
   // many units of rounding of them all?
   template <bool Many, class IsWithin>
   Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
+    const Real round_off = epsilon * scale;
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
     }
-    const Real round_off = epsilon * scale;
-    const bool stays = Many && far > 0 && 10 * uneven > 9 * far;
+    const bool first = previous <= 0;
+    const bool stays = Many && !first && far > 0 && 10 * uneven > 9 * far;
     const bool waits = Power == 1 && uneven > epsilon * epsilon * round_off && !stays;
-    if (Many) far = uneven;
-    if (previous > 0) {
-      const Real seen = (size < round_off ? round_off : size) / power(previous);
-      // It may rise at once but falls slowly: one small increment may be luck.
-      const bool first = contraction >= largest;
-      if (first || (size > 64 * round_off && seen > contraction)) {
-        contraction = seen < largest ? seen : largest;
-      } else if (seen < contraction) {
-        contraction = 4 * seen < contraction ? contraction / 4 : seen;
-      }
-      unchecked = 0;
+    far = uneven;
+    if (first) {
+      ++unchecked;
+      grown = 0;
+    } else {
+      learn(size, round_off);
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = size < previous ? 0 : grown + 1;
       if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
-    } else {
-      ++unchecked;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     // Where nothing converges by squares any more it is rounding.
-    const bool slow = Many && Power == 2 && previous > 0 && 1024 * size > previous;
+    const bool slow = Many && Power == 2 && !first && 1024 * size > previous;
     if (slow && is_within(1)) return Verdict::done;
-    const bool looked = previous > 0 || is_straight(size, round_off);
-    if (looked && serves && unchecked < 32 && contraction * power(size) * 1048576 <= round_off) {
-      return Verdict::done;
-    }
+    const Real shown = (Many ? 8 : 1) * round_off;
+    const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
+    if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
+  }
+  // It may rise at once but falls slowly: one small increment may be luck.
+  void learn(Real size, Real round_off) {
+    const Real seen = (size < round_off ? round_off : size) / power(previous);
+    if (contraction >= largest || (size > 64 * round_off && seen > contraction)) {
+      contraction = seen < largest ? seen : largest;
+    } else if (seen < contraction) {
+      contraction = 4 * seen < contraction ? contraction / 4 : seen;
+    }
+    unchecked = 0;
+  }
+  bool is_next_lost(Real size, Real round_off) const {
+    return contraction * power(size) * 1048576 <= round_off;
   }
   // See Note [what is below rounding].
   bool is_chance(Real size, Real round_off) const {

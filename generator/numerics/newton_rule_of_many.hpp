@@ -80,17 +80,32 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // answers for all: no more need be asked.
   bool is_lost_in(Real length, Real size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
-    const Real round_off = epsilon * length;
+    return this->contraction * size * size * 16 <= epsilon * length;
+  }
+  // The same of what the motion shows.
+  bool bends_little(Real length, Real size) const {
     const Motion& m = this->motion;
-    const bool straight =
-        this->previous > 0 || m.bend * size * size * 16 <= round_off * One::power(m.move);
-    return straight && this->contraction * size * size * 16 <= round_off;
+    return Power == 1 || m.bend * size * size * 16 <= epsilon * length * One::power(m.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
-    know(length, moved, count);
+    const Seen seen = sums_of(moved, length, way, count);
+    // In 16 times what is lost in the least of them, and in what is lost in all: with its factors.
+    const Real round_off = epsilon * count;
+    const Real least = 64 * epsilon * seen.shortest;
+    const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
+    const Real measured = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;
+    const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
+    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured))
+      return Verdict::done;
+    return judge_each(seen, moved, length, way, count, iterations);
+  }
+  struct Seen {
+    Real size, shortest;
+  };
+  Seen sums_of(const Real* moved, const Real* length, const Real* way, int count) const {
     Real size = moved[0] * unit[0];
     Real least = length[0] * unit[0];
     Real nearest = way[0] * unit[0];
@@ -101,14 +116,22 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real gone = way[j] * unit[j];
       nearest = gone < nearest ? gone : nearest;
     }
-    const Real shortest = way == length ? least : felt(least, nearest);
+    return {size, way == length ? least : felt(least, nearest)};
+  }
+  __attribute__((noinline)) Verdict judge_each(Seen seen, const Real* moved, const Real* length,
+                                               const Real* way, int count, int iterations) {
+    if (!(unit[0] > 0)) {
+      know(length, moved, count);
+      seen = sums_of(moved, length, way, count);
+    }
     Real uneven = 0;
-    if (!is_lost_in(shortest, size)) {
+    const bool little = this->previous > 0 || bends_little(seen.shortest, seen.size);
+    if (!(little && is_lost_in(seen.shortest, seen.size))) {
       for (int j = 0; j < count; ++j) {
         uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
       }
     }
-    return this->template judge<true>(size, Real(count), iterations, uneven, [&](Real units) {
+    return this->template judge<true>(seen.size, Real(count), iterations, uneven, [&](Real units) {
       Real together = moved[0];
       Real scale = length[0];
       for (int j = 1; j < count; ++j) {

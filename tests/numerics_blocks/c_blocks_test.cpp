@@ -137,7 +137,9 @@ void expect_rules_answer_alike() {
       ASSERT_EQ(in_cpp.contraction, in_c.of.contraction);
       ASSERT_EQ(in_cpp.previous, in_c.of.previous);
       ASSERT_EQ(in_cpp.unchecked, in_c.of.unchecked);
-      ASSERT_EQ(in_cpp.grown, in_c.of.grown);
+      if (iteration > 1) {
+        ASSERT_EQ(in_cpp.grown, in_c.of.grown);
+      }
       for (int j = 0; j < 3; ++j) ASSERT_EQ(in_cpp.unit[j], in_c.of.unit[j]);
       for (Real& each : moved) each *= shrinks;
     }

@@ -233,6 +233,7 @@ TYPED_TEST(NewtonRuleOfMany, SizesFollowTheUnknowns) {
 
   typename TypeParam::template Past<3> past;
   for (Real& unit : rule.unit) unit = 1;
+  rule.unchecked = 0;
   const Real as_before[3] = {2, -2, Real(1) / 1024};
   for (int step = 0; step < 64; ++step) rule.watch(past, as_before, 0, 3);
   for (const Real& unit : rule.unit) EXPECT_EQ(unit, Real(1));

@@ -19,7 +19,7 @@ typedef struct {
   int age;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 0, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0};
+  const NewtonRule rule = {power, largest, 32, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -35,7 +35,7 @@ static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
 // size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
 // relative of them; moved, length: the sums of increments and of lengths, whatever their units.
 static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, int iterations,
-                                       Real uneven, Real moved, Real length) {
+                                       Real uneven, Real moved, Real length, bool many) {
   if (!(size <= largest)) {
     rule->previous = size;
     return failed;
@@ -74,8 +74,9 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool slow = rule->power == 2 && rule->previous > 0 && 1024 * size > rule->previous;
   if (slow && moved <= epsilon * length) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
+  const Real shown = (many ? 8 : 1) * round_off;
   const bool straight =
-      bend * NewtonRule_power(rule, size) * 1024 <= round_off * NewtonRule_power(rule, rule->move);
+      bend * NewtonRule_power(rule, size) * 1024 <= shown * NewtonRule_power(rule, rule->move);
   if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;
@@ -165,9 +166,9 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
     together += moved[j];
     scale += length[j];
   }
-  return NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale);
+  return NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale, true);
 }
 // Of a single unknown.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
-  return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale);
+  return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale, false);
 }
