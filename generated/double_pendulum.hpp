@@ -88,11 +88,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_86242867::float64 {
+namespace hamgen_1f8ec4ac::float64 {
 using Real = double;
 
-#ifndef HAMGEN_86242867_FLOAT64_STEP_REPORT
-#define HAMGEN_86242867_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
+#define HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -102,15 +102,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_VOCABULARY
-#define HAMGEN_86242867_FLOAT64_VOCABULARY
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
+#define HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_TWO_SUM
-#define HAMGEN_86242867_FLOAT64_TWO_SUM
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
+#define HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -120,8 +120,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_SUM_WITH_REST
-#define HAMGEN_86242867_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
+#define HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -133,14 +133,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_VERDICT
-#define HAMGEN_86242867_FLOAT64_VERDICT
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_VERDICT
+#define HAMGEN_1F8EC4AC_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_NEWTON_RULE
-#define HAMGEN_86242867_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
+#define HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -159,7 +159,7 @@ enum class Verdict { go_on, done, failed };
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment where
 // it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
-// increment across the motion.  Of several unknowns, each in its own unit, they count 2^8 times,
+// increment across the motion.  Of several unknowns, each in its own unit, they count 2^7 times,
 // and where each is asked by itself a 16th of its rounding is what an increment may leave, measured
 // or not: the bend of a linear oscillation, which leaves nothing, is counted as well.
 //
@@ -185,7 +185,8 @@ struct NewtonRule {
   Real previous = 0;   // what the last increment was
   int grown = 0;
   bool predicted = false;
-  Real far = 0;  // what was uneven in the iteration before
+  Real far = 0;        // what was uneven in the iteration before
+  bool noisy = false;  // was it within rounding?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -232,32 +233,36 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
-      learn(size, round_off);
+      const Real least = Power == 2 ? 8 : 2;
+      const bool slow = Many ? least * size > previous : size >= previous;
+      learn(size, round_off, Many && (slow || noisy));
+      unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
-      grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
+      grown = slow ? grown + 1 : 0;
+      const bool small = !Many || 4096 * size <= scale;
+      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    // Where nothing converges by squares any more it is rounding.
-    const bool slow = Many && Power == 2 && !first && 1024 * size > previous;
-    if (slow && is_within(1)) return Verdict::done;
-    const Real shown = (Many ? 4 : 1) * round_off;
+    const Real shown = (Many ? 8 : 1) * round_off;
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
+    noisy = Many && is_within(64);
+    if (iterations >= 60 && noisy) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
-  // It may rise at once but falls slowly: one small increment may be luck.
-  void learn(Real size, Real round_off) {
+  // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
+  // does not rise where nothing converges, or by what may be noise.
+  void learn(Real size, Real round_off, bool doubtful) {
     const Real seen = (size < round_off ? round_off : size) / power(previous);
-    if (contraction >= largest || (size > 64 * round_off && seen > contraction)) {
+    const bool rises = !doubtful && size > 64 * round_off && seen > contraction;
+    if (contraction >= largest || rises) {
       contraction = seen < largest ? seen : largest;
     } else if (seen < contraction) {
       contraction = 4 * seen < contraction ? contraction / 4 : seen;
     }
-    unchecked = 0;
   }
   bool is_next_lost(Real size, Real round_off) const {
     return contraction * power(size) * 1048576 <= round_off;
@@ -281,17 +286,19 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_86242867_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
 // Nothing may hang on the units in which they are written: sums of what is 1e-5 in one unknown and
 // 1 in another do not see the wall that the first runs into, and were off by 5e6 roundings.  So
-// increments are added as parts of the sizes that their unknowns have had.  A size is taken anew
-// where its unknown has become more than twice as large, and is halved, in every 32nd step, where
-// it is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by, so
-// that it may begin at zero, and at least a 2^-40th of all together.
+// increments are added as parts of the sizes that their unknowns have had.  In every 16th step a
+// size is taken anew where its unknown has become more than twice as large, and is a 32nd where
+// that is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by,
+// so that it may begin at zero, and at least a 2^-20th of all together: in what is smaller,
+// rounding errors of the others may be most of an increment.  So whether it may be noise is asked
+// of plain sums; what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -317,7 +324,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
 
-  static Real size_of(Real length, Real moved) { return magnitude(length) + 32 * magnitude(moved); }
+  static Real size_of(Real length, Real moved) {
+    const Real value = magnitude(length);
+    const Real by = magnitude(moved);
+    return value + 32 * (value > 0 && value < by ? value : by);
+  }
   // The sizes, from a first iteration.
   void know(const Real* length, const Real* moved, int count) {
     if (!(unit[0] > 0)) begin_with(length, moved, count);
@@ -328,7 +339,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     if (!(total > 0 && total <= largest)) return;
     for (int j = 0; j < count; ++j)
-      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1048576 + smallest);
   }
   // Where a size is another one, the contraction is measured anew in the next step.
   __attribute__((noinline)) void follow(const Real* value, int count) {
@@ -337,9 +348,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1048576 * least;
       if (part <= 2 && !falls) continue;
-      unit[j] = falls ? 2 * unit[j] : 1 / magnitude(value[j]);
+      unit[j] = falls ? 32 * unit[j] : 1 / magnitude(value[j]);
       this->unchecked = 32;
     }
   }
@@ -380,7 +391,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     // In 16 times what is lost in the least of them, and in what is lost in all: with its factors.
     const Real round_off = epsilon * count;
     const Real least = 64 * epsilon * seen.shortest;
-    const Real shown = Power == 2 && least < 4 * round_off ? least : 4 * round_off;
+    const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
     if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured))
@@ -410,13 +421,16 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       seen = sums_of(moved, length, way, count);
     }
     Real uneven = 0;
-    const bool little = this->previous > 0 || bends_little(seen.shortest, seen.size);
-    if (!(little && is_lost_in(seen.shortest, seen.size))) {
+    // What this step has measured is not known yet where there is something to measure.
+    const bool asked = Power == 1 || this->previous <= 0;
+    const bool lost =
+        asked && bends_little(seen.shortest, seen.size) && is_lost_in(seen.shortest, seen.size);
+    if (!lost) {
       for (int j = 0; j < count; ++j) {
         uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
       }
     }
-    return this->template judge<true>(seen.size, Real(count), iterations, uneven, [&](Real units) {
+    const auto is_within = [&](Real units) {
       Real together = moved[0];
       Real scale = length[0];
       for (int j = 1; j < count; ++j) {
@@ -424,19 +438,34 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         scale += length[j];
       }
       return together <= units * epsilon * scale;
-    });
+    };
+    const Verdict verdict =
+        this->template judge<true>(seen.size, Real(count), iterations, uneven, is_within);
+    if (verdict == Verdict::done && this->grown >= 2) hear(moved, count);
+    return verdict;
   }
-  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
-  // of increments and of lengths.
-  Verdict of_sums(Real size, Real uneven, Real moved, Real scale, int count, int iterations) {
-    return this->template judge<true>(size, Real(count), iterations, uneven,
-                                      [&](Real units) { return moved <= units * epsilon * scale; });
+  // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
+  __attribute__((noinline)) void hear(const Real* moved, int count) {
+    for (int j = 0; j < count; ++j) {
+      const Real noise = magnitude(moved[j]);
+      if (noise * unit[j] > 64 * epsilon) unit[j] = 64 * epsilon / noise;
+    }
+  }
+  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
+  // is relative of each, of increments and of lengths.
+  Verdict of_sums(const Real* increment, Real size, Real uneven, Real moved, Real scale, int count,
+                  int iterations) {
+    const auto is_within = [&](Real units) { return moved <= units * epsilon * scale; };
+    const Verdict verdict =
+        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
+    if (verdict == Verdict::done && this->grown >= 2) hear(increment, count);
+    return verdict;
   }
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_HISTORY
-#define HAMGEN_86242867_FLOAT64_HISTORY
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_HISTORY
+#define HAMGEN_1F8EC4AC_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -542,8 +571,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_FORGET
-#define HAMGEN_86242867_FLOAT64_FORGET
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_FORGET
+#define HAMGEN_1F8EC4AC_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -553,17 +582,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_86242867::float64
+}  // namespace hamgen_1f8ec4ac::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x365da944
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x47cff7bc
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_365da944 {
+inline namespace emitted_47cff7bc {
 
-namespace numerics = ::hamgen_86242867::float64;
+namespace numerics = ::hamgen_1f8ec4ac::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -751,9 +780,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_365da944
+}  // namespace emitted_47cff7bc
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x365da944
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x47cff7bc
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -71,11 +71,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_86242867::float64 {
+namespace hamgen_1f8ec4ac::float64 {
 using Real = double;
 
-#ifndef HAMGEN_86242867_FLOAT64_STEP_REPORT
-#define HAMGEN_86242867_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
+#define HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -85,15 +85,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_VOCABULARY
-#define HAMGEN_86242867_FLOAT64_VOCABULARY
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
+#define HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_TWO_SUM
-#define HAMGEN_86242867_FLOAT64_TWO_SUM
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
+#define HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -103,8 +103,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_SUM_WITH_REST
-#define HAMGEN_86242867_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
+#define HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -116,14 +116,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_VERDICT
-#define HAMGEN_86242867_FLOAT64_VERDICT
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_VERDICT
+#define HAMGEN_1F8EC4AC_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_NEWTON_RULE
-#define HAMGEN_86242867_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
+#define HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -142,7 +142,7 @@ enum class Verdict { go_on, done, failed };
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment where
 // it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
-// increment across the motion.  Of several unknowns, each in its own unit, they count 2^8 times,
+// increment across the motion.  Of several unknowns, each in its own unit, they count 2^7 times,
 // and where each is asked by itself a 16th of its rounding is what an increment may leave, measured
 // or not: the bend of a linear oscillation, which leaves nothing, is counted as well.
 //
@@ -168,7 +168,8 @@ struct NewtonRule {
   Real previous = 0;   // what the last increment was
   int grown = 0;
   bool predicted = false;
-  Real far = 0;  // what was uneven in the iteration before
+  Real far = 0;        // what was uneven in the iteration before
+  bool noisy = false;  // was it within rounding?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -215,32 +216,36 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
-      learn(size, round_off);
+      const Real least = Power == 2 ? 8 : 2;
+      const bool slow = Many ? least * size > previous : size >= previous;
+      learn(size, round_off, Many && (slow || noisy));
+      unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
-      grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
+      grown = slow ? grown + 1 : 0;
+      const bool small = !Many || 4096 * size <= scale;
+      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    // Where nothing converges by squares any more it is rounding.
-    const bool slow = Many && Power == 2 && !first && 1024 * size > previous;
-    if (slow && is_within(1)) return Verdict::done;
-    const Real shown = (Many ? 4 : 1) * round_off;
+    const Real shown = (Many ? 8 : 1) * round_off;
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
+    noisy = Many && is_within(64);
+    if (iterations >= 60 && noisy) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
-  // It may rise at once but falls slowly: one small increment may be luck.
-  void learn(Real size, Real round_off) {
+  // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
+  // does not rise where nothing converges, or by what may be noise.
+  void learn(Real size, Real round_off, bool doubtful) {
     const Real seen = (size < round_off ? round_off : size) / power(previous);
-    if (contraction >= largest || (size > 64 * round_off && seen > contraction)) {
+    const bool rises = !doubtful && size > 64 * round_off && seen > contraction;
+    if (contraction >= largest || rises) {
       contraction = seen < largest ? seen : largest;
     } else if (seen < contraction) {
       contraction = 4 * seen < contraction ? contraction / 4 : seen;
     }
-    unchecked = 0;
   }
   bool is_next_lost(Real size, Real round_off) const {
     return contraction * power(size) * 1048576 <= round_off;
@@ -264,8 +269,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_HISTORY
-#define HAMGEN_86242867_FLOAT64_HISTORY
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_HISTORY
+#define HAMGEN_1F8EC4AC_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -371,8 +376,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_FORGET
-#define HAMGEN_86242867_FLOAT64_FORGET
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_FORGET
+#define HAMGEN_1F8EC4AC_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -382,8 +387,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_86242867_FLOAT64_AHEAD
-#define HAMGEN_86242867_FLOAT64_AHEAD
+#ifndef HAMGEN_1F8EC4AC_FLOAT64_AHEAD
+#define HAMGEN_1F8EC4AC_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -398,17 +403,17 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_86242867::float64
+}  // namespace hamgen_1f8ec4ac::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x66122d4c
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x18c06d61
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_66122d4c {
+inline namespace emitted_18c06d61 {
 
-namespace numerics = ::hamgen_86242867::float64;
+namespace numerics = ::hamgen_1f8ec4ac::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
@@ -597,9 +602,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_66122d4c
+}  // namespace emitted_18c06d61
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x66122d4c
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x18c06d61
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

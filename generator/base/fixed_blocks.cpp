@@ -107,7 +107,7 @@ constexpr FixedBlock kCBlocks[] = {
     {kVocabulary, "magnitude largest"},
     {"newton_rule",
      "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "
-     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_judge "
+     "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_learn NewtonRule_judge "
      "NewtonRule_size_of NewtonRule_know NewtonRule_follow "
      "NewtonRule_of_each "
      "NewtonRule_check"},

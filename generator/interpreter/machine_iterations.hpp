@@ -123,7 +123,7 @@ class MachineIterations : public MachineAddresses<Real> {
       const Real way = u.by_torn ? magnitude(value - beside) : length;
       sums.uneven += rule.relative(moved, length, way);
     });
-    return {rule.of_sums(sums, static_cast<int>(count), iteration), sums.size};
+    return {rule.of_sums(all_moved, sums, iteration), sums.size};
   }
   // All together, where they are written out: the corrections, then the sums from the left, term by
   // term.

@@ -83,10 +83,10 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count, unit) : Real(0);
     used_ = false;
   }
-  Answer of_sums(const Sums& sums, int count, int iteration) override {
+  Answer of_sums(std::span<const Real> increments, const Sums& sums, int iteration) override {
     if constexpr (Size > 0) {
-      return answer(
-          rule_.of_sums(sums.size, sums.uneven, sums.moved, sums.scale, count, iteration));
+      return answer(rule_.of_sums(increments.data(), sums.size, sums.uneven, sums.moved, sums.scale,
+                                  static_cast<int>(increments.size()), iteration));
     } else {
       return answer(rule_(sums.moved, sums.scale, iteration));
     }
@@ -128,7 +128,7 @@ class LinearRuleOf final : public AnyNewtonRule<Real> {
   void begin(bool /*predicted*/) override { rule_.begin(); }
   void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
              int /*count*/) override {}
-  Answer of_sums(const Sums& sums, int /*count*/, int iteration) override {
+  Answer of_sums(std::span<const Real> /*increments*/, const Sums& sums, int iteration) override {
     return answer(rule_(sums.moved, sums.scale, iteration, sums.uneven));
   }
   [[nodiscard]] Real relative(Real moved, Real length, Real /*way*/) const override {

@@ -73,7 +73,7 @@ struct AnyNewtonRule {
   struct Sums {
     Real size = 0, uneven = 0, moved = 0, scale = 0;
   };
-  virtual Answer of_sums(const Sums& sums, int count, int iteration) = 0;
+  virtual Answer of_sums(std::span<const Real> increments, const Sums& sums, int iteration) = 0;
   [[nodiscard]] virtual Real relative(Real moved, Real length, Real way) const = 0;
   // One over the size of each unknown, once a first iteration is known.
   virtual void know(std::span<const Real> /*value*/, std::span<const Real> /*moved*/) {}

@@ -14,6 +14,8 @@ struct NewtonRule : Iteration {
   Mask predicted = false;
   bool checks = false;
   bool begins = true;
+  Mask noisy = false;       // was the increment before within rounding?
+  Mask still = false;       // lanes that have ended with noise
   Mask unmeasured = false;  // lanes whose contraction is to be measured before it is believed
   Real far = 0;
   Motion motion;
@@ -68,10 +70,17 @@ struct NewtonRule : Iteration {
     end_with(open & !(size <= largest), size);
     Mask done = alone;
     Mask noise = false;
+    still = false;
     if (iterations > 1) {
       noise = is_within(4096);
-      learn(size, round_off);
-      done = (grown >= 2) & noise & !waits;
+      const double least = Power == 2 ? 8 : 2;
+      const Mask slow = Many ? least * size > previous : size >= previous;
+      learn(size, round_off, Many ? slow | noisy : Mask(false));
+      unmeasured = unmeasured & !open;
+      grown = select(open, select(slow, grown + 1, Real(0)), grown);
+      const Mask small = Many ? 4096 * size <= scale : Mask(true);
+      done = (grown >= 2) & small & noise & !waits;
+      still = open & done;
     }
     const Mask served = serves(parts, waits, iterations > 1);
     Mask lost = (size <= round_off) & (served | stays);
@@ -80,11 +89,14 @@ struct NewtonRule : Iteration {
       lost = lost & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
     }
     done = done | lost;
-    if (Power == 2 && iterations > 1) done = done | ((1024 * size > previous) & is_within(1));
     if (iterations > 1) done = done | (is_next_lost(size, round_off) & served);
     open = open & !done;
     if (iterations > 1) end_with(open & predicted & (2 * size > previous) & !noise, size);
-    if (iterations >= 60) end_with(open, size);
+    noisy = Many ? is_within(64) : Mask(false);
+    if (iterations >= 60) {
+      open = open & !noisy;
+      end_with(open, size);
+    }
     previous = size;
     begins = false;
     return open;
@@ -92,16 +104,15 @@ struct NewtonRule : Iteration {
   Mask serves(const Real& parts, const Mask& waits, bool measured) const {
     return Power == 1 ? !waits : is_even(parts, measured);
   }
-  void learn(const Real& size, const Real& round_off) {
+  void learn(const Real& size, const Real& round_off, const Mask& doubtful) {
     const Real seen = select(size < round_off, round_off, size) / power(previous);
     // It may rise at once but falls slowly: one small increment may be luck.
-    const Mask rises = (contraction >= largest) | ((size > 64 * round_off) & (seen > contraction));
+    const Mask seen_more = !doubtful & (size > 64 * round_off) & (seen > contraction);
+    const Mask rises = (contraction >= largest) | seen_more;
     const Mask falls = open & !rises & (seen < contraction);
     const Real lower = select(4 * seen < contraction, contraction / 4, seen);
-    unmeasured = unmeasured & !open;
     contraction = select(open & rises, select(seen < largest, seen, Real(largest)),
                          select(falls, lower, contraction));
-    grown = select(open, select(size < previous, Real(0), grown + 1), grown);
   }
   // Would the next increment be?
   Mask is_next_lost(const Real& size, const Real& round_off) const {

@@ -13,7 +13,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (Real& each : unit) each = select(lanes, Real(0), each);
   }
   static Real size_of(const Real& length, const Real& moved) {
-    return magnitude(length) + 32 * magnitude(moved);
+    const Real value = magnitude(length);
+    const Real by = magnitude(moved);
+    return value + 32 * select((value > 0) & (value < by), value, by);
   }
   // The sizes, from a first iteration.
   void know(const Real* length, const Real* moved, int count) {
@@ -25,7 +27,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     const Mask unknown = (!(unit[0] > 0)) & (total > 0) & (total <= largest);
     for (int j = 0; j < count; ++j) {
-      const Real size = size_of(length[j], moved[j]) + total / 1099511627776;
+      const Real size = size_of(length[j], moved[j]) + total / 1048576;
       unit[j] = select(unknown, 1 / (size + smallest), unit[j]);
     }
   }
@@ -35,9 +37,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = select(unit[j] < least, unit[j], least);
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1099511627776 * least);
+      const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1048576 * least);
       const Mask changes = falls | (part > 2);
-      unit[j] = select(changes, select(falls, 2 * unit[j], 1 / magnitude(value[j])), unit[j]);
+      unit[j] = select(changes, select(falls, 32 * unit[j], 1 / magnitude(value[j])), unit[j]);
       this->unmeasured = this->unmeasured | changes;
     }
   }
@@ -61,8 +63,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Mask is_lost_in(const Real& length, const Real& size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
     const Real round_off = epsilon * length;
+    if (!this->begins) return false;
     const Mask lost = this->contraction * size * size * 16 <= round_off;
-    if (!this->begins) return lost;
     const Motion& m = this->motion;
     return lost & (m.bend * size * size * 16 <= round_off * One::power(m.move));
   }
@@ -89,7 +91,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       }
       uneven = select(lost, Real(0), uneven);
     }
-    return this->template judge<true>(size, Real(count), iterations, uneven, [&](double units) {
+    const auto is_within = [&](double units) {
       Real together = moved[0];
       Real scale = length[0];
       for (int j = 1; j < count; ++j) {
@@ -97,14 +99,28 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         scale += length[j];
       }
       return together <= units * epsilon * scale;
-    });
+    };
+    const Mask moving =
+        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
+    if (any(this->still)) hear(moved, count);
+    return moving;
   }
-  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
-  // of increments and of lengths.
-  Mask of_sums(const Real& size, const Real& uneven, const Real& moved, const Real& scale,
-               int count, int iterations) {
-    return this->template judge<true>(size, Real(count), iterations, uneven, [&](double units) {
-      return moved <= units * epsilon * scale;
-    });
+  // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
+  __attribute__((noinline)) void hear(const Real* moved, int count) {
+    for (int j = 0; j < count; ++j) {
+      const Real noise = magnitude(moved[j]);
+      const Mask loud = this->still & (noise * unit[j] > 64 * epsilon);
+      unit[j] = select(loud, 64 * epsilon / noise, unit[j]);
+    }
+  }
+  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
+  // is relative of each, of increments and of lengths.
+  Mask of_sums(const Real* increment, const Real& size, const Real& uneven, const Real& moved,
+               const Real& scale, int count, int iterations) {
+    const auto is_within = [&](double units) { return moved <= units * epsilon * scale; };
+    const Mask moving =
+        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
+    if (any(this->still)) hear(increment, count);
+    return moving;
   }
 };

@@ -42,7 +42,8 @@ struct NewtonRule {
   Real previous = 0;   // what the last increment was
   int grown = 0;
   bool predicted = false;
-  Real far = 0;  // what was uneven in the iteration before
+  Real far = 0;        // what was uneven in the iteration before
+  bool noisy = false;  // was it within rounding?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -89,32 +90,36 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
-      learn(size, round_off);
+      const Real least = Power == 2 ? 8 : 2;
+      const bool slow = Many ? least * size > previous : size >= previous;
+      learn(size, round_off, Many && (slow || noisy));
+      unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
-      grown = size < previous ? 0 : grown + 1;
-      if (grown >= 2 && !waits && is_within(4096)) return Verdict::done;
+      grown = slow ? grown + 1 : 0;
+      const bool small = !Many || 4096 * size <= scale;
+      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    // Where nothing converges by squares any more it is rounding.
-    const bool slow = Many && Power == 2 && !first && 1024 * size > previous;
-    if (slow && is_within(1)) return Verdict::done;
     const Real shown = (Many ? 8 : 1) * round_off;
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
+    noisy = Many && is_within(64);
+    if (iterations >= 60 && noisy) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
-  // It may rise at once but falls slowly: one small increment may be luck.
-  void learn(Real size, Real round_off) {
+  // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
+  // does not rise where nothing converges, or by what may be noise.
+  void learn(Real size, Real round_off, bool doubtful) {
     const Real seen = (size < round_off ? round_off : size) / power(previous);
-    if (contraction >= largest || (size > 64 * round_off && seen > contraction)) {
+    const bool rises = !doubtful && size > 64 * round_off && seen > contraction;
+    if (contraction >= largest || rises) {
       contraction = seen < largest ? seen : largest;
     } else if (seen < contraction) {
       contraction = 4 * seen < contraction ? contraction / 4 : seen;
     }
-    unchecked = 0;
   }
   bool is_next_lost(Real size, Real round_off) const {
     return contraction * power(size) * 1048576 <= round_off;

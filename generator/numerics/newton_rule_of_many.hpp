@@ -3,10 +3,12 @@
 // Note [units]
 // Nothing may hang on the units in which they are written: sums of what is 1e-5 in one unknown and
 // 1 in another do not see the wall that the first runs into, and were off by 5e6 roundings.  So
-// increments are added as parts of the sizes that their unknowns have had.  A size is taken anew
-// where its unknown has become more than twice as large, and is halved, in every 32nd step, where
-// it is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by, so
-// that it may begin at zero, and at least a 2^-40th of all together.
+// increments are added as parts of the sizes that their unknowns have had.  In every 16th step a
+// size is taken anew where its unknown has become more than twice as large, and is a 32nd where
+// that is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by,
+// so that it may begin at zero, and at least a 2^-20th of all together: in what is smaller,
+// rounding errors of the others may be most of an increment.  So whether it may be noise is asked
+// of plain sums; what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -32,7 +34,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
 
-  static Real size_of(Real length, Real moved) { return magnitude(length) + 32 * magnitude(moved); }
+  static Real size_of(Real length, Real moved) {
+    const Real value = magnitude(length);
+    const Real by = magnitude(moved);
+    return value + 32 * (value > 0 && value < by ? value : by);
+  }
   // The sizes, from a first iteration.
   void know(const Real* length, const Real* moved, int count) {
     if (!(unit[0] > 0)) begin_with(length, moved, count);
@@ -43,7 +49,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     if (!(total > 0 && total <= largest)) return;
     for (int j = 0; j < count; ++j)
-      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1048576 + smallest);
   }
   // Where a size is another one, the contraction is measured anew in the next step.
   __attribute__((noinline)) void follow(const Real* value, int count) {
@@ -52,9 +58,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1048576 * least;
       if (part <= 2 && !falls) continue;
-      unit[j] = falls ? 2 * unit[j] : 1 / magnitude(value[j]);
+      unit[j] = falls ? 32 * unit[j] : 1 / magnitude(value[j]);
       this->unchecked = 32;
     }
   }
@@ -125,13 +131,16 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       seen = sums_of(moved, length, way, count);
     }
     Real uneven = 0;
-    const bool little = this->previous > 0 || bends_little(seen.shortest, seen.size);
-    if (!(little && is_lost_in(seen.shortest, seen.size))) {
+    // What this step has measured is not known yet where there is something to measure.
+    const bool asked = Power == 1 || this->previous <= 0;
+    const bool lost =
+        asked && bends_little(seen.shortest, seen.size) && is_lost_in(seen.shortest, seen.size);
+    if (!lost) {
       for (int j = 0; j < count; ++j) {
         uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
       }
     }
-    return this->template judge<true>(seen.size, Real(count), iterations, uneven, [&](Real units) {
+    const auto is_within = [&](Real units) {
       Real together = moved[0];
       Real scale = length[0];
       for (int j = 1; j < count; ++j) {
@@ -139,12 +148,27 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         scale += length[j];
       }
       return together <= units * epsilon * scale;
-    });
+    };
+    const Verdict verdict =
+        this->template judge<true>(seen.size, Real(count), iterations, uneven, is_within);
+    if (verdict == Verdict::done && this->grown >= 2) hear(moved, count);
+    return verdict;
   }
-  // Sums over the unknowns of arrays: of increments as parts of sizes, of what is relative of each,
-  // of increments and of lengths.
-  Verdict of_sums(Real size, Real uneven, Real moved, Real scale, int count, int iterations) {
-    return this->template judge<true>(size, Real(count), iterations, uneven,
-                                      [&](Real units) { return moved <= units * epsilon * scale; });
+  // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
+  __attribute__((noinline)) void hear(const Real* moved, int count) {
+    for (int j = 0; j < count; ++j) {
+      const Real noise = magnitude(moved[j]);
+      if (noise * unit[j] > 64 * epsilon) unit[j] = 64 * epsilon / noise;
+    }
+  }
+  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
+  // is relative of each, of increments and of lengths.
+  Verdict of_sums(const Real* increment, Real size, Real uneven, Real moved, Real scale, int count,
+                  int iterations) {
+    const auto is_within = [&](Real units) { return moved <= units * epsilon * scale; };
+    const Verdict verdict =
+        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
+    if (verdict == Verdict::done && this->grown >= 2) hear(increment, count);
+    return verdict;
   }
 };

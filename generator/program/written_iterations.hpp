@@ -245,8 +245,8 @@ class IterationWriter : public FailureWriter {
           "+=");
     });
     return action("NewtonRule", rule, "of_sums",
-                  {at({"size "}), at({"uneven "}), at({"moved "}), at({"scale "}),
-                   integer(iterate.count), at({"iteration "})});
+                  {object(iterate.increments), at({"size "}), at({"uneven "}), at({"moved "}),
+                   at({"scale "}), integer(iterate.count), at({"iteration "})});
   }
   // Of linear equations it is told the increments, and what their unknowns are rounded with.
   Value judged_of_lengths(const IterateArray& iterate) {

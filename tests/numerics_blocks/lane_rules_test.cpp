@@ -15,14 +15,14 @@ void expect_newton_ends_as_alone(double uneven) {
       lanes::NewtonRuleOfMany<Power, 1> rule;
       rule.begin(predicted, turn_of_all());
       ask_together(batch, [&](const lanes::Real& size, int iteration) {
-        return rule.of_sums(size, lanes::Real(uneven), size, lanes::Real(1), 1, iteration);
+        return rule.of_sums(&size, size, lanes::Real(uneven), size, lanes::Real(1), 1, iteration);
       });
       for (int lane = 0; lane < kCount; ++lane) {
         of_double::NewtonRuleOfMany<Power, 1> alone;
         alone.begin(predicted);
         const Increments& increments = increments_of(batch, lane);
         const End end = end_alone(increments, [&](double size, int iteration) {
-          return alone.of_sums(size, uneven, size, 1, 1, iteration);
+          return alone.of_sums(&size, size, uneven, size, 1, 1, iteration);
         });
         EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted << Power;
       }
@@ -292,6 +292,8 @@ TEST(LaneRules, SizesFollowTheUnknownsOfEachLaneAsAlone) {
     for (int lane = 0; lane < kCount; ++lane) {
       of_double::NewtonRuleOfMany<2, 3>& one = alone[lane];
       one.contraction = rule.contraction[lane];
+      // A lane's history knows more of what has no order.
+      one.motion = {rule.motion.move[lane], rule.motion.bend[lane]};
       const bool forced = one.unchecked >= 32;
       if (!forced) one.unchecked = 0;
       measured += forced ? 1 : 0;
@@ -317,7 +319,7 @@ TEST(LaneRules, SizesFollowTheUnknownsOfEachLaneAsAlone) {
     rule.watch(history, solution, 0, 3);
     history.record(solution);
   }
-  EXPECT_GT(measured, 100);
+  EXPECT_GT(measured, 50);
 }
 
 TEST(LaneRules, WhatALaneForgetsTheOthersKnow) {

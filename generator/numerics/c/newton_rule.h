@@ -17,9 +17,10 @@ typedef struct {
   Real far;
   Real unit[3];  // one over the size of each unknown, of which there are at most three; 0: unknown
   int age;
+  bool noisy;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 32, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0};
+  const NewtonRule rule = {power, largest, 32, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0, false};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -31,6 +32,16 @@ static inline void NewtonRule_begin(NewtonRule* rule, bool predicted) {
   rule->grown = 0;
   rule->far = 0;
   rule->predicted = predicted;
+}
+static inline void NewtonRule_learn(NewtonRule* rule, Real size, Real round_off, bool doubtful) {
+  const Real seen = (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
+  // It may rise at once but falls slowly: one small increment may be luck.
+  const bool first = rule->contraction >= largest;
+  if (first || (!doubtful && size > 64 * round_off && seen > rule->contraction)) {
+    rule->contraction = seen < largest ? seen : largest;
+  } else if (seen < rule->contraction) {
+    rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
+  }
 }
 // size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
 // relative of them; moved, length: the sums of increments and of lengths, whatever their units.
@@ -45,21 +56,17 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool waits = rule->power == 1 && uneven > epsilon * epsilon * round_off && !stays;
   rule->far = uneven;
   if (rule->previous > 0) {
-    const Real seen =
-        (size < round_off ? round_off : size) / NewtonRule_power(rule, rule->previous);
-    // It may rise at once but falls slowly: one small increment may be luck.
-    const bool first = rule->contraction >= largest;
-    if (first || (size > 64 * round_off && seen > rule->contraction)) {
-      rule->contraction = seen < largest ? seen : largest;
-    } else if (seen < rule->contraction) {
-      rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
-    }
+    const Real least = rule->power == 2 ? 8 : 2;
+    const bool slow = many ? least * size > rule->previous : size >= rule->previous;
+    NewtonRule_learn(rule, size, round_off, many && (slow || rule->noisy));
     rule->unchecked = 0;
     // No progress twice in a row: this is round-off if it is small, else it may still recover.
-    rule->grown = size < rule->previous ? 0 : rule->grown + 1;
-    if (rule->grown >= 2 && moved <= 4096 * epsilon * length && !waits) return done;
+    rule->grown = slow ? rule->grown + 1 : 0;
+    const bool small = !many || 4096 * size <= scale;
+    if (rule->grown >= 2 && small && moved <= 4096 * epsilon * length && !waits) return done;
   } else {
     ++rule->unchecked;
+    rule->grown = 0;
   }
   // What an approximate matrix leaves is no chance where it is more than 2^-13 roundings.
   const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
@@ -70,9 +77,6 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
   const bool serves = rule->power == 1 ? !waits : even;
   if (size <= round_off && chance && (serves || stays)) return done;
-  // Where nothing converges by squares any more it is rounding.
-  const bool slow = rule->power == 2 && rule->previous > 0 && 1024 * size > rule->previous;
-  if (slow && moved <= epsilon * length) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
   const Real shown = (many ? 8 : 1) * round_off;
   const bool straight =
@@ -84,6 +88,8 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool astray = rule->predicted && iterations > 1 && 2 * size > rule->previous &&
                       moved > 4096 * epsilon * length;
   rule->previous = size;
+  rule->noisy = many && moved <= 64 * epsilon * length;
+  if (iterations >= 60 && rule->noisy) return done;
   return iterations < 60 && !astray ? go_on : failed;
 }
 // What the increment of an unknown must be lost in: the rounding of its length, or its way in the
@@ -104,11 +110,13 @@ static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Re
   if (rule->power == 1) return size <= 8 * epsilon * length;
   const Real round_off = epsilon * length;
   const bool straight =
-      rule->previous > 0 || rule->bend * size * size * 16 <= round_off * rule->move * rule->move;
+      rule->previous <= 0 && rule->bend * size * size * 16 <= round_off * rule->move * rule->move;
   return straight && rule->contraction * size * size * 16 <= round_off;
 }
 static inline Real NewtonRule_size_of(Real length, Real moved) {
-  return magnitude(length) + 32 * magnitude(moved);
+  const Real value = magnitude(length);
+  const Real by = magnitude(moved);
+  return value + 32 * (value > 0 && value < by ? value : by);
 }
 // The sizes of unknowns from a first iteration.
 static inline void NewtonRule_know(NewtonRule* rule, const Real* length, const Real* moved,
@@ -119,7 +127,7 @@ static inline void NewtonRule_know(NewtonRule* rule, const Real* length, const R
   for (int j = 0; j < count; ++j) total += NewtonRule_size_of(length[j], moved[j]);
   if (!(total > 0 && total <= largest)) return;
   for (int j = 0; j < count; ++j) {
-    const Real size = NewtonRule_size_of(length[j], moved[j]) + total / 1099511627776;
+    const Real size = NewtonRule_size_of(length[j], moved[j]) + total / 1048576;
     rule->unit[j] = 1 / (size + smallest);
   }
 }
@@ -131,9 +139,9 @@ static inline void NewtonRule_follow(NewtonRule* rule, const Real* value, int co
   for (int j = 1; j < count; ++j) least = rule->unit[j] < least ? rule->unit[j] : least;
   for (int j = 0; j < count; ++j) {
     const Real part = magnitude(value[j]) * rule->unit[j];
-    const bool falls = part > 0 && 1024 * part < 1 && rule->unit[j] < 1099511627776 * least;
+    const bool falls = part > 0 && 1024 * part < 1 && rule->unit[j] < 1048576 * least;
     if (part <= 2 && !falls) continue;
-    rule->unit[j] = falls ? 2 * rule->unit[j] : 1 / magnitude(value[j]);
+    rule->unit[j] = falls ? 32 * rule->unit[j] : 1 / magnitude(value[j]);
     rule->unchecked = 32;
   }
 }
@@ -166,7 +174,13 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
     together += moved[j];
     scale += length[j];
   }
-  return NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale, true);
+  const Verdict verdict =
+      NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale, true);
+  // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
+  for (int j = 0; verdict == done && rule->grown >= 2 && j < count; ++j) {
+    if (moved[j] * rule->unit[j] > 64 * epsilon) rule->unit[j] = 64 * epsilon / moved[j];
+  }
+  return verdict;
 }
 // Of a single unknown.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
