@@ -97,11 +97,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_1f8ec4ac::float64 {
+namespace hamgen_47323eb0::float64 {
 using Real = double;
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
-#define HAMGEN_1F8EC4AC_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_47323EB0_FLOAT64_STEP_REPORT
+#define HAMGEN_47323EB0_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -111,15 +111,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
-#define HAMGEN_1F8EC4AC_FLOAT64_VOCABULARY
+#ifndef HAMGEN_47323EB0_FLOAT64_VOCABULARY
+#define HAMGEN_47323EB0_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
-#define HAMGEN_1F8EC4AC_FLOAT64_TWO_SUM
+#ifndef HAMGEN_47323EB0_FLOAT64_TWO_SUM
+#define HAMGEN_47323EB0_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -129,8 +129,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
-#define HAMGEN_1F8EC4AC_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
+#define HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -142,14 +142,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_VERDICT
-#define HAMGEN_1F8EC4AC_FLOAT64_VERDICT
+#ifndef HAMGEN_47323EB0_FLOAT64_VERDICT
+#define HAMGEN_47323EB0_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
-#define HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
+#define HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -244,7 +244,7 @@ struct NewtonRule {
     } else {
       const Real least = Power == 2 ? 8 : 2;
       const bool slow = Many ? least * size > previous : size >= previous;
-      learn(size, round_off, Many && (slow || noisy));
+      learn(size, round_off, Many && slow);
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
@@ -263,7 +263,7 @@ struct NewtonRule {
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
-  // does not rise where nothing converges, or by what may be noise.
+  // does not rise where nothing converges.
   void learn(Real size, Real round_off, bool doubtful) {
     const Real seen = (size < round_off ? round_off : size) / power(previous);
     const bool rises = !doubtful && size > 64 * round_off && seen > contraction;
@@ -295,8 +295,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_1F8EC4AC_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_47323EB0_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_47323EB0_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -305,9 +305,9 @@ struct NewtonRule {
 // increments are added as parts of the sizes that their unknowns have had.  In every 16th step a
 // size is taken anew where its unknown has become more than twice as large, and is a 32nd where
 // that is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by,
-// so that it may begin at zero, and at least a 2^-20th of all together: in what is smaller,
-// rounding errors of the others may be most of an increment.  So whether it may be noise is asked
-// of plain sums; what an iteration has ended with as noise is 64 roundings of a size from then on.
+// so that it may begin at zero, and at least a 2^-40th of all together.  In what is as small,
+// rounding errors of the others may be most of an increment: whether it may be noise is asked of
+// plain sums, and what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -348,7 +348,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     if (!(total > 0 && total <= largest)) return;
     for (int j = 0; j < count; ++j)
-      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1048576 + smallest);
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
   }
   // Where a size is another one, the contraction is measured anew in the next step.
   __attribute__((noinline)) void follow(const Real* value, int count) {
@@ -357,7 +357,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1048576 * least;
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
       if (part <= 2 && !falls) continue;
       unit[j] = falls ? 32 * unit[j] : 1 / magnitude(value[j]);
       this->unchecked = 32;
@@ -473,8 +473,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_HISTORY
-#define HAMGEN_1F8EC4AC_FLOAT64_HISTORY
+#ifndef HAMGEN_47323EB0_FLOAT64_HISTORY
+#define HAMGEN_47323EB0_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -580,8 +580,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_1F8EC4AC_FLOAT64_FORGET
-#define HAMGEN_1F8EC4AC_FLOAT64_FORGET
+#ifndef HAMGEN_47323EB0_FLOAT64_FORGET
+#define HAMGEN_47323EB0_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -591,17 +591,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_1f8ec4ac::float64
+}  // namespace hamgen_47323eb0::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x356b3e80
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x02003343
 namespace kepler::implicit_midpoint {
-inline namespace emitted_356b3e80 {
+inline namespace emitted_02003343 {
 
-namespace numerics = ::hamgen_1f8ec4ac::float64;
+namespace numerics = ::hamgen_47323eb0::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -808,9 +808,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_356b3e80
+}  // namespace emitted_02003343
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x356b3e80
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x02003343
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -75,7 +75,7 @@ struct NewtonRule : Iteration {
       noise = is_within(4096);
       const double least = Power == 2 ? 8 : 2;
       const Mask slow = Many ? least * size > previous : size >= previous;
-      learn(size, round_off, Many ? slow | noisy : Mask(false));
+      learn(size, round_off, Many ? slow : Mask(false));
       unmeasured = unmeasured & !open;
       grown = select(open, select(slow, grown + 1, Real(0)), grown);
       const Mask small = Many ? 4096 * size <= scale : Mask(true);

@@ -27,7 +27,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     const Mask unknown = (!(unit[0] > 0)) & (total > 0) & (total <= largest);
     for (int j = 0; j < count; ++j) {
-      const Real size = size_of(length[j], moved[j]) + total / 1048576;
+      const Real size = size_of(length[j], moved[j]) + total / 1099511627776;
       unit[j] = select(unknown, 1 / (size + smallest), unit[j]);
     }
   }
@@ -37,7 +37,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = select(unit[j] < least, unit[j], least);
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1048576 * least);
+      const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1099511627776 * least);
       const Mask changes = falls | (part > 2);
       unit[j] = select(changes, select(falls, 32 * unit[j], 1 / magnitude(value[j])), unit[j]);
       this->unmeasured = this->unmeasured | changes;

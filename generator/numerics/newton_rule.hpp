@@ -92,7 +92,7 @@ struct NewtonRule {
     } else {
       const Real least = Power == 2 ? 8 : 2;
       const bool slow = Many ? least * size > previous : size >= previous;
-      learn(size, round_off, Many && (slow || noisy));
+      learn(size, round_off, Many && slow);
       unchecked = 0;
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
@@ -111,7 +111,7 @@ struct NewtonRule {
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
-  // does not rise where nothing converges, or by what may be noise.
+  // does not rise where nothing converges.
   void learn(Real size, Real round_off, bool doubtful) {
     const Real seen = (size < round_off ? round_off : size) / power(previous);
     const bool rises = !doubtful && size > 64 * round_off && seen > contraction;

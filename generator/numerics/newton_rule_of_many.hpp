@@ -6,9 +6,9 @@
 // increments are added as parts of the sizes that their unknowns have had.  In every 16th step a
 // size is taken anew where its unknown has become more than twice as large, and is a 32nd where
 // that is less than a 2^-10th of it.  The first one is the unknown and 32 times what it moves by,
-// so that it may begin at zero, and at least a 2^-20th of all together: in what is smaller,
-// rounding errors of the others may be most of an increment.  So whether it may be noise is asked
-// of plain sums; what an iteration has ended with as noise is 64 roundings of a size from then on.
+// so that it may begin at zero, and at least a 2^-40th of all together.  In what is as small,
+// rounding errors of the others may be most of an increment: whether it may be noise is asked of
+// plain sums, and what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -49,7 +49,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
     if (!(total > 0 && total <= largest)) return;
     for (int j = 0; j < count; ++j)
-      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1048576 + smallest);
+      unit[j] = 1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest);
   }
   // Where a size is another one, the contraction is measured anew in the next step.
   __attribute__((noinline)) void follow(const Real* value, int count) {
@@ -58,7 +58,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     for (int j = 1; j < count; ++j) least = unit[j] < least ? unit[j] : least;
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
-      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1048576 * least;
+      const bool falls = part > 0 && 1024 * part < 1 && unit[j] < 1099511627776 * least;
       if (part <= 2 && !falls) continue;
       unit[j] = falls ? 32 * unit[j] : 1 / magnitude(value[j]);
       this->unchecked = 32;

@@ -224,7 +224,7 @@ TYPED_TEST(NewtonRuleOfMany, SizesFollowTheUnknowns) {
   const Real length[3] = {-1, 0, 0};
   const Real moved[3] = {0, -Real(1) / 64, 0};
   rule.know(length, moved, 3);
-  const Real least = Real(1.5) * TypeParam::two_to(-20);
+  const Real least = Real(1.5) * TypeParam::two_to(-40);
   const auto near = [](Real x, Real y) { return x <= y && x * 1.001 >= y; };
   EXPECT_TRUE(near(rule.unit[0], 1));
   EXPECT_TRUE(near(rule.unit[1], 2));
@@ -251,13 +251,13 @@ TYPED_TEST(NewtonRuleOfMany, SizesFollowTheUnknowns) {
   for (int step = 0; step < 16; ++step) rule.watch(past, fallen, 0, 3);
   EXPECT_EQ(rule.unit[2], Real(32));
   EXPECT_GE(rule.unchecked, 32);
-  // Not of what is nothing, and not beyond a 2^-20th of the largest.
+  // Not of what is nothing, and not beyond a 2^-40th of the largest.
   const Real none[3] = {1, -4, 0};
   for (int step = 0; step < 320; ++step) rule.watch(past, none, 0, 3);
   EXPECT_EQ(rule.unit[2], Real(32));
   const Real tiny[3] = {1, -4, TypeParam::two_to(-100)};
   for (int step = 0; step < 32 * 100; ++step) rule.watch(past, tiny, 0, 3);
-  EXPECT_EQ(rule.unit[2], TypeParam::two_to(20));
+  EXPECT_EQ(rule.unit[2], TypeParam::two_to(40));
 }
 
 // The bend and the way of each are parts of its size, too.

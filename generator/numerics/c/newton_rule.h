@@ -58,7 +58,7 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   if (rule->previous > 0) {
     const Real least = rule->power == 2 ? 8 : 2;
     const bool slow = many ? least * size > rule->previous : size >= rule->previous;
-    NewtonRule_learn(rule, size, round_off, many && (slow || rule->noisy));
+    NewtonRule_learn(rule, size, round_off, many && slow);
     rule->unchecked = 0;
     // No progress twice in a row: this is round-off if it is small, else it may still recover.
     rule->grown = slow ? rule->grown + 1 : 0;
@@ -127,7 +127,7 @@ static inline void NewtonRule_know(NewtonRule* rule, const Real* length, const R
   for (int j = 0; j < count; ++j) total += NewtonRule_size_of(length[j], moved[j]);
   if (!(total > 0 && total <= largest)) return;
   for (int j = 0; j < count; ++j) {
-    const Real size = NewtonRule_size_of(length[j], moved[j]) + total / 1048576;
+    const Real size = NewtonRule_size_of(length[j], moved[j]) + total / 1099511627776;
     rule->unit[j] = 1 / (size + smallest);
   }
 }
@@ -139,7 +139,7 @@ static inline void NewtonRule_follow(NewtonRule* rule, const Real* value, int co
   for (int j = 1; j < count; ++j) least = rule->unit[j] < least ? rule->unit[j] : least;
   for (int j = 0; j < count; ++j) {
     const Real part = magnitude(value[j]) * rule->unit[j];
-    const bool falls = part > 0 && 1024 * part < 1 && rule->unit[j] < 1048576 * least;
+    const bool falls = part > 0 && 1024 * part < 1 && rule->unit[j] < 1099511627776 * least;
     if (part <= 2 && !falls) continue;
     rule->unit[j] = falls ? 32 * rule->unit[j] : 1 / magnitude(value[j]);
     rule->unchecked = 32;
