@@ -107,7 +107,8 @@ class Watch {
       largest = larger(magnitude(wanted.end[k]), largest);
       if (!(defect[k] <= Quad(kAllowed) * rounding(wanted.end[k]))) clear = false;
     }
-    const double units = static_cast<double>(furthest / rounding(largest));
+    // Of a state that is nothing but zeros nothing is a part.
+    const double units = furthest <= 0 ? 0.0 : static_cast<double>(furthest / rounding(largest));
     if (!(units <= defects.units)) defects.units = units;
     // What rounding Z itself allows need not be looked at, but for a sample.
     if (clear && defects.solves % 64 != 1) return true;
