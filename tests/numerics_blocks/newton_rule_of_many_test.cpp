@@ -232,6 +232,13 @@ TYPED_TEST(NewtonRuleOfMany, SizesFollowTheUnknowns) {
   rule.know(moved, length, 3);
   EXPECT_TRUE(near(rule.unit[1], 2));  // known once
 
+  // One that is far beyond its unknown is no size of it: the iteration may have gone astray.
+  typename TypeParam::template NewtonOfMany<2, 3> astray;
+  const Real small[3] = {1, Real(1) / 1024, 1};
+  const Real far[3] = {0, 1, 0};
+  astray.know(small, far, 3);
+  EXPECT_TRUE(near(astray.unit[1], Real(1024) / 33));
+
   typename TypeParam::template Past<3> past;
   for (Real& unit : rule.unit) unit = 1;
   rule.unchecked = 0;
