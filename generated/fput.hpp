@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_47323eb0::float64 {
+namespace hamgen_8507ace5::float64 {
 using Real = double;
 
-#ifndef HAMGEN_47323EB0_FLOAT64_STEP_REPORT
-#define HAMGEN_47323EB0_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
+#define HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_VOCABULARY
-#define HAMGEN_47323EB0_FLOAT64_VOCABULARY
+#ifndef HAMGEN_8507ACE5_FLOAT64_VOCABULARY
+#define HAMGEN_8507ACE5_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_TWO_SUM
-#define HAMGEN_47323EB0_FLOAT64_TWO_SUM
+#ifndef HAMGEN_8507ACE5_FLOAT64_TWO_SUM
+#define HAMGEN_8507ACE5_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
-#define HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
+#define HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_SUMS
-#define HAMGEN_47323EB0_FLOAT64_SUMS
+#ifndef HAMGEN_8507ACE5_FLOAT64_SUMS
+#define HAMGEN_8507ACE5_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_BAND_MATRIX
-#define HAMGEN_47323EB0_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_8507ACE5_FLOAT64_BAND_MATRIX
+#define HAMGEN_8507ACE5_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_47323EB0_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_8507ACE5_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_8507ACE5_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_VERDICT
-#define HAMGEN_47323EB0_FLOAT64_VERDICT
+#ifndef HAMGEN_8507ACE5_FLOAT64_VERDICT
+#define HAMGEN_8507ACE5_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
-#define HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
+#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -409,7 +409,7 @@ struct NewtonRule {
   int grown = 0;
   bool predicted = false;
   Real far = 0;        // what was uneven in the iteration before
-  bool noisy = false;  // was it within rounding?
+  bool still = false;  // has it ended with noise?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -444,6 +444,7 @@ struct NewtonRule {
   template <bool Many, class IsWithin>
   Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
+    still = false;
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
@@ -456,6 +457,8 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
+      // Of several unknowns, of which some may be noise while others converge, increments must
+      // become less by more than that.
       const Real least = Power == 2 ? 8 : 2;
       const bool slow = Many ? least * size > previous : size >= previous;
       learn(size, round_off, Many && slow);
@@ -463,7 +466,8 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
+      still = grown >= 2 && small && !waits && is_within(4096);
+      if (still) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
@@ -472,8 +476,8 @@ struct NewtonRule {
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
-    noisy = Many && is_within(64);
-    if (iterations >= 60 && noisy) return Verdict::done;
+    // Noise may turn in circles and never be twice in a row what it was.
+    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
@@ -509,8 +513,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_47323EB0_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -547,6 +551,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
 
+  // A first increment that is beyond the unknown may have gone astray.
   static Real size_of(Real length, Real moved) {
     const Real value = magnitude(length);
     const Real by = magnitude(moved);
@@ -611,7 +616,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
     const Seen seen = sums_of(moved, length, way, count);
-    // In 16 times what is lost in the least of them, and in what is lost in all: with its factors.
+    // What is 16 times lost in the rounding of the least unknown is 1024 times lost in 64 times it,
+    // and 2^20 times in 2^16 times it: with the factors of ends_at_once.
     const Real round_off = epsilon * count;
     const Real least = 64 * epsilon * seen.shortest;
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
@@ -640,7 +646,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   __attribute__((noinline)) Verdict judge_each(Seen seen, const Real* moved, const Real* length,
                                                const Real* way, int count, int iterations) {
     if (!(unit[0] > 0)) {
-      know(length, moved, count);
+      begin_with(length, moved, count);
       seen = sums_of(moved, length, way, count);
     }
     Real uneven = 0;
@@ -664,7 +670,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     };
     const Verdict verdict =
         this->template judge<true>(seen.size, Real(count), iterations, uneven, is_within);
-    if (verdict == Verdict::done && this->grown >= 2) hear(moved, count);
+    if (this->still) hear(moved, count);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -681,14 +687,14 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const auto is_within = [&](Real units) { return moved <= units * epsilon * scale; };
     const Verdict verdict =
         this->template judge<true>(size, Real(count), iterations, uneven, is_within);
-    if (verdict == Verdict::done && this->grown >= 2) hear(increment, count);
+    if (this->still) hear(increment, count);
     return verdict;
   }
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_47323EB0_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_8507ACE5_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_8507ACE5_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -711,8 +717,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_47323EB0_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_8507ACE5_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_8507ACE5_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -791,8 +797,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_47323EB0_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_8507ACE5_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_8507ACE5_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -880,8 +886,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_REFINEMENT
-#define HAMGEN_47323EB0_FLOAT64_REFINEMENT
+#ifndef HAMGEN_8507ACE5_FLOAT64_REFINEMENT
+#define HAMGEN_8507ACE5_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1015,8 +1021,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_HISTORY
-#define HAMGEN_47323EB0_FLOAT64_HISTORY
+#ifndef HAMGEN_8507ACE5_FLOAT64_HISTORY
+#define HAMGEN_8507ACE5_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1122,8 +1128,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_FORGET
-#define HAMGEN_47323EB0_FLOAT64_FORGET
+#ifndef HAMGEN_8507ACE5_FLOAT64_FORGET
+#define HAMGEN_8507ACE5_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1133,17 +1139,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_47323eb0::float64
+}  // namespace hamgen_8507ace5::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x3a6e7eb6
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x8103c387
 namespace fput::implicit_midpoint {
-inline namespace emitted_3a6e7eb6 {
+inline namespace emitted_8103c387 {
 
-namespace numerics = ::hamgen_47323eb0::float64;
+namespace numerics = ::hamgen_8507ace5::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1479,9 +1485,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_3a6e7eb6
+}  // namespace emitted_8103c387
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x3a6e7eb6
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x8103c387
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -71,11 +71,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_47323eb0::float64 {
+namespace hamgen_8507ace5::float64 {
 using Real = double;
 
-#ifndef HAMGEN_47323EB0_FLOAT64_STEP_REPORT
-#define HAMGEN_47323EB0_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
+#define HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -85,15 +85,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_VOCABULARY
-#define HAMGEN_47323EB0_FLOAT64_VOCABULARY
+#ifndef HAMGEN_8507ACE5_FLOAT64_VOCABULARY
+#define HAMGEN_8507ACE5_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_TWO_SUM
-#define HAMGEN_47323EB0_FLOAT64_TWO_SUM
+#ifndef HAMGEN_8507ACE5_FLOAT64_TWO_SUM
+#define HAMGEN_8507ACE5_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -103,8 +103,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
-#define HAMGEN_47323EB0_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
+#define HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -116,14 +116,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_VERDICT
-#define HAMGEN_47323EB0_FLOAT64_VERDICT
+#ifndef HAMGEN_8507ACE5_FLOAT64_VERDICT
+#define HAMGEN_8507ACE5_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
-#define HAMGEN_47323EB0_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
+#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -169,7 +169,7 @@ struct NewtonRule {
   int grown = 0;
   bool predicted = false;
   Real far = 0;        // what was uneven in the iteration before
-  bool noisy = false;  // was it within rounding?
+  bool still = false;  // has it ended with noise?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -204,6 +204,7 @@ struct NewtonRule {
   template <bool Many, class IsWithin>
   Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
+    still = false;
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
@@ -216,6 +217,8 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
+      // Of several unknowns, of which some may be noise while others converge, increments must
+      // become less by more than that.
       const Real least = Power == 2 ? 8 : 2;
       const bool slow = Many ? least * size > previous : size >= previous;
       learn(size, round_off, Many && slow);
@@ -223,7 +226,8 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
+      still = grown >= 2 && small && !waits && is_within(4096);
+      if (still) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
@@ -232,8 +236,8 @@ struct NewtonRule {
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
-    noisy = Many && is_within(64);
-    if (iterations >= 60 && noisy) return Verdict::done;
+    // Noise may turn in circles and never be twice in a row what it was.
+    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
@@ -269,8 +273,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_HISTORY
-#define HAMGEN_47323EB0_FLOAT64_HISTORY
+#ifndef HAMGEN_8507ACE5_FLOAT64_HISTORY
+#define HAMGEN_8507ACE5_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -376,8 +380,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_FORGET
-#define HAMGEN_47323EB0_FLOAT64_FORGET
+#ifndef HAMGEN_8507ACE5_FLOAT64_FORGET
+#define HAMGEN_8507ACE5_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -387,8 +391,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_47323EB0_FLOAT64_AHEAD
-#define HAMGEN_47323EB0_FLOAT64_AHEAD
+#ifndef HAMGEN_8507ACE5_FLOAT64_AHEAD
+#define HAMGEN_8507ACE5_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -403,17 +407,17 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_47323eb0::float64
+}  // namespace hamgen_8507ace5::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x84711aa3
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xa20c5569
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_84711aa3 {
+inline namespace emitted_a20c5569 {
 
-namespace numerics = ::hamgen_47323eb0::float64;
+namespace numerics = ::hamgen_8507ace5::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
@@ -602,9 +606,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_84711aa3
+}  // namespace emitted_a20c5569
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x84711aa3
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xa20c5569
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -14,7 +14,6 @@ struct NewtonRule : Iteration {
   Mask predicted = false;
   bool checks = false;
   bool begins = true;
-  Mask noisy = false;       // was the increment before within rounding?
   Mask still = false;       // lanes that have ended with noise
   Mask unmeasured = false;  // lanes whose contraction is to be measured before it is believed
   Real far = 0;
@@ -52,6 +51,7 @@ struct NewtonRule : Iteration {
   Mask judge(const Real& size, const Real& scale, int iterations, const Real& uneven,
              const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
+    still = false;
     const Real parts = size * uneven;
     const Mask stays = (far > 0) & (10 * uneven > 9 * far);
     far = uneven;
@@ -70,7 +70,6 @@ struct NewtonRule : Iteration {
     end_with(open & !(size <= largest), size);
     Mask done = alone;
     Mask noise = false;
-    still = false;
     if (iterations > 1) {
       noise = is_within(4096);
       const double least = Power == 2 ? 8 : 2;
@@ -92,9 +91,8 @@ struct NewtonRule : Iteration {
     if (iterations > 1) done = done | (is_next_lost(size, round_off) & served);
     open = open & !done;
     if (iterations > 1) end_with(open & predicted & (2 * size > previous) & !noise, size);
-    noisy = Many ? is_within(64) : Mask(false);
     if (iterations >= 60) {
-      open = open & !noisy;
+      if (Many) open = open & !is_within(64);
       end_with(open, size);
     }
     previous = size;

@@ -43,7 +43,7 @@ struct NewtonRule {
   int grown = 0;
   bool predicted = false;
   Real far = 0;        // what was uneven in the iteration before
-  bool noisy = false;  // was it within rounding?
+  bool still = false;  // has it ended with noise?
   Motion motion;
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
@@ -78,6 +78,7 @@ struct NewtonRule {
   template <bool Many, class IsWithin>
   Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
     const Real round_off = epsilon * scale;
+    still = false;
     if (!(size <= largest)) {
       previous = size;
       return Verdict::failed;
@@ -90,6 +91,8 @@ struct NewtonRule {
       ++unchecked;
       grown = 0;
     } else {
+      // Of several unknowns, of which some may be noise while others converge, increments must
+      // become less by more than that.
       const Real least = Power == 2 ? 8 : 2;
       const bool slow = Many ? least * size > previous : size >= previous;
       learn(size, round_off, Many && slow);
@@ -97,7 +100,8 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      if (grown >= 2 && small && !waits && is_within(4096)) return Verdict::done;
+      still = grown >= 2 && small && !waits && is_within(4096);
+      if (still) return Verdict::done;
     }
     const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
@@ -106,8 +110,8 @@ struct NewtonRule {
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
     previous = size;
-    noisy = Many && is_within(64);
-    if (iterations >= 60 && noisy) return Verdict::done;
+    // Noise may turn in circles and never be twice in a row what it was.
+    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it

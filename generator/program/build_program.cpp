@@ -21,6 +21,7 @@
 #include "generator/program/split_constants.hpp"
 #include "generator/program/splitting_routine.hpp"
 #include "generator/program/stage_routines.hpp"
+#include "generator/program/start_record.hpp"
 #include "generator/program/tangent_routine.hpp"
 
 namespace hamgen {
@@ -65,31 +66,6 @@ void add_events(Program& code, const Environment& environment, const LoweredStep
   if (code.events.empty()) return;
   code.routines.push_back(with_remark(values_routine(environment, "events", lowered.events),
                                       "Values whose zeros are the events: " + list + "."));
-}
-
-std::string type_of_newton(int power, std::size_t unknowns) {
-  if (unknowns == 1) return fmt::format("NewtonRule<{}>", power);
-  return fmt::format("NewtonRuleOfMany<{}, {}>", power, unknowns);
-}
-
-// What is remembered from step to step.
-Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
-  Record start{
-      .name = "Start",
-      .fields = {{.name = "value", .sizes = {unknowns}},
-                 {.name = "known",
-                  .remark = "else the state itself is the start",
-                  .values = {0},
-                  .type = "bool"}},
-      .remark = {
-          "Start values of the implicit equations and what is remembered of their solution."}};
-  for (std::size_t s = 0; s < solves.size(); ++s) {
-    if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
-    start.fields.push_back(
-        {.name = fmt::format("rule_{}", s),
-         .type = type_of_newton(solves[s]->simplified ? 1 : 2, solves[s]->variables.size())});
-  }
-  return start;
 }
 
 // The functions of the state of a system in loops.
@@ -163,18 +139,6 @@ void add_functions(Program& code, const Environment& environment, const LoweredS
       with_remark(hessian_routine(environment, lowered.hessian, lowered.hessian_places,
                                   array ? StateForm::array : StateForm::record),
                   "The second derivatives of H at z."));
-}
-
-// The rules that the iterations of solve go by.
-std::vector<RuleOfNewton> rules_of(const Routine& solve) {
-  std::vector<RuleOfNewton> rules;
-  for (const Instruction& instruction : solve.body) {
-    const auto* iterate = std::get_if<Iterate>(&instruction.value);
-    if (iterate == nullptr || iterate->rule != Rule::newton) continue;
-    rules.push_back({iterate->name, iterate->unknowns.front().memory,
-                     static_cast<int>(iterate->unknowns.size())});
-  }
-  return rules;
 }
 
 void add_member(Program& code, const Environment& environment, const LoweredStep& lowered) {

@@ -322,6 +322,58 @@ TEST(LaneRules, SizesFollowTheUnknownsOfEachLaneAsAlone) {
   EXPECT_GT(measured, 50);
 }
 
+// In lanes 3 and 6 one unknown is noise that stays as it is: it is heard there, and not again in
+// the next step.
+TEST(LaneRules, NoiseIsHeardInEachLaneAsAlone) {
+  lanes::NewtonRuleOfMany<2, 2> rule;
+  of_double::NewtonRuleOfMany<2, 2> alone[kCount];
+  // Twice as loud later, where one increment is enough.
+  const auto noise_of = [](int lane, int step) {
+    return lane == 3 || lane == 6 ? (step == 0 ? 0x1p-54 : 0x1p-53) : 0.0;
+  };
+  for (lanes::Real& unit : rule.unit) unit = 1;
+  rule.unit[1] = 0x1p40;
+  for (auto& one : alone) {
+    one.unit[0] = 1;
+    one.unit[1] = 0x1p40;
+  }
+  for (int step = 0; step < 3; ++step) {
+    const double first = step == 0 ? 0x1p-10 : 0;
+    lanes::Turn turn;
+    turn.begin(true);
+    turn.step = 1;  // not one that is a check
+    rule.begin(false, turn);
+    rule.contraction = step == 0 ? 1 : 0x1p-10;
+    rule.motion.move = 1;
+    const lanes::Real length[2] = {1, 0x1p-40};
+    bool open = true;
+    for (int iteration = 1; open && iteration <= 60; ++iteration) {
+      lanes::Real moved[2] = {std::pow(first, iteration), 0};
+      for (int lane = 0; lane < kCount; ++lane) moved[1].set(lane, noise_of(lane, step));
+      open = any(rule.of_each(moved, length, length, 2, iteration));
+    }
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::NewtonRuleOfMany<2, 2>& one = alone[lane];
+      one.begin(false);
+      one.contraction = step == 0 ? 1 : 0x1p-10;
+      one.motion.move = 1;
+      const double lengths[2] = {1, 0x1p-40};
+      auto verdict = of_double::Verdict::go_on;
+      int taken = 0;
+      while (verdict == of_double::Verdict::go_on) {
+        ++taken;
+        const double moved[2] = {std::pow(first, taken), noise_of(lane, step)};
+        verdict = one.of_each(moved, lengths, lengths, 2, taken);
+      }
+      EXPECT_EQ(taken == 1, step > 0);
+      EXPECT_EQ(rule.taken[lane], taken) << step << " " << lane;
+      EXPECT_EQ(rule.unit[1][lane], one.unit[1]) << step << " " << lane;
+      const bool is_heard = one.unit[1] < 0x1p40;
+      EXPECT_EQ(is_heard, lane == 3 || lane == 6) << step << " " << lane;
+    }
+  }
+}
+
 TEST(LaneRules, WhatALaneForgetsTheOthersKnow) {
   lanes::NewtonRuleOfMany<2, 2> rule;
   rule.unit[1] = 3;

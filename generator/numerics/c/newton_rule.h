@@ -17,7 +17,7 @@ typedef struct {
   Real far;
   Real unit[3];  // one over the size of each unknown, of which there are at most three; 0: unknown
   int age;
-  bool noisy;
+  bool still;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
   const NewtonRule rule = {power, largest, 32, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0, false};
@@ -47,6 +47,7 @@ static inline void NewtonRule_learn(NewtonRule* rule, Real size, Real round_off,
 // relative of them; moved, length: the sums of increments and of lengths, whatever their units.
 static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, int iterations,
                                        Real uneven, Real moved, Real length, bool many) {
+  rule->still = false;
   if (!(size <= largest)) {
     rule->previous = size;
     return failed;
@@ -63,7 +64,8 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
     // No progress twice in a row: this is round-off if it is small, else it may still recover.
     rule->grown = slow ? rule->grown + 1 : 0;
     const bool small = !many || 4096 * size <= scale;
-    if (rule->grown >= 2 && small && moved <= 4096 * epsilon * length && !waits) return done;
+    rule->still = rule->grown >= 2 && small && moved <= 4096 * epsilon * length && !waits;
+    if (rule->still) return done;
   } else {
     ++rule->unchecked;
     rule->grown = 0;
@@ -88,8 +90,7 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool astray = rule->predicted && iterations > 1 && 2 * size > rule->previous &&
                       moved > 4096 * epsilon * length;
   rule->previous = size;
-  rule->noisy = many && moved <= 64 * epsilon * length;
-  if (iterations >= 60 && rule->noisy) return done;
+  if (many && iterations >= 60 && moved <= 64 * epsilon * length) return done;
   return iterations < 60 && !astray ? go_on : failed;
 }
 // What the increment of an unknown must be lost in: the rounding of its length, or its way in the
@@ -177,7 +178,7 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
   const Verdict verdict =
       NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale, true);
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
-  for (int j = 0; verdict == done && rule->grown >= 2 && j < count; ++j) {
+  for (int j = 0; rule->still && j < count; ++j) {
     if (moved[j] * rule->unit[j] > 64 * epsilon) rule->unit[j] = 64 * epsilon / moved[j];
   }
   return verdict;

@@ -1,0 +1,46 @@
+#include "generator/program/start_record.hpp"
+
+#include <fmt/format.h>
+
+namespace hamgen {
+
+namespace {
+
+std::string type_of_newton(int power, std::size_t unknowns) {
+  if (unknowns == 1) return fmt::format("NewtonRule<{}>", power);
+  return fmt::format("NewtonRuleOfMany<{}, {}>", power, unknowns);
+}
+
+}  // namespace
+
+Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
+  Record start{
+      .name = "Start",
+      .fields = {{.name = "value", .sizes = {unknowns}},
+                 {.name = "known",
+                  .remark = "else the state itself is the start",
+                  .values = {0},
+                  .type = "bool"}},
+      .remark = {
+          "Start values of the implicit equations and what is remembered of their solution."}};
+  for (std::size_t s = 0; s < solves.size(); ++s) {
+    if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
+    start.fields.push_back(
+        {.name = fmt::format("rule_{}", s),
+         .type = type_of_newton(solves[s]->simplified ? 1 : 2, solves[s]->variables.size())});
+  }
+  return start;
+}
+
+std::vector<RuleOfNewton> rules_of(const Routine& solve) {
+  std::vector<RuleOfNewton> rules;
+  for (const Instruction& instruction : solve.body) {
+    const auto* iterate = std::get_if<Iterate>(&instruction.value);
+    if (iterate == nullptr || iterate->rule != Rule::newton) continue;
+    rules.push_back({iterate->name, iterate->unknowns.front().memory,
+                     static_cast<int>(iterate->unknowns.size())});
+  }
+  return rules;
+}
+
+}  // namespace hamgen
