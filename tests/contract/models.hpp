@@ -97,9 +97,9 @@ scene two { p1 = 2; p3 = -3; h = 0.01; steps = 300 }
 momentum u, v
 parameter M = 1
 H = u^2/2 + x^2/2 + v^2/(2*M) + exp(20*(y*sqrt(M) - 1)) + exp(20*(-y*sqrt(M) - 1)) + x^2*y*sqrt(M)/10
-scene alike { M = 1; x = 1; v = 0.7; h = 0.03; steps = 300 }
-scene small { M = 1e6; x = 1; v = 700; h = 0.03; steps = 300 }
-scene tiny { M = 1e10; x = 1; v = 70000; h = 0.03; steps = 300 }
+scene alike { M = 1; x = 1; v = 0.7; h = 0.03; steps = 20000 }
+scene small { M = 1e6; x = 1; v = 700; h = 0.03; steps = 20000 }
+scene tiny { M = 1e10; x = 1; v = 70000; h = 0.03; steps = 20000 }
 )"},
     // An orbit beside what is written in a larger unit, and begins at zero as one of its
     // coordinates.
@@ -107,14 +107,15 @@ scene tiny { M = 1e10; x = 1; v = 70000; h = 0.03; steps = 300 }
 momentum px, py, pw
 parameter s = 1
 H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2) + (pw/s)^2/2 + (w*s)^4/4 + w*s*x/10
-scene alike { s = 1; x = 0.1; py = 4.3; pw = 0.5; h = 0.001; steps = 300 }
-scene large { s = 1e-6; x = 0.1; py = 4.3; pw = 5e-7; h = 0.001; steps = 300 }
+scene alike { s = 1; x = 0.1; py = 4.3; pw = 0.5; h = 0.001; steps = 20000 }
+scene large { s = 1e-6; x = 0.1; py = 4.3; pw = 5e-7; h = 0.001; steps = 20000 }
 )"},
     // A pendulum that has gone round very often, coupled to one that swings.
     SteepModel{"wound", R"(coordinate a, b
 momentum p, q
 H = p^2/2 + q^2/2 - cos(a) - cos(b) - cos(a - b)/2
-scene often { a = 1000000; p = 3; b = 1; h = 0.02; steps = 300 }
+scene often { a = 1000000; p = 3; b = 1; h = 0.02; steps = 20000 }
+scene longer { a = 1000000; p = 3; b = 1; h = 0.03; steps = 20000 }
 )"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
