@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_8507ace5::float64 {
+namespace hamgen_cc121e50::float64 {
 using Real = double;
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
-#define HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_CC121E50_FLOAT64_STEP_REPORT
+#define HAMGEN_CC121E50_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_VOCABULARY
-#define HAMGEN_8507ACE5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_CC121E50_FLOAT64_VOCABULARY
+#define HAMGEN_CC121E50_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_TWO_SUM
-#define HAMGEN_8507ACE5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_CC121E50_FLOAT64_TWO_SUM
+#define HAMGEN_CC121E50_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
+#define HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_SUMS
-#define HAMGEN_8507ACE5_FLOAT64_SUMS
+#ifndef HAMGEN_CC121E50_FLOAT64_SUMS
+#define HAMGEN_CC121E50_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_BAND_MATRIX
-#define HAMGEN_8507ACE5_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_CC121E50_FLOAT64_BAND_MATRIX
+#define HAMGEN_CC121E50_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_8507ACE5_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_CC121E50_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_CC121E50_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_VERDICT
-#define HAMGEN_8507ACE5_FLOAT64_VERDICT
+#ifndef HAMGEN_CC121E50_FLOAT64_VERDICT
+#define HAMGEN_CC121E50_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
-#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
+#define HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -400,6 +400,7 @@ enum class Verdict { go_on, done, failed };
 struct Motion {
   Real move = 0;
   Real bend = 0;
+  Real least = 0;  // the least move of several unknowns
 };
 template <int Power>
 struct NewtonRule {
@@ -420,29 +421,37 @@ struct NewtonRule {
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
-  template <class Past, int Unknowns>
-  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && ends_at_once(size, round_off, round_off)) return Verdict::done;
-    return judge<false>(size, scale, iterations, 0,
-                        [&](Real units) { return size <= units * epsilon * scale; });
+    if (iterations == 1 && ends_at_once(size, round_off, round_off, motion.move))
+      return Verdict::done;
+    return judge<false>(size, scale, iterations, 0, Alone{size, scale});
   }
   // Most steps do, with their first increment: where what the motion shows, and what was measured,
   // is lost in this.
-  bool ends_at_once(Real size, Real shown, Real measured) {
-    const bool ends = unchecked < 31 && is_straight(size, shown) && is_next_lost(size, measured);
+  bool ends_at_once(Real size, Real shown, Real measured, Real move) {
+    const bool ends =
+        unchecked < 31 && is_straight(size, shown, move) && is_next_lost(size, measured);
     unchecked += ends;
     return ends;
   }
-  // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
-  // many units of rounding of them all?
-  template <bool Many, class IsWithin>
-  Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
+  struct Alone {
+    Real size, scale;
+    bool is_within(Real units) const { return size <= units * epsilon * scale; }
+    static bool is_still() { return true; }
+    static bool is_in_reach() { return true; }
+  };
+  // The same of several unknowns, see NewtonRuleOfMany, of which it is asked whether the increments
+  // are within so many units of rounding of them all, whether none converges any more, and whether
+  // what its own motion shows of each is lost.
+  template <bool Many, class Unknown>
+  Verdict judge(Real size, Real scale, int iterations, Real uneven, const Unknown& each) {
     const Real round_off = epsilon * scale;
     still = false;
     if (!(size <= largest)) {
@@ -466,18 +475,19 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      still = grown >= 2 && small && !waits && is_within(4096);
+      still = grown >= 2 && small && !waits && each.is_within(4096) && each.is_still();
       if (still) return Verdict::done;
     }
-    const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
+    const bool near = !Many || !first || each.is_in_reach();
+    const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     const Real shown = (Many ? 8 : 1) * round_off;
-    const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
+    const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
-    const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
+    const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.
-    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
+    if (Many && iterations >= 60 && each.is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
@@ -501,20 +511,22 @@ struct NewtonRule {
   }
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
-  bool is_even(Real parts) const {
-    const bool straight = previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
-    return straight && contraction * parts * 16 <= epsilon;
+  bool is_even(Real size, Real uneven) const {
+    if (previous > 0) return uneven * 16 <= epsilon;
+    const Real parts = size * uneven;
+    return contraction * parts * 16 <= epsilon &&
+           motion.bend * parts * 16 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
-  bool is_straight(Real size, Real round_off) const {
+  bool is_straight(Real size, Real round_off, Real move) const {
     const Real bend = motion.bend > size ? motion.bend : size;
-    return bend * power(size) * 1024 <= round_off * power(motion.move);
+    return bend * power(size) * 1024 <= round_off * power(move);
   }
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_CC121E50_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_CC121E50_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -527,14 +539,23 @@ struct NewtonRule {
 // rounding errors of the others may be most of an increment: whether it may be noise is asked of
 // plain sums, and what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
+// Note [what its own motion shows of each]
+// A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
+// that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
+// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, as long as
+// its bend is more than noise can be.  Where increments were measured the next one of each is told
+// by its own last two, moved (moved / last)^2, and no step ends with noise as long as an unknown
+// converges.  Walls beside a loud coordinate were off by 8000 roundings, an x that falls by 1e4
+// times within its size by 290, what is a 1e13th of its neighbour by 1e17.
+//
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
 // second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
-// each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
-// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
-// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
-// unknowns, and none may be left, as long as they become smaller.
+// each the first increment is taken to leave the same part as all together; `uneven` is the sum of
+// what the increments are of their unknowns, or what is told to follow them.  With an approximate
+// matrix that would be wrong: an unknown that is small beside the others may contract far more
+// slowly, and was off by 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8
+// roundings of their own unknowns, and none may be left, as long as they become smaller.
 //
 // Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
@@ -546,7 +567,10 @@ struct NewtonRule {
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
   using One = NewtonRule<Power>;
-  Real unit[Unknowns] = {};  // one over the size of each, see Note [units]; 0: not known yet
+  Real unit[Unknowns] = {};   // one over the size of each, see Note [units]; 0: not known yet
+  Real moves[Unknowns] = {};  // the motion of each, as it is written
+  Real bends[Unknowns] = {};
+  Real last[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -583,17 +607,44 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     }
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
-  template <class Past, int All>
-  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
-    if (++age >= 16) follow(solution + first, count);
-    this->motion.move = past.error(0, solution, first, count, unit);
-    this->motion.bend = past.error(Power + 1, solution, first, count, unit);
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
+    if (++age >= 16) follow(&solution[first], count);
+    Real move = 0;
+    Real bend = 0;
+    Real slowest = largest;
+    for (int j = 0; j < count; ++j) {
+      moves[j] = past.difference(0, solution, first + j);
+      bends[j] = past.difference(Power + 1, solution, first + j);
+      const Real part = moves[j] * unit[j];
+      move += part;
+      bend += bends[j] * unit[j];
+      slowest = part < slowest ? part : slowest;
+    }
+    this->motion = {move, bend, slowest};
   }
-  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
-  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
-  static Real relative(Real moved, Real length, Real way) {
+  // See Note [what its own motion shows of each].
+  bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
+    for (int j = 0; j < count && Power == 2; ++j) {
+      const Real bend = bends[j] * unit[j];
+      const Real part = moved[j] * unit[j];
+      const Real move = moves[j] * unit[j];
+      const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      if (bend <= 1024 * epsilon) continue;
+      if (bend * part * part * 16 > round_off * move * move) return false;
+    }
+    return true;
+  }
+  // An increment as a part of what it must be lost in, or what the next one is of that, if it is no
+  // noise; nothing at the smallest numbers.  Of an approximate matrix the increment, if it is not
+  // lost in the rounding of its unknown.
+  Real relative(int j, Real moved, Real length, Real way) const {
     if (Power == 1) return moved > 8 * epsilon * length + One::tiny ? moved : Real(0);
-    return moved > One::tiny ? moved / felt(length, way) : Real(0);
+    if (!(moved > One::tiny)) return 0;
+    if (this->previous <= 0) return moved / felt(length, way);
+    if (moved * unit[j] <= 64 * epsilon) return 0;
+    const Real ratio = moved / last[j];
+    return moved / felt(length, way) * ratio * ratio;
   }
   // Of its length and its way in the step.
   static Real felt(Real length, Real way) {
@@ -623,7 +674,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
-    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured))
+    // Of each the same where it is so of the one that moves least.
+    const Real move = Power == 2 ? this->motion.least : this->motion.move;
+    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured, move))
       return Verdict::done;
     return judge_each(seen, moved, length, way, count, iterations);
   }
@@ -656,21 +709,44 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         asked && bends_little(seen.shortest, seen.size) && is_lost_in(seen.shortest, seen.size);
     if (!lost) {
       for (int j = 0; j < count; ++j) {
-        uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
+        uneven += relative(j, moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
       }
     }
-    const auto is_within = [&](Real units) {
-      Real together = moved[0];
-      Real scale = length[0];
-      for (int j = 1; j < count; ++j) {
-        together += moved[j];
-        scale += length[j];
+    Real together = moved[0];
+    Real scale = length[0];
+    for (int j = 1; j < count; ++j) {
+      together += moved[j];
+      scale += length[j];
+    }
+    return judge_all(seen.size, uneven, {*this, moved, length, way, count, together, scale},
+                     iterations);
+  }
+  // Increments, lengths, ways, and sums of the first two.
+  struct Each {
+    const NewtonRuleOfMany& rule;
+    const Real* moved;
+    const Real* length;
+    const Real* way;
+    int count;
+    Real together, scale;
+    bool is_within(Real units) const { return together <= units * epsilon * scale; }
+    bool is_in_reach() const { return rule.is_in_reach(moved, length, way, count); }
+    bool is_still() const {
+      bool converging = false;
+      for (int j = 0; j < count; ++j) {
+        const Real by = magnitude(moved[j]);
+        converging =
+            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.last[j]);
       }
-      return together <= units * epsilon * scale;
-    };
+      return !converging;
+    }
+  };
+  Verdict judge_all(Real size, Real uneven, const Each& each, int iterations) {
     const Verdict verdict =
-        this->template judge<true>(seen.size, Real(count), iterations, uneven, is_within);
-    if (this->still) hear(moved, count);
+        this->template judge<true>(size, Real(each.count), iterations, uneven, each);
+    if (this->still) hear(each.moved, each.count);
+    if (verdict == Verdict::go_on)
+      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -680,21 +756,18 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       if (noise * unit[j] > 64 * epsilon) unit[j] = 64 * epsilon / noise;
     }
   }
-  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
-  // is relative of each, of increments and of lengths.
-  Verdict of_sums(const Real* increment, Real size, Real uneven, Real moved, Real scale, int count,
-                  int iterations) {
-    const auto is_within = [&](Real units) { return moved <= units * epsilon * scale; };
-    const Verdict verdict =
-        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
-    if (this->still) hear(increment, count);
-    return verdict;
+  // Of values and increments in arrays, and sums over the unknowns: of increments as parts of
+  // sizes, of what is relative of each, of increments and of lengths.
+  Verdict of_sums(const Real* value, const Real* increment, Real size, Real uneven, Real moved,
+                  Real scale, int count, int iterations) {
+    return judge_all(size, uneven, {*this, increment, value, moves, count, moved, scale},
+                     iterations);
   }
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_8507ACE5_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_CC121E50_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_CC121E50_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -705,8 +778,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
     Watched::begin(from_prediction);
     used = true;
   }
-  template <class Past, int All>
-  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     if (used) {
       Watched::watch(past, solution, first, count);
     } else {
@@ -717,8 +790,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_8507ACE5_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_CC121E50_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_CC121E50_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -797,8 +870,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_8507ACE5_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_CC121E50_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_CC121E50_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -886,8 +959,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_REFINEMENT
-#define HAMGEN_8507ACE5_FLOAT64_REFINEMENT
+#ifndef HAMGEN_CC121E50_FLOAT64_REFINEMENT
+#define HAMGEN_CC121E50_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1021,8 +1094,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_HISTORY
-#define HAMGEN_8507ACE5_FLOAT64_HISTORY
+#ifndef HAMGEN_CC121E50_FLOAT64_HISTORY
+#define HAMGEN_CC121E50_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1099,6 +1172,12 @@ struct History {
              const Real* unit) const {
     return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
   }
+  // The same of one unknown.
+  template <class Solution>
+  Real difference(int degree, const Solution& solution, int i) const {
+    if (known == 0) return 0;
+    return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
+  }
   template <class Weight>
   Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
                 const Weight& weight) const {
@@ -1128,8 +1207,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_FORGET
-#define HAMGEN_8507ACE5_FLOAT64_FORGET
+#ifndef HAMGEN_CC121E50_FLOAT64_FORGET
+#define HAMGEN_CC121E50_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1139,17 +1218,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_8507ace5::float64
+}  // namespace hamgen_cc121e50::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x8103c387
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x509449c3
 namespace fput::implicit_midpoint {
-inline namespace emitted_8103c387 {
+inline namespace emitted_509449c3 {
 
-namespace numerics = ::hamgen_8507ace5::float64;
+namespace numerics = ::hamgen_cc121e50::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1338,11 +1417,11 @@ inline bool newton(const Parameters& par, const Coefficients& k, Real h, const S
       size += magnitude(start.lack[i]) * start.newton_rule.unit[i];
       moved += magnitude(start.lack[i]);
       scale += magnitude(start.value[i]) + magnitude(z.q[i]);
-      uneven += start.newton_rule.relative(magnitude(start.lack[i]), magnitude(start.value[i]) +
+      uneven += start.newton_rule.relative(i, magnitude(start.lack[i]), magnitude(start.value[i]) +
                                            magnitude(z.q[i]), magnitude(start.value[i] - z.q[i]));
     }
-    const Verdict verdict =
-        start.newton_rule.of_sums(start.lack, size, uneven, moved, scale, 32, iteration);
+    const Verdict verdict = start.newton_rule.of_sums(start.value, start.lack, size, uneven, moved,
+                                                      scale, 32, iteration);
     if (verdict == Verdict::failed) {
       report.iterations += iteration;
       report.increment = start.newton_rule.previous;
@@ -1485,9 +1564,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_8103c387
+}  // namespace emitted_509449c3
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x8103c387
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x509449c3
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -71,11 +71,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_8507ace5::float64 {
+namespace hamgen_cc121e50::float64 {
 using Real = double;
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
-#define HAMGEN_8507ACE5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_CC121E50_FLOAT64_STEP_REPORT
+#define HAMGEN_CC121E50_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -85,15 +85,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_VOCABULARY
-#define HAMGEN_8507ACE5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_CC121E50_FLOAT64_VOCABULARY
+#define HAMGEN_CC121E50_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_TWO_SUM
-#define HAMGEN_8507ACE5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_CC121E50_FLOAT64_TWO_SUM
+#define HAMGEN_CC121E50_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -103,8 +103,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_8507ACE5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
+#define HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -116,14 +116,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_VERDICT
-#define HAMGEN_8507ACE5_FLOAT64_VERDICT
+#ifndef HAMGEN_CC121E50_FLOAT64_VERDICT
+#define HAMGEN_CC121E50_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
-#define HAMGEN_8507ACE5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
+#define HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -160,6 +160,7 @@ enum class Verdict { go_on, done, failed };
 struct Motion {
   Real move = 0;
   Real bend = 0;
+  Real least = 0;  // the least move of several unknowns
 };
 template <int Power>
 struct NewtonRule {
@@ -180,29 +181,37 @@ struct NewtonRule {
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
-  template <class Past, int Unknowns>
-  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && ends_at_once(size, round_off, round_off)) return Verdict::done;
-    return judge<false>(size, scale, iterations, 0,
-                        [&](Real units) { return size <= units * epsilon * scale; });
+    if (iterations == 1 && ends_at_once(size, round_off, round_off, motion.move))
+      return Verdict::done;
+    return judge<false>(size, scale, iterations, 0, Alone{size, scale});
   }
   // Most steps do, with their first increment: where what the motion shows, and what was measured,
   // is lost in this.
-  bool ends_at_once(Real size, Real shown, Real measured) {
-    const bool ends = unchecked < 31 && is_straight(size, shown) && is_next_lost(size, measured);
+  bool ends_at_once(Real size, Real shown, Real measured, Real move) {
+    const bool ends =
+        unchecked < 31 && is_straight(size, shown, move) && is_next_lost(size, measured);
     unchecked += ends;
     return ends;
   }
-  // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
-  // many units of rounding of them all?
-  template <bool Many, class IsWithin>
-  Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
+  struct Alone {
+    Real size, scale;
+    bool is_within(Real units) const { return size <= units * epsilon * scale; }
+    static bool is_still() { return true; }
+    static bool is_in_reach() { return true; }
+  };
+  // The same of several unknowns, see NewtonRuleOfMany, of which it is asked whether the increments
+  // are within so many units of rounding of them all, whether none converges any more, and whether
+  // what its own motion shows of each is lost.
+  template <bool Many, class Unknown>
+  Verdict judge(Real size, Real scale, int iterations, Real uneven, const Unknown& each) {
     const Real round_off = epsilon * scale;
     still = false;
     if (!(size <= largest)) {
@@ -226,18 +235,19 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      still = grown >= 2 && small && !waits && is_within(4096);
+      still = grown >= 2 && small && !waits && each.is_within(4096) && each.is_still();
       if (still) return Verdict::done;
     }
-    const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
+    const bool near = !Many || !first || each.is_in_reach();
+    const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     const Real shown = (Many ? 8 : 1) * round_off;
-    const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
+    const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
-    const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
+    const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.
-    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
+    if (Many && iterations >= 60 && each.is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
@@ -261,20 +271,22 @@ struct NewtonRule {
   }
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
-  bool is_even(Real parts) const {
-    const bool straight = previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
-    return straight && contraction * parts * 16 <= epsilon;
+  bool is_even(Real size, Real uneven) const {
+    if (previous > 0) return uneven * 16 <= epsilon;
+    const Real parts = size * uneven;
+    return contraction * parts * 16 <= epsilon &&
+           motion.bend * parts * 16 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
-  bool is_straight(Real size, Real round_off) const {
+  bool is_straight(Real size, Real round_off, Real move) const {
     const Real bend = motion.bend > size ? motion.bend : size;
-    return bend * power(size) * 1024 <= round_off * power(motion.move);
+    return bend * power(size) * 1024 <= round_off * power(move);
   }
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_HISTORY
-#define HAMGEN_8507ACE5_FLOAT64_HISTORY
+#ifndef HAMGEN_CC121E50_FLOAT64_HISTORY
+#define HAMGEN_CC121E50_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -351,6 +363,12 @@ struct History {
              const Real* unit) const {
     return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
   }
+  // The same of one unknown.
+  template <class Solution>
+  Real difference(int degree, const Solution& solution, int i) const {
+    if (known == 0) return 0;
+    return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
+  }
   template <class Weight>
   Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
                 const Weight& weight) const {
@@ -380,8 +398,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_FORGET
-#define HAMGEN_8507ACE5_FLOAT64_FORGET
+#ifndef HAMGEN_CC121E50_FLOAT64_FORGET
+#define HAMGEN_CC121E50_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -391,8 +409,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_8507ACE5_FLOAT64_AHEAD
-#define HAMGEN_8507ACE5_FLOAT64_AHEAD
+#ifndef HAMGEN_CC121E50_FLOAT64_AHEAD
+#define HAMGEN_CC121E50_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -407,17 +425,17 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_8507ace5::float64
+}  // namespace hamgen_cc121e50::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xa20c5569
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xffe87247
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_a20c5569 {
+inline namespace emitted_ffe87247 {
 
-namespace numerics = ::hamgen_8507ace5::float64;
+namespace numerics = ::hamgen_cc121e50::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
@@ -606,9 +624,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_a20c5569
+}  // namespace emitted_ffe87247
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xa20c5569
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xffe87247
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

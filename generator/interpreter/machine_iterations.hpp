@@ -116,14 +116,15 @@ class MachineIterations : public MachineAddresses<Real> {
       const Real beside = u.beside(m_.frame);
       const Real moved = magnitude(m_.frame.at(u.increment));
       const Real length = magnitude(value) + magnitude(beside);
-      sums.size += moved * rule.unit(unknown());
+      const std::size_t j = unknown();
       ++next;
+      sums.size += moved * rule.unit(j);
       sums.moved += moved;
       sums.scale += length;
       const Real way = u.by_torn ? magnitude(value - beside) : length;
-      sums.uneven += rule.relative(moved, length, way);
+      sums.uneven += rule.relative(static_cast<int>(j), moved, length, way);
     });
-    return {rule.of_sums(all_moved, sums, iteration), sums.size};
+    return {rule.of_sums(all_values, all_moved, sums, iteration), sums.size};
   }
   // All together, where they are written out: the corrections, then the sums from the left, term by
   // term.

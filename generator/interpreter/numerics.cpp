@@ -56,6 +56,9 @@ class HistoryOf final : public AnyHistory<Real> {
     return unit == nullptr ? history_.error(degree, all.padded, first, count)
                            : history_.error(degree, all.padded, first, count, unit);
   }
+  [[nodiscard]] Real difference(int degree, std::span<const Real> solution, int i) const override {
+    return history_.difference(degree, solution, i);
+  }
 
  private:
   typename NumericsOf<Real>::template Past<Size> history_;
@@ -73,20 +76,19 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
   }
   void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
              int count) override {
-    const bool watched = used_ || !waits_;
-    const Real* unit = nullptr;
-    if constexpr (Size > 0) {
-      if (watched && ++rule_.age >= 16) rule_.follow(solution.data() + first, count);
-      unit = rule_.unit;
+    if (used_ || !waits_) {
+      rule_.watch(past, solution, first, count);
+    } else {
+      rule_.motion = {};
     }
-    rule_.motion.move = watched ? past.error(0, solution, first, count, unit) : Real(0);
-    rule_.motion.bend = watched ? past.error(Power + 1, solution, first, count, unit) : Real(0);
     used_ = false;
   }
-  Answer of_sums(std::span<const Real> increments, const Sums& sums, int iteration) override {
+  Answer of_sums(std::span<const Real> values, std::span<const Real> increments, const Sums& sums,
+                 int iteration) override {
     if constexpr (Size > 0) {
-      return answer(rule_.of_sums(increments.data(), sums.size, sums.uneven, sums.moved, sums.scale,
-                                  static_cast<int>(increments.size()), iteration));
+      return answer(rule_.of_sums(values.data(), increments.data(), sums.size, sums.uneven,
+                                  sums.moved, sums.scale, static_cast<int>(increments.size()),
+                                  iteration));
     } else {
       return answer(rule_(sums.moved, sums.scale, iteration));
     }
@@ -98,8 +100,8 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     if constexpr (Size > 0) return rule_.unit[unknown];
     return 1;
   }
-  [[nodiscard]] Real relative(Real moved, Real length, Real way) const override {
-    if constexpr (Size > 0) return rule_.relative(moved, length, way);
+  [[nodiscard]] Real relative(int unknown, Real moved, Real length, Real way) const override {
+    if constexpr (Size > 0) return rule_.relative(unknown, moved, length, way);
     return 0;
   }
   Answer of_each(std::span<const Real> moved, std::span<const Real> length,
@@ -128,10 +130,12 @@ class LinearRuleOf final : public AnyNewtonRule<Real> {
   void begin(bool /*predicted*/) override { rule_.begin(); }
   void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
              int /*count*/) override {}
-  Answer of_sums(std::span<const Real> /*increments*/, const Sums& sums, int iteration) override {
+  Answer of_sums(std::span<const Real> /*values*/, std::span<const Real> /*increments*/,
+                 const Sums& sums, int iteration) override {
     return answer(rule_(sums.moved, sums.scale, iteration, sums.uneven));
   }
-  [[nodiscard]] Real relative(Real moved, Real length, Real /*way*/) const override {
+  [[nodiscard]] Real relative(int /*unknown*/, Real moved, Real length,
+                              Real /*way*/) const override {
     return rule_.relative(moved, length);
   }
 

@@ -60,7 +60,9 @@ struct AnyHistory {
   virtual void extrapolate_twice(std::span<Real> solution) const = 0;
   // With one over the size of each, or where sizes do not count.
   [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first, int count,
-                                   const Real* unit) const = 0;
+                                   const Real* unit = nullptr) const = 0;
+  [[nodiscard]] virtual Real difference(int degree, std::span<const Real> solution,
+                                        int i) const = 0;
 };
 template <class Real>
 struct AnyNewtonRule {
@@ -73,8 +75,9 @@ struct AnyNewtonRule {
   struct Sums {
     Real size = 0, uneven = 0, moved = 0, scale = 0;
   };
-  virtual Answer of_sums(std::span<const Real> increments, const Sums& sums, int iteration) = 0;
-  [[nodiscard]] virtual Real relative(Real moved, Real length, Real way) const = 0;
+  virtual Answer of_sums(std::span<const Real> values, std::span<const Real> increments,
+                         const Sums& sums, int iteration) = 0;
+  [[nodiscard]] virtual Real relative(int unknown, Real moved, Real length, Real way) const = 0;
   // One over the size of each unknown, once a first iteration is known.
   virtual void know(std::span<const Real> /*value*/, std::span<const Real> /*moved*/) {}
   [[nodiscard]] virtual Real unit(std::size_t /*unknown*/) const { return 1; }

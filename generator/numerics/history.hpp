@@ -74,6 +74,12 @@ struct History {
              const Real* unit) const {
     return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
   }
+  // The same of one unknown.
+  template <class Solution>
+  Real difference(int degree, const Solution& solution, int i) const {
+    if (known == 0) return 0;
+    return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
+  }
   template <class Weight>
   Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
                 const Weight& weight) const {

@@ -58,23 +58,29 @@ struct History {
     }
   }
   // The difference of order Degree + 1 at the solution that came, of lower order if fewer steps are
-  // known, and 0 if none is: summed over `count` unknowns, each in a unit of its own.
+  // known, and 0 if none is: of one unknown, or summed over `count` of them, each in a unit of its
+  // own.
+  template <int Degree>
+  Real difference(const Real (&solution)[Unknowns], int i) const {
+    if (known <= Degree) {
+      if constexpr (Degree > 0) return difference<Degree - 1>(solution, i);
+      return 0;
+    }
+    Real all = solution[i];
+    double binomial = 1;
+    for (int k = 0; k <= Degree; ++k) {
+      binomial = -binomial * (Degree + 1 - k) / (k + 1);
+      all += binomial * past[newest + k][i];
+    }
+    return magnitude(all);
+  }
   template <int Degree>
   Real error(const Real (&solution)[Unknowns], int first, int count,
              const Real* unit = nullptr) const {
     Real total = 0;
-    if (known > Degree) {
-      for (int i = first; i < first + count; ++i) {
-        Real difference = solution[i];
-        double binomial = 1;
-        for (int k = 0; k <= Degree; ++k) {
-          binomial = -binomial * (Degree + 1 - k) / (k + 1);
-          difference += binomial * past[newest + k][i];
-        }
-        total += unit == nullptr ? magnitude(difference) : magnitude(difference) * unit[i - first];
-      }
-    } else if constexpr (Degree > 0) {
-      total = error<Degree - 1>(solution, first, count, unit);
+    for (int i = first; i < first + count; ++i) {
+      const Real each = difference<Degree>(solution, i);
+      total += unit == nullptr ? each : each * unit[i - first];
     }
     return total;
   }

@@ -44,23 +44,28 @@ struct NewtonRule : Iteration {
   }
   // The numbers are those that the rule of one trajectory is given.  Gives the lanes that move.
   Mask operator()(const Real& size, const Real& scale, int iterations) {
-    return judge<false>(size, scale, iterations, Real(0),
-                        [&](double units) { return size <= units * epsilon * scale; });
+    return judge<false>(size, scale, iterations, Real(0), Alone{size, scale});
   }
-  template <bool Many, class IsWithin>
+  struct Alone {
+    const Real& size;
+    const Real& scale;
+    Mask is_within(double units) const { return size <= units * epsilon * scale; }
+    static Mask is_still() { return true; }
+    static Mask is_in_reach() { return true; }
+  };
+  template <bool Many, class Unknown>
   Mask judge(const Real& size, const Real& scale, int iterations, const Real& uneven,
-             const IsWithin& is_within) {
+             const Unknown& each) {
     const Real round_off = epsilon * scale;
     still = false;
-    const Real parts = size * uneven;
     const Mask stays = (far > 0) & (10 * uneven > 9 * far);
     far = uneven;
     Mask waits = false;
     if (Power == 1) waits = (uneven > epsilon * epsilon * round_off) & !stays;
     const bool first = iterations == 1 && !checks;
-    const Mask alone =
-        first ? is_lost<Many>(size, round_off) & serves(parts, waits, false) & !unmeasured
-              : Mask(false);
+    Mask served = Power == 1 ? !waits : is_even(size, uneven, iterations > 1);
+    if (Many && iterations == 1) served = served & each.is_in_reach();
+    const Mask alone = first ? is_lost<Many>(size, round_off) & served & !unmeasured : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -71,17 +76,16 @@ struct NewtonRule : Iteration {
     Mask done = alone;
     Mask noise = false;
     if (iterations > 1) {
-      noise = is_within(4096);
+      noise = each.is_within(4096);
       const double least = Power == 2 ? 8 : 2;
       const Mask slow = Many ? least * size > previous : size >= previous;
       learn(size, round_off, Many ? slow : Mask(false));
       unmeasured = unmeasured & !open;
       grown = select(open, select(slow, grown + 1, Real(0)), grown);
       const Mask small = Many ? 4096 * size <= scale : Mask(true);
-      done = (grown >= 2) & small & noise & !waits;
+      done = (grown >= 2) & small & noise & !waits & each.is_still();
       still = open & done;
     }
-    const Mask served = serves(parts, waits, iterations > 1);
     Mask lost = (size <= round_off) & (served | stays);
     if (Power == 1) {
       const Mask leaves = contraction * size * 8192 > round_off;
@@ -92,15 +96,12 @@ struct NewtonRule : Iteration {
     open = open & !done;
     if (iterations > 1) end_with(open & predicted & (2 * size > previous) & !noise, size);
     if (iterations >= 60) {
-      if (Many) open = open & !is_within(64);
+      if (Many) open = open & !each.is_within(64);
       end_with(open, size);
     }
     previous = size;
     begins = false;
     return open;
-  }
-  Mask serves(const Real& parts, const Mask& waits, bool measured) const {
-    return Power == 1 ? !waits : is_even(parts, measured);
   }
   void learn(const Real& size, const Real& round_off, const Mask& doubtful) {
     const Real seen = select(size < round_off, round_off, size) / power(previous);
@@ -122,10 +123,11 @@ struct NewtonRule : Iteration {
     return is_next_lost(size, round_off) & is_straight(size, (Many ? 8 : 1) * round_off);
   }
   // Is the next increment lost in the rounding of each unknown?
-  Mask is_even(const Real& parts, bool measured) const {
-    const Mask even = contraction * parts * 16 <= epsilon;
-    if (measured) return even;
-    return even & (motion.bend * parts * 16 <= epsilon * power(motion.move));
+  Mask is_even(const Real& size, const Real& uneven, bool measured) const {
+    if (measured) return uneven * 16 <= epsilon;
+    const Real parts = size * uneven;
+    return (contraction * parts * 16 <= epsilon) &
+           (motion.bend * parts * 16 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

@@ -4,6 +4,9 @@ template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
   using One = NewtonRule<Power>;
   Real unit[Unknowns] = {};  // one over the size of each; 0: not known yet
+  Real moves[Unknowns] = {};
+  Real bends[Unknowns] = {};
+  Real last[Unknowns] = {};
   int age = 0;
 
   static constexpr double smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -47,13 +50,38 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   template <class Past, int All>
   void watch(const Past& past, const Real (&solution)[All], int first, int count) {
     if (++age >= 16) follow(solution + first, count);
-    this->motion.move = past.template error<0>(solution, first, count, unit);
-    this->motion.bend = past.template error<Power + 1>(solution, first, count, unit);
+    Real move = 0;
+    Real bend = 0;
+    for (int j = 0; j < count; ++j) {
+      moves[j] = past.template difference<0>(solution, first + j);
+      bends[j] = past.template difference<Power + 1>(solution, first + j);
+      move += moves[j] * unit[j];
+      bend += bends[j] * unit[j];
+    }
+    this->motion.move = move;
+    this->motion.bend = bend;
   }
-  // What an increment is of what it must be lost in, or the increment.
-  static Real relative(const Real& moved, const Real& length, const Real& way) {
+  Mask is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
+    Mask within = true;
+    for (int j = 0; j < count && Power == 2; ++j) {
+      const Real bend = bends[j] * unit[j];
+      const Real part = moved[j] * unit[j];
+      const Real move = moves[j] * unit[j];
+      const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      within = within &
+               ((bend <= 1024 * epsilon) | (bend * part * part * 16 <= round_off * move * move));
+    }
+    return within;
+  }
+  // An increment as a part of what it must be lost in, or what the next one is of that; of an
+  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
+  Real relative(int j, const Real& moved, const Real& length, const Real& way) const {
     if (Power == 1) return select(moved > 8 * epsilon * length + One::tiny, moved, Real(0));
-    return select(moved > One::tiny, moved / felt(length, way), Real(0));
+    const Real part = moved / felt(length, way);
+    if (this->begins) return select(moved > One::tiny, part, Real(0));
+    const Real ratio = moved / last[j];
+    const Mask counts = (moved > One::tiny) & (moved * unit[j] > 64 * epsilon);
+    return select(counts, part * ratio * ratio, Real(0));
   }
   static Real felt(const Real& length, const Real& way) {
     const Real least = 16 * way + length / 1048576;
@@ -86,23 +114,46 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     Real uneven = 0;
     if (!all(lost)) {
       for (int j = 0; j < count; ++j) {
-        const Real part = relative(moved[j], length[j], way[j]);
+        const Real part = relative(j, moved[j], length[j], way[j]);
         uneven += Power == 1 ? part * unit[j] : part;
       }
       uneven = select(lost, Real(0), uneven);
     }
-    const auto is_within = [&](double units) {
-      Real together = moved[0];
-      Real scale = length[0];
-      for (int j = 1; j < count; ++j) {
-        together += moved[j];
-        scale += length[j];
+    Real together = moved[0];
+    Real scale = length[0];
+    for (int j = 1; j < count; ++j) {
+      together += moved[j];
+      scale += length[j];
+    }
+    return judge_all(size, uneven, {*this, moved, length, way, count, together, scale}, iterations);
+  }
+  // Increments, lengths, ways, and sums of the first two.
+  struct Each {
+    const NewtonRuleOfMany& rule;
+    const Real* moved;
+    const Real* length;
+    const Real* way;
+    int count;
+    const Real& together;
+    const Real& scale;
+    Mask is_within(double units) const { return together <= units * epsilon * scale; }
+    Mask is_in_reach() const { return rule.is_in_reach(moved, length, way, count); }
+    Mask is_still() const {
+      Mask converging = false;
+      for (int j = 0; j < count; ++j) {
+        const Real by = magnitude(moved[j]);
+        converging =
+            converging | ((by > 8 * epsilon * magnitude(length[j])) & (2 * by <= rule.last[j]));
       }
-      return together <= units * epsilon * scale;
-    };
+      return !converging;
+    }
+  };
+  Mask judge_all(const Real& size, const Real& uneven, const Each& each, int iterations) {
     const Mask moving =
-        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
-    if (any(this->still)) hear(moved, count);
+        this->template judge<true>(size, Real(each.count), iterations, uneven, each);
+    if (any(this->still)) hear(each.moved, each.count);
+    if (any(moving))
+      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
     return moving;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -113,14 +164,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       unit[j] = select(loud, 64 * epsilon / noise, unit[j]);
     }
   }
-  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
-  // is relative of each, of increments and of lengths.
-  Mask of_sums(const Real* increment, const Real& size, const Real& uneven, const Real& moved,
-               const Real& scale, int count, int iterations) {
-    const auto is_within = [&](double units) { return moved <= units * epsilon * scale; };
-    const Mask moving =
-        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
-    if (any(this->still)) hear(increment, count);
-    return moving;
+  // Of values and increments in arrays, and sums over the unknowns: of increments as parts of
+  // sizes, of what is relative of each, of increments and of lengths.
+  Mask of_sums(const Real* value, const Real* increment, const Real& size, const Real& uneven,
+               const Real& moved, const Real& scale, int count, int iterations) {
+    return judge_all(size, uneven, {*this, increment, value, moves, count, moved, scale},
+                     iterations);
   }
 };

@@ -34,6 +34,7 @@
 struct Motion {
   Real move = 0;
   Real bend = 0;
+  Real least = 0;  // the least move of several unknowns
 };
 template <int Power>
 struct NewtonRule {
@@ -54,29 +55,37 @@ struct NewtonRule {
     predicted = from_prediction;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
-  template <class Past, int Unknowns>
-  void watch(const Past& past, const Real (&solution)[Unknowns], int first, int count) {
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
   }
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && ends_at_once(size, round_off, round_off)) return Verdict::done;
-    return judge<false>(size, scale, iterations, 0,
-                        [&](Real units) { return size <= units * epsilon * scale; });
+    if (iterations == 1 && ends_at_once(size, round_off, round_off, motion.move))
+      return Verdict::done;
+    return judge<false>(size, scale, iterations, 0, Alone{size, scale});
   }
   // Most steps do, with their first increment: where what the motion shows, and what was measured,
   // is lost in this.
-  bool ends_at_once(Real size, Real shown, Real measured) {
-    const bool ends = unchecked < 31 && is_straight(size, shown) && is_next_lost(size, measured);
+  bool ends_at_once(Real size, Real shown, Real measured, Real move) {
+    const bool ends =
+        unchecked < 31 && is_straight(size, shown, move) && is_next_lost(size, measured);
     unchecked += ends;
     return ends;
   }
-  // The same of several unknowns, see NewtonRuleOfMany; is_within: are the increments within so
-  // many units of rounding of them all?
-  template <bool Many, class IsWithin>
-  Verdict judge(Real size, Real scale, int iterations, Real uneven, const IsWithin& is_within) {
+  struct Alone {
+    Real size, scale;
+    bool is_within(Real units) const { return size <= units * epsilon * scale; }
+    static bool is_still() { return true; }
+    static bool is_in_reach() { return true; }
+  };
+  // The same of several unknowns, see NewtonRuleOfMany, of which it is asked whether the increments
+  // are within so many units of rounding of them all, whether none converges any more, and whether
+  // what its own motion shows of each is lost.
+  template <bool Many, class Unknown>
+  Verdict judge(Real size, Real scale, int iterations, Real uneven, const Unknown& each) {
     const Real round_off = epsilon * scale;
     still = false;
     if (!(size <= largest)) {
@@ -100,18 +109,19 @@ struct NewtonRule {
       // No progress twice in a row: this is round-off if it is small, else it may still recover.
       grown = slow ? grown + 1 : 0;
       const bool small = !Many || 4096 * size <= scale;
-      still = grown >= 2 && small && !waits && is_within(4096);
+      still = grown >= 2 && small && !waits && each.is_within(4096) && each.is_still();
       if (still) return Verdict::done;
     }
-    const bool serves = Power == 1 ? !waits : uneven <= 0 || is_even(size * uneven);
+    const bool near = !Many || !first || each.is_in_reach();
+    const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     const Real shown = (Many ? 8 : 1) * round_off;
-    const bool looked = !first || (unchecked < 32 && is_straight(size, shown));
+    const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
-    const bool astray = predicted && iterations > 1 && 2 * size > previous && !is_within(4096);
+    const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.
-    if (Many && iterations >= 60 && is_within(64)) return Verdict::done;
+    if (Many && iterations >= 60 && each.is_within(64)) return Verdict::done;
     return iterations < 60 && !astray ? Verdict::go_on : Verdict::failed;
   }
   // It may rise at once but falls slowly: one small increment may be luck.  Of several unknowns it
@@ -135,13 +145,15 @@ struct NewtonRule {
   }
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
-  bool is_even(Real parts) const {
-    const bool straight = previous > 0 || motion.bend * parts * 16 <= epsilon * power(motion.move);
-    return straight && contraction * parts * 16 <= epsilon;
+  bool is_even(Real size, Real uneven) const {
+    if (previous > 0) return uneven * 16 <= epsilon;
+    const Real parts = size * uneven;
+    return contraction * parts * 16 <= epsilon &&
+           motion.bend * parts * 16 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
-  bool is_straight(Real size, Real round_off) const {
+  bool is_straight(Real size, Real round_off, Real move) const {
     const Real bend = motion.bend > size ? motion.bend : size;
-    return bend * power(size) * 1024 <= round_off * power(motion.move);
+    return bend * power(size) * 1024 <= round_off * power(move);
   }
 };

@@ -10,14 +10,23 @@
 // rounding errors of the others may be most of an increment: whether it may be noise is asked of
 // plain sums, and what an iteration has ended with as noise is 64 roundings of a size from then on.
 //
+// Note [what its own motion shows of each]
+// A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
+// that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
+// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, as long as
+// its bend is more than noise can be.  Where increments were measured the next one of each is told
+// by its own last two, moved (moved / last)^2, and no step ends with noise as long as an unknown
+// converges.  Walls beside a loud coordinate were off by 8000 roundings, an x that falls by 1e4
+// times within its size by 290, what is a 1e13th of its neighbour by 1e17.
+//
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
 // second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
-// each the next increment is taken to be the same part of the last one as of all together; `uneven`
-// is the sum of what the increments are of their unknowns.  With an approximate matrix that would
-// be wrong: an unknown that is small beside the others may contract far more slowly, and was off by
-// 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8 roundings of their own
-// unknowns, and none may be left, as long as they become smaller.
+// each the first increment is taken to leave the same part as all together; `uneven` is the sum of
+// what the increments are of their unknowns, or what is told to follow them.  With an approximate
+// matrix that would be wrong: an unknown that is small beside the others may contract far more
+// slowly, and was off by 2e4 of its roundings.  `uneven` is then the sum of the increments beyond 8
+// roundings of their own unknowns, and none may be left, as long as they become smaller.
 //
 // Nor is it enough that an increment is lost in the rounding of its unknown: a coordinate that
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
@@ -29,7 +38,10 @@
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
   using One = NewtonRule<Power>;
-  Real unit[Unknowns] = {};  // one over the size of each, see Note [units]; 0: not known yet
+  Real unit[Unknowns] = {};   // one over the size of each, see Note [units]; 0: not known yet
+  Real moves[Unknowns] = {};  // the motion of each, as it is written
+  Real bends[Unknowns] = {};
+  Real last[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -66,17 +78,44 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     }
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
-  template <class Past, int All>
-  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
-    if (++age >= 16) follow(solution + first, count);
-    this->motion.move = past.error(0, solution, first, count, unit);
-    this->motion.bend = past.error(Power + 1, solution, first, count, unit);
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
+    if (++age >= 16) follow(&solution[first], count);
+    Real move = 0;
+    Real bend = 0;
+    Real slowest = largest;
+    for (int j = 0; j < count; ++j) {
+      moves[j] = past.difference(0, solution, first + j);
+      bends[j] = past.difference(Power + 1, solution, first + j);
+      const Real part = moves[j] * unit[j];
+      move += part;
+      bend += bends[j] * unit[j];
+      slowest = part < slowest ? part : slowest;
+    }
+    this->motion = {move, bend, slowest};
   }
-  // An increment as a part of what it must be lost in; nothing at the smallest numbers.  Of an
-  // approximate matrix the increment, if it is not lost in the rounding of its unknown.
-  static Real relative(Real moved, Real length, Real way) {
+  // See Note [what its own motion shows of each].
+  bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
+    for (int j = 0; j < count && Power == 2; ++j) {
+      const Real bend = bends[j] * unit[j];
+      const Real part = moved[j] * unit[j];
+      const Real move = moves[j] * unit[j];
+      const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      if (bend <= 1024 * epsilon) continue;
+      if (bend * part * part * 16 > round_off * move * move) return false;
+    }
+    return true;
+  }
+  // An increment as a part of what it must be lost in, or what the next one is of that, if it is no
+  // noise; nothing at the smallest numbers.  Of an approximate matrix the increment, if it is not
+  // lost in the rounding of its unknown.
+  Real relative(int j, Real moved, Real length, Real way) const {
     if (Power == 1) return moved > 8 * epsilon * length + One::tiny ? moved : Real(0);
-    return moved > One::tiny ? moved / felt(length, way) : Real(0);
+    if (!(moved > One::tiny)) return 0;
+    if (this->previous <= 0) return moved / felt(length, way);
+    if (moved * unit[j] <= 64 * epsilon) return 0;
+    const Real ratio = moved / last[j];
+    return moved / felt(length, way) * ratio * ratio;
   }
   // Of its length and its way in the step.
   static Real felt(Real length, Real way) {
@@ -106,7 +145,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
-    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured))
+    // Of each the same where it is so of the one that moves least.
+    const Real move = Power == 2 ? this->motion.least : this->motion.move;
+    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured, move))
       return Verdict::done;
     return judge_each(seen, moved, length, way, count, iterations);
   }
@@ -139,21 +180,44 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         asked && bends_little(seen.shortest, seen.size) && is_lost_in(seen.shortest, seen.size);
     if (!lost) {
       for (int j = 0; j < count; ++j) {
-        uneven += relative(moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
+        uneven += relative(j, moved[j], length[j], way[j]) * (Power == 1 ? unit[j] : Real(1));
       }
     }
-    const auto is_within = [&](Real units) {
-      Real together = moved[0];
-      Real scale = length[0];
-      for (int j = 1; j < count; ++j) {
-        together += moved[j];
-        scale += length[j];
+    Real together = moved[0];
+    Real scale = length[0];
+    for (int j = 1; j < count; ++j) {
+      together += moved[j];
+      scale += length[j];
+    }
+    return judge_all(seen.size, uneven, {*this, moved, length, way, count, together, scale},
+                     iterations);
+  }
+  // Increments, lengths, ways, and sums of the first two.
+  struct Each {
+    const NewtonRuleOfMany& rule;
+    const Real* moved;
+    const Real* length;
+    const Real* way;
+    int count;
+    Real together, scale;
+    bool is_within(Real units) const { return together <= units * epsilon * scale; }
+    bool is_in_reach() const { return rule.is_in_reach(moved, length, way, count); }
+    bool is_still() const {
+      bool converging = false;
+      for (int j = 0; j < count; ++j) {
+        const Real by = magnitude(moved[j]);
+        converging =
+            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.last[j]);
       }
-      return together <= units * epsilon * scale;
-    };
+      return !converging;
+    }
+  };
+  Verdict judge_all(Real size, Real uneven, const Each& each, int iterations) {
     const Verdict verdict =
-        this->template judge<true>(seen.size, Real(count), iterations, uneven, is_within);
-    if (this->still) hear(moved, count);
+        this->template judge<true>(size, Real(each.count), iterations, uneven, each);
+    if (this->still) hear(each.moved, each.count);
+    if (verdict == Verdict::go_on)
+      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -163,14 +227,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       if (noise * unit[j] > 64 * epsilon) unit[j] = 64 * epsilon / noise;
     }
   }
-  // Of increments in an array, and sums over the unknowns: of increments as parts of sizes, of what
-  // is relative of each, of increments and of lengths.
-  Verdict of_sums(const Real* increment, Real size, Real uneven, Real moved, Real scale, int count,
-                  int iterations) {
-    const auto is_within = [&](Real units) { return moved <= units * epsilon * scale; };
-    const Verdict verdict =
-        this->template judge<true>(size, Real(count), iterations, uneven, is_within);
-    if (this->still) hear(increment, count);
-    return verdict;
+  // Of values and increments in arrays, and sums over the unknowns: of increments as parts of
+  // sizes, of what is relative of each, of increments and of lengths.
+  Verdict of_sums(const Real* value, const Real* increment, Real size, Real uneven, Real moved,
+                  Real scale, int count, int iterations) {
+    return judge_all(size, uneven, {*this, increment, value, moves, count, moved, scale},
+                     iterations);
   }
 };

@@ -8,8 +8,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
     Watched::begin(from_prediction);
     used = true;
   }
-  template <class Past, int All>
-  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
+  template <class Past, class Solution>
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     if (used) {
       Watched::watch(past, solution, first, count);
     } else {

@@ -50,12 +50,14 @@ class RuleWriter : public FailureWriter {
       Value longest = length(u.value, u.beside);
       Value gone = u.by_torn ? way(u.value, u.beside) : longest;
       set(at({"uneven "}),
-          action("NewtonRule", rule, "relative", {moved, std::move(longest), std::move(gone)}),
+          action("NewtonRule", rule, "relative",
+                 {index(u.index), moved, std::move(longest), std::move(gone)}),
           "+=");
     });
-    return action("NewtonRule", rule, "of_sums",
-                  {object(iterate.increments), at({"size "}), at({"uneven "}), at({"moved "}),
-                   at({"scale "}), integer(iterate.count), at({"iteration "})});
+    return action(
+        "NewtonRule", rule, "of_sums",
+        {object(iterate.values), object(iterate.increments), at({"size "}), at({"uneven "}),
+         at({"moved "}), at({"scale "}), integer(iterate.count), at({"iteration "})});
   }
   // Of linear equations it is told the increments, and what their unknowns are rounded with.
   Value judged_of_lengths(const IterateArray& iterate) {

@@ -117,6 +117,41 @@ H = p^2/2 + q^2/2 - cos(a) - cos(b) - cos(a - b)/2
 scene often { a = 1000000; p = 3; b = 1; h = 0.02; steps = 20000 }
 scene longer { a = 1000000; p = 3; b = 1; h = 0.03; steps = 20000 }
 )"},
+    // Walls of y that are met slowly, beside an x that moves freely and is hardly coupled.
+    SteepModel{"free_wall", R"(coordinate x, y
+momentum u, v
+parameter k = 1e4
+H = (u^2 + v^2)/2 + (exp(k*(y - 1)) + exp(-k*(y + 1)))/k + 1e-9*cos(x)*y
+scene slow { u = -1; y = 0.99; v = 0.003; h = 0.01; steps = 3000 }
+scene harder { k = 1e5; u = 1000; y = 0.999; v = 0.0003; h = 0.01; steps = 3000 }
+)"},
+    // A hard wall of y that is met once, beside an x that goes to and fro between softer ones.
+    SteepModel{"two_walls", R"(coordinate x, y
+momentum u, v
+parameter k = 1e5
+H = (u^2 + v^2)/2 + (exp(k*(y - 1)) + exp(-k*(y + 1)))/k + exp(20*(x - 1)) + exp(-20*(x + 1)) + 1e-6*x*y
+scene once { u = 3; y = 0.99; v = 0.001; h = 0.01; steps = 3000 }
+)"},
+    // Hard walls of q beside an oscillation of 1e-6.
+    SteepModel{"small_oscillator", R"(coordinate q, y
+momentum p, v
+parameter w = 10
+parameter k = 1000
+H = p^2/2 + (exp(k*(q - 1)) + exp(-k*(q + 1)))/10 + v^2/2 + w^2*y^2/2 + 1e-9*cos(q - y)
+scene wall { q = 0.9; p = 0.1; y = 1e-6; h = 0.01; steps = 3000 }
+)"},
+    // x falls from 1e4 to 1 in 29 steps: its size lags behind.
+    SteepModel{"saddle", R"(coordinate x, y
+momentum u, v
+H = (u^2 + v^2)/2 - x^2/2 + y^2/2 + 1/x^2 + y^4/40 + 0.01*y^2/(1 + x^2)
+scene fall { x = 1e4; u = -1e4 - 0.0001; y = 0.5; h = 0.3; steps = 100 }
+)"},
+    // y is less than a 2^-40th of x.
+    SteepModel{"beside_huge", R"(coordinate x, y
+momentum u, v
+H = (u^2 + v^2)/2 + y^2/2 + y^4/4 + y^2/(1 + x^2)
+scene away { x = 1e14; u = 1e13; y = 5; h = 0.3; steps = 3000 }
+)"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
     SteepModel{"next_to_rounding", R"(coordinate x, y

@@ -15,14 +15,15 @@ void expect_newton_ends_as_alone(double uneven) {
       lanes::NewtonRuleOfMany<Power, 1> rule;
       rule.begin(predicted, turn_of_all());
       ask_together(batch, [&](const lanes::Real& size, int iteration) {
-        return rule.of_sums(&size, size, lanes::Real(uneven), size, lanes::Real(1), 1, iteration);
+        return rule.of_sums(&size, &size, size, lanes::Real(uneven), size, lanes::Real(1), 1,
+                            iteration);
       });
       for (int lane = 0; lane < kCount; ++lane) {
         of_double::NewtonRuleOfMany<Power, 1> alone;
         alone.begin(predicted);
         const Increments& increments = increments_of(batch, lane);
         const End end = end_alone(increments, [&](double size, int iteration) {
-          return alone.of_sums(&size, size, uneven, size, 1, 1, iteration);
+          return alone.of_sums(&size, &size, size, uneven, size, 1, 1, iteration);
         });
         EXPECT_EQ(end_in(rule, lane), end) << increments.name << " " << predicted << Power;
       }
@@ -331,12 +332,12 @@ TEST(LaneRules, NoiseIsHeardInEachLaneAsAlone) {
   const auto noise_of = [](int lane, int step) {
     return lane == 3 || lane == 6 ? (step == 0 ? 0x1p-54 : 0x1p-53) : 0.0;
   };
-  for (lanes::Real& unit : rule.unit) unit = 1;
-  rule.unit[1] = 0x1p40;
-  for (auto& one : alone) {
+  const auto begin_with = [](auto& one) {
     one.unit[0] = 1;
     one.unit[1] = 0x1p40;
-  }
+  };
+  begin_with(rule);
+  for (auto& one : alone) begin_with(one);
   for (int step = 0; step < 3; ++step) {
     const double first = step == 0 ? 0x1p-10 : 0;
     lanes::Turn turn;
@@ -356,7 +357,7 @@ TEST(LaneRules, NoiseIsHeardInEachLaneAsAlone) {
       of_double::NewtonRuleOfMany<2, 2>& one = alone[lane];
       one.begin(false);
       one.contraction = step == 0 ? 1 : 0x1p-10;
-      one.motion.move = 1;
+      one.motion.move = one.motion.least = 1;
       const double lengths[2] = {1, 0x1p-40};
       auto verdict = of_double::Verdict::go_on;
       int taken = 0;

@@ -27,6 +27,7 @@ class NewtonRuleOfMany : public ::testing::Test {
     rule(contraction * (Power == 2 ? first * first : first), Number(1), 2);
     // Straight: any increment may stand.
     rule.motion.move = Blocks::two_to(-4);
+    rule.motion.least = rule.motion.move;
     rule.motion.bend = 0;
     return rule;
   }
@@ -61,7 +62,7 @@ TYPED_TEST(NewtonRuleOfMany, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncreme
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
   const auto sums = [](auto& rule, Real size, Real uneven, int iteration) {
-    return rule.of_sums(&size, size, uneven, size, Real(1), 1, iteration);
+    return rule.of_sums(&size, &size, size, uneven, size, Real(1), 1, iteration);
   };
   const Real size = this->small();
   for (const Real uneven : {Real(0), TypeParam::unit, Real(1)}) {
@@ -107,9 +108,9 @@ TYPED_TEST(NewtonRuleOfMany, OfEachIsOfSumsAndParts) {
       Real way[3] = {length[0], length[1], length[2]};
       way[(small + 1) % 3] = power % 2 == 0 ? TypeParam::two_to(-power) : Real(0);
       Real uneven = 0;
-      for (int j = 0; j < 3; ++j) uneven += each.relative(moved[j], length[j], way[j]);
+      for (int j = 0; j < 3; ++j) uneven += each.relative(j, moved[j], length[j], way[j]);
       const Verdict verdict = each.of_each(moved, length, way, 3, 1);
-      EXPECT_EQ(verdict, sums.of_sums(moved, size, uneven, size, Real(1), 3, 1))
+      EXPECT_EQ(verdict, sums.of_sums(length, moved, size, uneven, size, Real(1), 3, 1))
           << small << " " << power;
       done += verdict == Verdict::done ? 1 : 0;
     }
@@ -121,8 +122,9 @@ TYPED_TEST(NewtonRuleOfMany, OfEachIsOfSumsAndParts) {
 TYPED_TEST(NewtonRuleOfMany, NothingMovedIsNoShare) {
   using Real = typename TypeParam::Scalar;
   using Rule = typename TypeParam::template NewtonOfMany<2, 2>;
-  EXPECT_TRUE(Rule::relative(Real(0), Real(0), Real(0)) <= 0);
-  EXPECT_TRUE(Rule::relative(Real(1), Real(4), Real(4)) * 4 <= 1);
+  const Rule rule;
+  EXPECT_EQ(rule.relative(0, Real(0), Real(0), Real(0)), Real(0));
+  EXPECT_EQ(rule.relative(0, Real(1), Real(4), Real(4)), Real(1) / 4);
 }
 
 // What hardly moves is moved by a momentum that is as small: its increment is a part of its way.
@@ -135,9 +137,9 @@ TYPED_TEST(NewtonRuleOfMany, OfWhatHardlyMovesTheWayCounts) {
   EXPECT_EQ(Exact::felt(Real(1), way), TypeParam::two_to(-10) + TypeParam::two_to(-20));
   EXPECT_EQ(Exact::felt(Real(1), Real(0)), TypeParam::two_to(-20));  // and not nothing
   EXPECT_EQ(Exact::felt(Real(1), Real(1) / 8), Real(1));             // and not more than its length
-  EXPECT_EQ(Exact::relative(moved, Real(1), Real(0)), moved * 1048576);
-  EXPECT_EQ(Approximate::relative(moved, Real(1), way), moved);
-  EXPECT_EQ(Approximate::relative(TypeParam::unit * 7, Real(1), way), Real(0));
+  EXPECT_EQ(Exact().relative(0, moved, Real(1), Real(0)), moved * 1048576);
+  EXPECT_EQ(Approximate().relative(0, moved, Real(1), way), moved);
+  EXPECT_EQ(Approximate().relative(0, TypeParam::unit * 7, Real(1), way), Real(0));
 
   // The same increments, of an unknown that goes all its length and of one that goes a part of it.
   using Verdict = typename TypeParam::Answer;
@@ -279,6 +281,111 @@ TYPED_TEST(NewtonRuleOfMany, TheMotionIsSeenInTheSameUnits) {
   const Real now[3] = {9, Real(1.25), 3};
   rule.watch(past, now, 1, 2);
   EXPECT_EQ(rule.motion.move, Real(3) / 4);  // 1.25 - 1 + (3 - 1) / 4
+}
+
+// What an unknown's own motion shows: an increment of it leaves bend (increment / move)^2 of its
+// size, of which a 16th of its rounding may be left.  A louder neighbour hides nothing.
+TYPED_TEST(NewtonRuleOfMany, EachIsAskedWhatItsOwnMotionShows) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real step = TypeParam::two_to(-4);
+  // The first goes a 16th in a step; of the second the steps, or what they differ by, are small.
+  const auto watched = [&](Real slow, Real bends) {
+    auto rule = this->template taught<2, 2>(TypeParam::unit);
+    typename TypeParam::template Past<2> past;
+    Real solution[2] = {1, 1};
+    for (int k = 0; k < 5; ++k) {
+      solution[0] += step;
+      solution[1] += slow;
+      past.record(solution);
+    }
+    solution[0] += step;
+    solution[1] += slow + bends;
+    rule.watch(past, solution, 0, 2);
+    return rule;
+  };
+  const Real length[2] = {1, 1};
+  const auto moved_by = [&](auto rule, Real quiet) {
+    const Real moved[2] = {0, quiet};
+    rule.begin(true);
+    return rule.of_each(moved, length, length, 2, 1);
+  };
+  const Real slow = TypeParam::two_to(-15);
+  const Real bends = TypeParam::two_to(-12);
+  const auto is_in_reach = [&](const auto& rule, Real quiet) {
+    const Real moved[2] = {step, quiet};
+    return rule.is_in_reach(moved, length, length, 2);
+  };
+  // 16 of the bend's parts by the square of the part of the way are one rounding of its length; the
+  // first one is straight.
+  const auto rule = watched(slow, bends);
+  const Real seen = slow + bends;
+  const Real square = TypeParam::unit * seen * seen / (16 * bends);
+  Real least = 1;
+  while (least * least > square) least /= 2;
+  EXPECT_TRUE(is_in_reach(rule, least));
+  EXPECT_FALSE(is_in_reach(rule, 2 * least));
+  // The sums of both are straight enough for each of these.
+  EXPECT_EQ(moved_by(rule, least), Verdict::done);
+  EXPECT_EQ(moved_by(rule, 2 * least), Verdict::go_on);
+  // No more than the noise of rounding bends nothing.
+  EXPECT_TRUE(is_in_reach(watched(slow, TypeParam::unit * 512), slow));
+  EXPECT_FALSE(is_in_reach(watched(slow, TypeParam::unit * 2048), slow));
+}
+
+// Where increments were measured the next one of each is told by its own last two: a louder
+// neighbour that is linear says nothing of it.
+TYPED_TEST(NewtonRuleOfMany, EachIsAskedWhatItsOwnIncrementsHaveBecome) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real length[2] = {1, 1};
+  const Real quarter = TypeParam::two_to(-TypeParam::bits / 4);
+  // The second one is to be a third of the digits, its next two thirds: too much by itself.
+  for (const bool slow : {false, true}) {
+    auto rule = this->template taught<2, 2>(TypeParam::unit);
+    rule.begin(false);
+    const Real first[2] = {1, quarter};
+    EXPECT_EQ(rule.of_each(first, length, length, 2, 1), Verdict::go_on);
+    const Real second[2] = {0, slow ? quarter * quarter : quarter * quarter * quarter};
+    const Verdict verdict = rule.of_each(second, length, length, 2, 2);
+    EXPECT_EQ(verdict, slow ? Verdict::go_on : Verdict::done);
+    if (!slow) continue;
+    const Real third[2] = {0, quarter * quarter * quarter * quarter};
+    EXPECT_EQ(rule.of_each(third, length, length, 2, 3), Verdict::done);
+  }
+  // Of what is as small as noise may be nothing is concluded.
+  auto rule = this->template taught<2, 2>(TypeParam::unit);
+  rule.begin(false);
+  const Real noise[2] = {this->small(), 32 * TypeParam::unit};
+  rule.motion.bend = TypeParam::two_to(20);
+  EXPECT_EQ(rule.of_each(noise, length, length, 2, 1), Verdict::go_on);
+  EXPECT_EQ(rule.relative(1, 32 * TypeParam::unit, Real(1), Real(1)), Real(0));
+  EXPECT_EQ(rule.relative(1, 128 * TypeParam::unit, Real(1), Real(1)), 2048 * TypeParam::unit);
+}
+
+// What does not become less beside what does: the step does not end with noise while one unknown
+// converges.
+TYPED_TEST(NewtonRuleOfMany, NoiseEndsNothingWhileAnUnknownConverges) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  using Rule = typename TypeParam::template NewtonOfMany<2, 2>;
+  const Real small = TypeParam::unit * TypeParam::two_to(-30);
+  const Real length[2] = {1, small};
+  for (const bool converges : {false, true}) {
+    Rule rule;
+    Real moved[2] = {128 * TypeParam::unit, small / 4};
+    rule.begin(false);
+    EXPECT_EQ(rule.of_each(moved, length, length, 2, 1), Verdict::go_on);
+    for (int iteration = 2; iteration < 4; ++iteration) {
+      if (converges) moved[1] /= 4;
+      const bool ends = iteration == 3 && !converges;
+      EXPECT_EQ(rule.of_each(moved, length, length, 2, iteration),
+                ends ? Verdict::done : Verdict::go_on)
+          << iteration;
+    }
+    if (!converges) continue;
+    EXPECT_EQ(rule.of_each(moved, length, length, 2, 4), Verdict::done);
+  }
 }
 
 // An unknown that is nothing but noise, next to others: where these are lost in rounding one more

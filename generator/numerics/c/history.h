@@ -67,4 +67,8 @@ static inline void History_watch(const History* history, NewtonRule* rule, const
   if (unit) NewtonRule_follow(rule, solution + first, count);
   rule->move = History_error(history, 0, solution, first, count, unit);
   rule->bend = History_error(history, rule->power + 1, solution, first, count, unit);
+  for (int j = 0; unit && j < count; ++j) {
+    rule->moves[j] = History_error(history, 0, solution, first + j, 1, 0);
+    rule->bends[j] = History_error(history, rule->power + 1, solution, first + j, 1, 0);
+  }
 }

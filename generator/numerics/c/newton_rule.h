@@ -15,12 +15,16 @@ typedef struct {
   bool predicted;
   Real move, bend;
   Real far;
-  Real unit[3];  // one over the size of each unknown, of which there are at most three; 0: unknown
+  Real unit[3];   // one over the size of each unknown, of which there are at most three; 0: unknown
+  Real moves[3];  // the motion of each, as it is written
+  Real bends[3];
+  Real last[3];  // by how much each moved in the iteration before
   int age;
   bool still;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest, 32, 0, 0, false, 0, 0, 0, {0, 0, 0}, 0, false};
+  const NewtonRule rule = {power, largest,   32,        0,         0,         false, 0,    0,
+                           0,     {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0,     false};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -43,10 +47,41 @@ static inline void NewtonRule_learn(NewtonRule* rule, Real size, Real round_off,
     rule->contraction = 4 * seen < rule->contraction ? rule->contraction / 4 : seen;
   }
 }
+// What the increment of an unknown must be lost in: the rounding of its length, or its way in the
+// step.
+static inline Real NewtonRule_felt(const NewtonRule* rule, Real length, Real way) {
+  const Real least = 16 * way + length / 1048576;
+  return rule->power == 2 && least < length ? least : length;
+}
+// Is what its own motion shows of each unknown lost?
+static inline bool NewtonRule_is_in_reach(const NewtonRule* rule, const Real* moved,
+                                          const Real* length, const Real* way, int count) {
+  for (int j = 0; j < count && rule->power == 2; ++j) {
+    const Real bend = rule->bends[j] * rule->unit[j];
+    const Real part = moved[j] * rule->unit[j];
+    const Real move = rule->moves[j] * rule->unit[j];
+    const Real round_off =
+        epsilon * NewtonRule_felt(rule, magnitude(length[j]), way[j]) * rule->unit[j];
+    if (bend <= 1024 * epsilon) continue;
+    if (bend * part * part * 16 > round_off * move * move) return false;
+  }
+  return true;
+}
+// Does none converge any more?
+static inline bool NewtonRule_is_still(const NewtonRule* rule, const Real* moved,
+                                       const Real* length, int count) {
+  bool converging = false;
+  for (int j = 0; j < count; ++j)
+    converging = converging ||
+                 (moved[j] > 8 * epsilon * magnitude(length[j]) && 2 * moved[j] <= rule->last[j]);
+  return !converging;
+}
 // size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
-// relative of them; moved, length: the sums of increments and of lengths, whatever their units.
+// relative of them; together, all: the sums of increments and of lengths, whatever their units;
+// moved, length, way: of each of `many` unknowns.
 static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, int iterations,
-                                       Real uneven, Real moved, Real length, bool many) {
+                                       Real uneven, Real together, Real all, const Real* moved,
+                                       const Real* length, const Real* way, int many) {
   rule->still = false;
   if (!(size <= largest)) {
     rule->previous = size;
@@ -64,7 +99,8 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
     // No progress twice in a row: this is round-off if it is small, else it may still recover.
     rule->grown = slow ? rule->grown + 1 : 0;
     const bool small = !many || 4096 * size <= scale;
-    rule->still = rule->grown >= 2 && small && moved <= 4096 * epsilon * length && !waits;
+    rule->still = rule->grown >= 2 && small && together <= 4096 * epsilon * all && !waits &&
+                  NewtonRule_is_still(rule, moved, length, many);
     if (rule->still) return done;
   } else {
     ++rule->unchecked;
@@ -74,10 +110,11 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
                       rule->contraction * size * 8192 <= round_off;
   const Real parts = size * uneven;
-  const bool bends =
-      rule->previous <= 0 && rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
-  const bool even = uneven <= 0 || (!bends && rule->contraction * parts * 16 <= epsilon);
-  const bool serves = rule->power == 1 ? !waits : even;
+  const bool bends = rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
+  const bool even = rule->previous > 0 ? uneven * 16 <= epsilon
+                                       : !bends && rule->contraction * parts * 16 <= epsilon;
+  const bool near = rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
+  const bool serves = near && (rule->power == 1 ? !waits : uneven <= 0 || even);
   if (size <= round_off && chance && (serves || stays)) return done;
   const Real bend = rule->bend > size ? rule->bend : size;
   const Real shown = (many ? 8 : 1) * round_off;
@@ -88,23 +125,22 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
     return done;
   }
   const bool astray = rule->predicted && iterations > 1 && 2 * size > rule->previous &&
-                      moved > 4096 * epsilon * length;
+                      together > 4096 * epsilon * all;
   rule->previous = size;
-  if (many && iterations >= 60 && moved <= 64 * epsilon * length) return done;
+  if (many && iterations >= 60 && together <= 64 * epsilon * all) return done;
   return iterations < 60 && !astray ? go_on : failed;
 }
-// What the increment of an unknown must be lost in: the rounding of its length, or its way in the
-// step.
-static inline Real NewtonRule_felt(const NewtonRule* rule, Real length, Real way) {
-  const Real least = 16 * way + length / 1048576;
-  return rule->power == 2 && least < length ? least : length;
-}
-// An increment as a part of that; of an approximate matrix the increment, if it is not lost in the
-// rounding of its unknown.
-static inline Real NewtonRule_relative(const NewtonRule* rule, Real moved, Real length, Real way) {
+// An increment as a part of that, or what the next one is of it; of an approximate matrix the
+// increment, if it is not lost in the rounding of its unknown.
+static inline Real NewtonRule_relative(const NewtonRule* rule, int j, Real moved, Real length,
+                                       Real way) {
   const Real tiny = 64 * epsilon / largest;
   if (rule->power == 1) return moved > 8 * epsilon * length + tiny ? moved : 0;
-  return moved > tiny ? moved / NewtonRule_felt(rule, length, way) : 0;
+  if (!(moved > tiny)) return 0;
+  if (rule->previous <= 0) return moved / NewtonRule_felt(rule, length, way);
+  if (moved * rule->unit[j] <= 64 * epsilon) return 0;
+  const Real ratio = moved / rule->last[j];
+  return moved / NewtonRule_felt(rule, length, way) * ratio * ratio;
 }
 // Is even what all unknowns together move by lost in the rounding of one?
 static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Real size) {
@@ -165,7 +201,7 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
   Real uneven = 0;
   if (!NewtonRule_is_lost_in(rule, shortest, size)) {
     for (int j = 0; j < count; ++j) {
-      const Real part = NewtonRule_relative(rule, moved[j], length[j], way[j]);
+      const Real part = NewtonRule_relative(rule, j, moved[j], length[j], way[j]);
       uneven += part * (rule->power == 1 ? rule->unit[j] : 1);
     }
   }
@@ -175,15 +211,16 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
     together += moved[j];
     scale += length[j];
   }
-  const Verdict verdict =
-      NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together, scale, true);
+  const Verdict verdict = NewtonRule_judge(rule, size, (Real)count, iterations, uneven, together,
+                                           scale, moved, length, way, count);
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
   for (int j = 0; rule->still && j < count; ++j) {
     if (moved[j] * rule->unit[j] > 64 * epsilon) rule->unit[j] = 64 * epsilon / moved[j];
   }
+  for (int j = 0; verdict == go_on && j < count; ++j) rule->last[j] = moved[j];
   return verdict;
 }
 // Of a single unknown.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
-  return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale, false);
+  return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale, &size, &scale, &scale, 0);
 }
