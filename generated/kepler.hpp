@@ -97,11 +97,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_cc121e50::float64 {
+namespace hamgen_3a2e1ec8::float64 {
 using Real = double;
 
-#ifndef HAMGEN_CC121E50_FLOAT64_STEP_REPORT
-#define HAMGEN_CC121E50_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_STEP_REPORT
+#define HAMGEN_3A2E1EC8_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -111,15 +111,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_VOCABULARY
-#define HAMGEN_CC121E50_FLOAT64_VOCABULARY
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_VOCABULARY
+#define HAMGEN_3A2E1EC8_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_TWO_SUM
-#define HAMGEN_CC121E50_FLOAT64_TWO_SUM
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_TWO_SUM
+#define HAMGEN_3A2E1EC8_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -129,8 +129,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
-#define HAMGEN_CC121E50_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_SUM_WITH_REST
+#define HAMGEN_3A2E1EC8_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -142,14 +142,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_VERDICT
-#define HAMGEN_CC121E50_FLOAT64_VERDICT
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_VERDICT
+#define HAMGEN_3A2E1EC8_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
-#define HAMGEN_CC121E50_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE
+#define HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -301,18 +301,19 @@ struct NewtonRule {
     if (previous > 0) return uneven * 16 <= epsilon;
     const Real parts = size * uneven;
     return contraction * parts * 16 <= epsilon &&
-           motion.bend * parts * 16 <= epsilon * power(motion.move);
+           bend_of(size) * parts * 16 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
-    const Real bend = motion.bend > size ? motion.bend : size;
-    return bend * power(size) * 1024 <= round_off * power(move);
+    return bend_of(size) * power(size) * 1024 <= round_off * power(move);
   }
+  // See Note [what one increment leaves].
+  Real bend_of(Real size) const { return motion.bend > size ? motion.bend : size; }
 };
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_CC121E50_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -328,11 +329,12 @@ struct NewtonRule {
 // Note [what its own motion shows of each]
 // A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
 // that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
-// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, as long as
-// its bend is more than noise can be.  Where increments were measured the next one of each is told
-// by its own last two, moved (moved / last)^2, and no step ends with noise as long as an unknown
-// converges.  Walls beside a loud coordinate were off by 8000 roundings, an x that falls by 1e4
-// times within its size by 290, what is a 1e13th of its neighbour by 1e17.
+// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
+// increment for the bend where that is larger, and as long as it is more than noise can be.  Where
+// increments were measured the next one of each is told by its own last two, moved (moved /
+// last)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
+// coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
+// is a 1e13th of its neighbour by 1e17.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -347,8 +349,9 @@ struct NewtonRule {
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
 // asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
 // of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
-// length, for what never moves.
+// that is less (one rounding of the momentum then, of which 16 are allowed), and one rounding of
+// its length, for what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what
+// it is hit by had no momentum.
 //
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
@@ -412,9 +415,10 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // See Note [what its own motion shows of each].
   bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     for (int j = 0; j < count && Power == 2; ++j) {
-      const Real bend = bends[j] * unit[j];
       const Real part = moved[j] * unit[j];
       const Real move = moves[j] * unit[j];
+      const Real shown = bends[j] * unit[j];
+      const Real bend = shown > part ? shown : part;
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       if (bend <= 1024 * epsilon) continue;
       if (bend * part * part * 16 > round_off * move * move) return false;
@@ -434,7 +438,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   }
   // Of its length and its way in the step.
   static Real felt(Real length, Real way) {
-    const Real least = 16 * way + length / 1048576;
+    const Real least = 16 * way + epsilon * length;
     return Power == 2 && least < length ? least : length;
   }
   // Is even what all unknowns together move by lost in the rounding of one?  The least of them
@@ -445,8 +449,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   }
   // The same of what the motion shows.
   bool bends_little(Real length, Real size) const {
-    const Motion& m = this->motion;
-    return Power == 1 || m.bend * size * size * 16 <= epsilon * length * One::power(m.move);
+    const Real bend = this->bend_of(size);
+    return Power == 1 ||
+           bend * size * size * 16 <= epsilon * length * One::power(this->motion.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
@@ -552,8 +557,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_HISTORY
-#define HAMGEN_CC121E50_FLOAT64_HISTORY
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_HISTORY
+#define HAMGEN_3A2E1EC8_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -665,8 +670,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_CC121E50_FLOAT64_FORGET
-#define HAMGEN_CC121E50_FLOAT64_FORGET
+#ifndef HAMGEN_3A2E1EC8_FLOAT64_FORGET
+#define HAMGEN_3A2E1EC8_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -676,17 +681,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_cc121e50::float64
+}  // namespace hamgen_3a2e1ec8::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0xf6bf8a86
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0xe1366570
 namespace kepler::implicit_midpoint {
-inline namespace emitted_f6bf8a86 {
+inline namespace emitted_e1366570 {
 
-namespace numerics = ::hamgen_cc121e50::float64;
+namespace numerics = ::hamgen_3a2e1ec8::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -893,9 +898,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_f6bf8a86
+}  // namespace emitted_e1366570
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xf6bf8a86
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xe1366570
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -127,11 +127,11 @@ struct NewtonRule : Iteration {
     if (measured) return uneven * 16 <= epsilon;
     const Real parts = size * uneven;
     return (contraction * parts * 16 <= epsilon) &
-           (motion.bend * parts * 16 <= epsilon * power(motion.move));
+           (bend_of(size) * parts * 16 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {
-    const Real bend = select(motion.bend > size, motion.bend, size);
-    return bend * power(size) * 1024 <= round_off * power(motion.move);
+    return bend_of(size) * power(size) * 1024 <= round_off * power(motion.move);
   }
+  Real bend_of(const Real& size) const { return select(motion.bend > size, motion.bend, size); }
 };

@@ -64,9 +64,10 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Mask is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     Mask within = true;
     for (int j = 0; j < count && Power == 2; ++j) {
-      const Real bend = bends[j] * unit[j];
       const Real part = moved[j] * unit[j];
       const Real move = moves[j] * unit[j];
+      const Real shown = bends[j] * unit[j];
+      const Real bend = select(shown > part, shown, part);
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       within = within &
                ((bend <= 1024 * epsilon) | (bend * part * part * 16 <= round_off * move * move));
@@ -84,7 +85,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     return select(counts, part * ratio * ratio, Real(0));
   }
   static Real felt(const Real& length, const Real& way) {
-    const Real least = 16 * way + length / 1048576;
+    const Real least = 16 * way + epsilon * length;
     return Power == 2 ? select(least < length, least, length) : length;
   }
   // Is even what all unknowns together move by lost in the rounding of one?
@@ -93,8 +94,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const Real round_off = epsilon * length;
     if (!this->begins) return false;
     const Mask lost = this->contraction * size * size * 16 <= round_off;
-    const Motion& m = this->motion;
-    return lost & (m.bend * size * size * 16 <= round_off * One::power(m.move));
+    const Real bend = this->bend_of(size);
+    return lost & (bend * size * size * 16 <= round_off * One::power(this->motion.move));
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.

@@ -149,11 +149,12 @@ struct NewtonRule {
     if (previous > 0) return uneven * 16 <= epsilon;
     const Real parts = size * uneven;
     return contraction * parts * 16 <= epsilon &&
-           motion.bend * parts * 16 <= epsilon * power(motion.move);
+           bend_of(size) * parts * 16 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
-    const Real bend = motion.bend > size ? motion.bend : size;
-    return bend * power(size) * 1024 <= round_off * power(move);
+    return bend_of(size) * power(size) * 1024 <= round_off * power(move);
   }
+  // See Note [what one increment leaves].
+  Real bend_of(Real size) const { return motion.bend > size ? motion.bend : size; }
 };

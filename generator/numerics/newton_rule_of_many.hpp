@@ -13,11 +13,12 @@
 // Note [what its own motion shows of each]
 // A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
 // that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
-// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, as long as
-// its bend is more than noise can be.  Where increments were measured the next one of each is told
-// by its own last two, moved (moved / last)^2, and no step ends with noise as long as an unknown
-// converges.  Walls beside a loud coordinate were off by 8000 roundings, an x that falls by 1e4
-// times within its size by 290, what is a 1e13th of its neighbour by 1e17.
+// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
+// increment for the bend where that is larger, and as long as it is more than noise can be.  Where
+// increments were measured the next one of each is told by its own last two, moved (moved /
+// last)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
+// coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
+// is a 1e13th of its neighbour by 1e17.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -32,8 +33,9 @@
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
 // asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
 // of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and a 2^-20th of its
-// length, for what never moves.
+// that is less (one rounding of the momentum then, of which 16 are allowed), and one rounding of
+// its length, for what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what
+// it is hit by had no momentum.
 //
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
@@ -97,9 +99,10 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // See Note [what its own motion shows of each].
   bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     for (int j = 0; j < count && Power == 2; ++j) {
-      const Real bend = bends[j] * unit[j];
       const Real part = moved[j] * unit[j];
       const Real move = moves[j] * unit[j];
+      const Real shown = bends[j] * unit[j];
+      const Real bend = shown > part ? shown : part;
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       if (bend <= 1024 * epsilon) continue;
       if (bend * part * part * 16 > round_off * move * move) return false;
@@ -119,7 +122,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   }
   // Of its length and its way in the step.
   static Real felt(Real length, Real way) {
-    const Real least = 16 * way + length / 1048576;
+    const Real least = 16 * way + epsilon * length;
     return Power == 2 && least < length ? least : length;
   }
   // Is even what all unknowns together move by lost in the rounding of one?  The least of them
@@ -130,8 +133,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   }
   // The same of what the motion shows.
   bool bends_little(Real length, Real size) const {
-    const Motion& m = this->motion;
-    return Power == 1 || m.bend * size * size * 16 <= epsilon * length * One::power(m.move);
+    const Real bend = this->bend_of(size);
+    return Power == 1 ||
+           bend * size * size * 16 <= epsilon * length * One::power(this->motion.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.

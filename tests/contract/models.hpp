@@ -152,6 +152,34 @@ momentum u, v
 H = (u^2 + v^2)/2 + y^2/2 + y^4/4 + y^2/(1 + x^2)
 scene away { x = 1e14; u = 1e13; y = 5; h = 0.3; steps = 3000 }
 )"},
+    // Something heavy at rest, and something light that meets it softly.
+    SteepModel{"heavy", R"(coordinate x, y
+momentum u, v
+parameter M = 1e6
+parameter A = 1e-5
+H = u^2/2 + v^2/(2*M) + A*exp(-(10*(x - y))^2)
+scene million { x = -12; y = 1; u = 1; h = 0.1; steps = 200 }
+scene billion { M = 1e9; x = -12; y = 1; u = 1; h = 0.1; steps = 200 }
+scene fine { M = 1e9; A = 1e-4; x = -12; y = 1; u = 1; h = 0.03; steps = 666 }
+)"},
+    // A force that grows by up to e^3 in a step, seen by a quiet y.
+    SteepModel{"grows", R"(coordinate x, y
+momentum u, v
+parameter k = 1e4
+H = (u^2 + v^2)/2 + exp(k*(y - 1))/k^2 + 1e-9*cos(x)*y
+scene often { k = 1e2; u = 1; y = 1 - 0.756875; v = 2.5; h = 0.01; steps = 60 }
+scene quietly { u = 1; y = 1 - 0.00761875; v = 0.025; h = 0.01; steps = 60 }
+scene more { k = 1e3; u = 1; y = 1 - 0.09105; v = 0.3; h = 0.01; steps = 60 }
+)"},
+    // Ripples that a step hardly resolves.
+    SteepModel{"ripple", R"(coordinate x, y
+momentum u, v
+parameter A = 5e-5
+parameter K = 20
+H = (u^2 + v^2)/2 + A*cos(K*y) + 1e-12*y*cos(x)
+scene beside { x = 1; u = 1; y = 300; v = 1; h = 0.1; steps = 3000 }
+scene loud { x = 1; u = 1000; y = 0.1; v = 1; h = 0.1; steps = 3000 }
+)"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
     SteepModel{"next_to_rounding", R"(coordinate x, y

@@ -29,6 +29,7 @@ class NewtonRuleOfMany : public ::testing::Test {
     rule.motion.move = Blocks::two_to(-4);
     rule.motion.least = rule.motion.move;
     rule.motion.bend = 0;
+    for (Number& move : rule.moves) move = rule.motion.move;
     return rule;
   }
 };
@@ -134,10 +135,10 @@ TYPED_TEST(NewtonRuleOfMany, OfWhatHardlyMovesTheWayCounts) {
   using Approximate = typename TypeParam::template NewtonOfMany<1, 2>;
   const Real way = TypeParam::two_to(-14);
   const Real moved = TypeParam::unit * 16;
-  EXPECT_EQ(Exact::felt(Real(1), way), TypeParam::two_to(-10) + TypeParam::two_to(-20));
-  EXPECT_EQ(Exact::felt(Real(1), Real(0)), TypeParam::two_to(-20));  // and not nothing
-  EXPECT_EQ(Exact::felt(Real(1), Real(1) / 8), Real(1));             // and not more than its length
-  EXPECT_EQ(Exact().relative(0, moved, Real(1), Real(0)), moved * 1048576);
+  EXPECT_EQ(Exact::felt(Real(1), way), TypeParam::two_to(-10) + TypeParam::unit);
+  EXPECT_EQ(Exact::felt(Real(1), Real(0)), TypeParam::unit);  // and not nothing
+  EXPECT_EQ(Exact::felt(Real(1), Real(1) / 8), Real(1));      // and not more than its length
+  EXPECT_EQ(Exact().relative(0, moved, Real(1), Real(0)), moved / TypeParam::unit);
   EXPECT_EQ(Approximate().relative(0, moved, Real(1), way), moved);
   EXPECT_EQ(Approximate().relative(0, TypeParam::unit * 7, Real(1), way), Real(0));
 
@@ -313,7 +314,7 @@ TYPED_TEST(NewtonRuleOfMany, EachIsAskedWhatItsOwnMotionShows) {
   const Real slow = TypeParam::two_to(-15);
   const Real bends = TypeParam::two_to(-12);
   const auto is_in_reach = [&](const auto& rule, Real quiet) {
-    const Real moved[2] = {step, quiet};
+    const Real moved[2] = {0, quiet};
     return rule.is_in_reach(moved, length, length, 2);
   };
   // 16 of the bend's parts by the square of the part of the way are one rounding of its length; the
@@ -329,8 +330,11 @@ TYPED_TEST(NewtonRuleOfMany, EachIsAskedWhatItsOwnMotionShows) {
   EXPECT_EQ(moved_by(rule, least), Verdict::done);
   EXPECT_EQ(moved_by(rule, 2 * least), Verdict::go_on);
   // No more than the noise of rounding bends nothing.
-  EXPECT_TRUE(is_in_reach(watched(slow, TypeParam::unit * 512), slow));
-  EXPECT_FALSE(is_in_reach(watched(slow, TypeParam::unit * 2048), slow));
+  const Real noise = TypeParam::unit * 512;
+  EXPECT_TRUE(is_in_reach(watched(0, noise), noise));
+  EXPECT_FALSE(is_in_reach(watched(0, 4 * noise), 4 * noise));
+  // A force that has grown at once: the increment is more than the bend before it.
+  EXPECT_FALSE(is_in_reach(watched(step, 0), step));
 }
 
 // Where increments were measured the next one of each is told by its own last two: a louder

@@ -50,16 +50,17 @@ static inline void NewtonRule_learn(NewtonRule* rule, Real size, Real round_off,
 // What the increment of an unknown must be lost in: the rounding of its length, or its way in the
 // step.
 static inline Real NewtonRule_felt(const NewtonRule* rule, Real length, Real way) {
-  const Real least = 16 * way + length / 1048576;
+  const Real least = 16 * way + epsilon * length;
   return rule->power == 2 && least < length ? least : length;
 }
 // Is what its own motion shows of each unknown lost?
 static inline bool NewtonRule_is_in_reach(const NewtonRule* rule, const Real* moved,
                                           const Real* length, const Real* way, int count) {
   for (int j = 0; j < count && rule->power == 2; ++j) {
-    const Real bend = rule->bends[j] * rule->unit[j];
     const Real part = moved[j] * rule->unit[j];
     const Real move = rule->moves[j] * rule->unit[j];
+    const Real shown = rule->bends[j] * rule->unit[j];
+    const Real bend = shown > part ? shown : part;
     const Real round_off =
         epsilon * NewtonRule_felt(rule, magnitude(length[j]), way[j]) * rule->unit[j];
     if (bend <= 1024 * epsilon) continue;
@@ -110,13 +111,13 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool chance = rule->power == 2 || (rule->previous > 0 && rule->previous <= round_off) ||
                       rule->contraction * size * 8192 <= round_off;
   const Real parts = size * uneven;
-  const bool bends = rule->bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
+  const Real bend = rule->bend > size ? rule->bend : size;
+  const bool bends = bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
   const bool even = rule->previous > 0 ? uneven * 16 <= epsilon
                                        : !bends && rule->contraction * parts * 16 <= epsilon;
   const bool near = rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
   const bool serves = near && (rule->power == 1 ? !waits : uneven <= 0 || even);
   if (size <= round_off && chance && (serves || stays)) return done;
-  const Real bend = rule->bend > size ? rule->bend : size;
   const Real shown = (many ? 8 : 1) * round_off;
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= shown * NewtonRule_power(rule, rule->move);
@@ -146,8 +147,9 @@ static inline Real NewtonRule_relative(const NewtonRule* rule, int j, Real moved
 static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Real size) {
   if (rule->power == 1) return size <= 8 * epsilon * length;
   const Real round_off = epsilon * length;
+  const Real bend = rule->bend > size ? rule->bend : size;
   const bool straight =
-      rule->previous <= 0 && rule->bend * size * size * 16 <= round_off * rule->move * rule->move;
+      rule->previous <= 0 && bend * size * size * 16 <= round_off * rule->move * rule->move;
   return straight && rule->contraction * size * size * 16 <= round_off;
 }
 static inline Real NewtonRule_size_of(Real length, Real moved) {
