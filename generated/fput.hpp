@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_3a2e1ec8::float64 {
+namespace hamgen_0bf96854::float64 {
 using Real = double;
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_STEP_REPORT
-#define HAMGEN_3A2E1EC8_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0BF96854_FLOAT64_STEP_REPORT
+#define HAMGEN_0BF96854_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_VOCABULARY
-#define HAMGEN_3A2E1EC8_FLOAT64_VOCABULARY
+#ifndef HAMGEN_0BF96854_FLOAT64_VOCABULARY
+#define HAMGEN_0BF96854_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_TWO_SUM
-#define HAMGEN_3A2E1EC8_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0BF96854_FLOAT64_TWO_SUM
+#define HAMGEN_0BF96854_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_SUM_WITH_REST
-#define HAMGEN_3A2E1EC8_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_SUMS
-#define HAMGEN_3A2E1EC8_FLOAT64_SUMS
+#ifndef HAMGEN_0BF96854_FLOAT64_SUMS
+#define HAMGEN_0BF96854_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_BAND_MATRIX
-#define HAMGEN_3A2E1EC8_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_0BF96854_FLOAT64_BAND_MATRIX
+#define HAMGEN_0BF96854_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_3A2E1EC8_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_0BF96854_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_0BF96854_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_VERDICT
-#define HAMGEN_3A2E1EC8_FLOAT64_VERDICT
+#ifndef HAMGEN_0BF96854_FLOAT64_VERDICT
+#define HAMGEN_0BF96854_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE
-#define HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
+#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -429,7 +429,7 @@ struct NewtonRule {
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && ends_at_once(size, round_off, round_off, motion.move))
+    if (iterations == 1 && ends_at_once(size, seen_in(scale), round_off, motion.move))
       return Verdict::done;
     return judge<false>(size, scale, iterations, 0, Alone{size, scale});
   }
@@ -481,7 +481,7 @@ struct NewtonRule {
     const bool near = !Many || !first || each.is_in_reach();
     const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    const Real shown = (Many ? 8 : 1) * round_off;
+    const Real shown = Many ? 8 * round_off : seen_in(scale);
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
@@ -521,13 +521,19 @@ struct NewtonRule {
   bool is_straight(Real size, Real round_off, Real move) const {
     return bend_of(size) * power(size) * 1024 <= round_off * power(move);
   }
+  // What the motion shows must be lost in the rounding of a single unknown, and 1024 times in 1024
+  // times its way: a momentum that moves it may be torn out, and is rounded as that.
+  Real seen_in(Real scale) const {
+    const Real near = 1024 * motion.move + epsilon * scale;
+    return epsilon * (near < scale ? near : scale);
+  }
   // See Note [what one increment leaves].
   Real bend_of(Real size) const { return motion.bend > size ? motion.bend : size; }
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_3A2E1EC8_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -771,8 +777,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_3A2E1EC8_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_0BF96854_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_0BF96854_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -795,8 +801,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_3A2E1EC8_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_0BF96854_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_0BF96854_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -875,8 +881,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_3A2E1EC8_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_0BF96854_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_0BF96854_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -964,8 +970,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_REFINEMENT
-#define HAMGEN_3A2E1EC8_FLOAT64_REFINEMENT
+#ifndef HAMGEN_0BF96854_FLOAT64_REFINEMENT
+#define HAMGEN_0BF96854_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1099,8 +1105,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_HISTORY
-#define HAMGEN_3A2E1EC8_FLOAT64_HISTORY
+#ifndef HAMGEN_0BF96854_FLOAT64_HISTORY
+#define HAMGEN_0BF96854_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1212,8 +1218,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_3A2E1EC8_FLOAT64_FORGET
-#define HAMGEN_3A2E1EC8_FLOAT64_FORGET
+#ifndef HAMGEN_0BF96854_FLOAT64_FORGET
+#define HAMGEN_0BF96854_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1223,17 +1229,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_3a2e1ec8::float64
+}  // namespace hamgen_0bf96854::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x6ec37bf9
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xdd0a4be9
 namespace fput::implicit_midpoint {
-inline namespace emitted_6ec37bf9 {
+inline namespace emitted_dd0a4be9 {
 
-namespace numerics = ::hamgen_3a2e1ec8::float64;
+namespace numerics = ::hamgen_0bf96854::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1569,9 +1575,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_6ec37bf9
+}  // namespace emitted_dd0a4be9
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x6ec37bf9
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xdd0a4be9
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -65,7 +65,7 @@ struct NewtonRule : Iteration {
     const bool first = iterations == 1 && !checks;
     Mask served = Power == 1 ? !waits : is_even(size, uneven, iterations > 1);
     if (Many && iterations == 1) served = served & each.is_in_reach();
-    const Mask alone = first ? is_lost<Many>(size, round_off) & served & !unmeasured : Mask(false);
+    const Mask alone = first ? is_lost<Many>(size, scale) & served & !unmeasured : Mask(false);
     if (first && all((!open) | alone)) {
       taken = select(open, Real(1), taken);
       open = false;
@@ -119,8 +119,14 @@ struct NewtonRule : Iteration {
   }
   // The same of the first.
   template <bool Many>
-  Mask is_lost(const Real& size, const Real& round_off) const {
-    return is_next_lost(size, round_off) & is_straight(size, (Many ? 8 : 1) * round_off);
+  Mask is_lost(const Real& size, const Real& scale) const {
+    const Real round_off = epsilon * scale;
+    return is_next_lost(size, round_off) & is_straight(size, Many ? 8 * round_off : seen_in(scale));
+  }
+  // What the motion shows must be lost in this, of a single unknown.
+  Real seen_in(const Real& scale) const {
+    const Real near = 1024 * motion.move + epsilon * scale;
+    return epsilon * select(near < scale, near, scale);
   }
   // Is the next increment lost in the rounding of each unknown?
   Mask is_even(const Real& size, const Real& uneven, bool measured) const {

@@ -63,7 +63,7 @@ struct NewtonRule {
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
     const Real round_off = epsilon * scale;
-    if (iterations == 1 && ends_at_once(size, round_off, round_off, motion.move))
+    if (iterations == 1 && ends_at_once(size, seen_in(scale), round_off, motion.move))
       return Verdict::done;
     return judge<false>(size, scale, iterations, 0, Alone{size, scale});
   }
@@ -115,7 +115,7 @@ struct NewtonRule {
     const bool near = !Many || !first || each.is_in_reach();
     const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    const Real shown = (Many ? 8 : 1) * round_off;
+    const Real shown = Many ? 8 * round_off : seen_in(scale);
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
@@ -154,6 +154,12 @@ struct NewtonRule {
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
     return bend_of(size) * power(size) * 1024 <= round_off * power(move);
+  }
+  // What the motion shows must be lost in the rounding of a single unknown, and 1024 times in 1024
+  // times its way: a momentum that moves it may be torn out, and is rounded as that.
+  Real seen_in(Real scale) const {
+    const Real near = 1024 * motion.move + epsilon * scale;
+    return epsilon * (near < scale ? near : scale);
   }
   // See Note [what one increment leaves].
   Real bend_of(Real size) const { return motion.bend > size ? motion.bend : size; }

@@ -171,6 +171,14 @@ scene often { k = 1e2; u = 1; y = 1 - 0.756875; v = 2.5; h = 0.01; steps = 60 }
 scene quietly { u = 1; y = 1 - 0.00761875; v = 0.025; h = 0.01; steps = 60 }
 scene more { k = 1e3; u = 1; y = 1 - 0.09105; v = 0.3; h = 0.01; steps = 60 }
 )"},
+    // The same where it is alone: what is lost in the rounding of y may not be in that of v.
+    SteepModel{"grows_alone", R"(coordinate y
+momentum v
+parameter k = 1e4
+H = v^2/2 + exp(k*(y - 1))/k^2
+scene often { y = 1 - 0.00453; v = 0.015; h = 0.01; steps = 60 }
+scene more { k = 1e5; y = 1 - 0.000607; v = 0.002; h = 0.01; steps = 60 }
+)"},
     // Ripples that a step hardly resolves.
     SteepModel{"ripple", R"(coordinate x, y
 momentum u, v

@@ -115,10 +115,13 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const bool bends = bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
   const bool even = rule->previous > 0 ? uneven * 16 <= epsilon
                                        : !bends && rule->contraction * parts * 16 <= epsilon;
-  const bool near = rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
-  const bool serves = near && (rule->power == 1 ? !waits : uneven <= 0 || even);
+  const bool in_reach =
+      rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
+  const bool serves = in_reach && (rule->power == 1 ? !waits : uneven <= 0 || even);
   if (size <= round_off && chance && (serves || stays)) return done;
-  const Real shown = (many ? 8 : 1) * round_off;
+  // What the motion shows must be lost in this: of a single unknown, in its way 1024 times.
+  const Real near = 1024 * rule->move + round_off;
+  const Real shown = many ? 8 * round_off : epsilon * (near < scale ? near : scale);
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= shown * NewtonRule_power(rule, rule->move);
   if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
