@@ -35,10 +35,11 @@ std::vector<std::string> uniquely_solved_models() {
   return models;
 }
 
-// h times the frequency of its spring is 3.5: an approximate matrix contracts by 0.3 an increment,
-// in quad the 60 of an iteration are not enough, and there is nothing to judge the step by.
+// h times the frequency of its spring is 3.5, or once nearly that: an approximate matrix contracts by
+// 0.3 an increment, in quad the 60 of an iteration are not enough, and there is nothing to judge the
+// step by.
 bool is_beyond_quad(const std::string& model, const Method& method) {
-  return model == "next_to_rounding" && method.request.order > 0;
+  return (model == "next_to_rounding" || model == "beside_huge") && method.request.order > 0;
 }
 
 // A fixed point need not contract, an explicit step may be far too long, and a step of a general
