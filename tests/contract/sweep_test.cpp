@@ -35,9 +35,9 @@ std::vector<std::string> uniquely_solved_models() {
   return models;
 }
 
-// h times the frequency of its spring is 3.5, or once nearly that: an approximate matrix contracts by
-// 0.3 an increment, in quad the 60 of an iteration are not enough, and there is nothing to judge the
-// step by.
+// h times the frequency of its spring is 3.5: an approximate matrix contracts by 0.3 an increment,
+// in quad the 60 of an iteration are not enough, and there is nothing to judge the step by.  Beside
+// what is huge, where it is up to 2.6, quad finds none in one of the steps.
 bool is_beyond_quad(const std::string& model, const Method& method) {
   return (model == "next_to_rounding" || model == "beside_huge") && method.request.order > 0;
 }
