@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_0bf96854::float64 {
+namespace hamgen_32afdba9::float64 {
 using Real = double;
 
-#ifndef HAMGEN_0BF96854_FLOAT64_STEP_REPORT
-#define HAMGEN_0BF96854_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_32AFDBA9_FLOAT64_STEP_REPORT
+#define HAMGEN_32AFDBA9_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_VOCABULARY
-#define HAMGEN_0BF96854_FLOAT64_VOCABULARY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_VOCABULARY
+#define HAMGEN_32AFDBA9_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_TWO_SUM
-#define HAMGEN_0BF96854_FLOAT64_TWO_SUM
+#ifndef HAMGEN_32AFDBA9_FLOAT64_TWO_SUM
+#define HAMGEN_32AFDBA9_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
-#define HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_32AFDBA9_FLOAT64_SUM_WITH_REST
+#define HAMGEN_32AFDBA9_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_SUMS
-#define HAMGEN_0BF96854_FLOAT64_SUMS
+#ifndef HAMGEN_32AFDBA9_FLOAT64_SUMS
+#define HAMGEN_32AFDBA9_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_BAND_MATRIX
-#define HAMGEN_0BF96854_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_32AFDBA9_FLOAT64_BAND_MATRIX
+#define HAMGEN_32AFDBA9_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_0BF96854_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_32AFDBA9_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_32AFDBA9_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_VERDICT
-#define HAMGEN_0BF96854_FLOAT64_VERDICT
+#ifndef HAMGEN_32AFDBA9_FLOAT64_VERDICT
+#define HAMGEN_32AFDBA9_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
-#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE
+#define HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -532,8 +532,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -552,7 +552,7 @@ struct NewtonRule {
 // itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
-// last)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
+// before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
 // coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
 // is a 1e13th of its neighbour by 1e17.
 //
@@ -579,7 +579,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real unit[Unknowns] = {};   // one over the size of each, see Note [units]; 0: not known yet
   Real moves[Unknowns] = {};  // the motion of each, as it is written
   Real bends[Unknowns] = {};
-  Real last[Unknowns] = {};  // by how much each moved in the iteration before
+  Real before[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -640,6 +640,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real shown = bends[j] * unit[j];
       const Real bend = shown > part ? shown : part;
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
       if (bend * part * part * 16 > round_off * move * move) return false;
     }
@@ -653,7 +654,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (!(moved > One::tiny)) return 0;
     if (this->previous <= 0) return moved / felt(length, way);
     if (moved * unit[j] <= 64 * epsilon) return 0;
-    const Real ratio = moved / last[j];
+    const Real ratio = moved / before[j];
     return moved / felt(length, way) * ratio * ratio;
   }
   // Of its length and its way in the step.
@@ -747,7 +748,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       for (int j = 0; j < count; ++j) {
         const Real by = magnitude(moved[j]);
         converging =
-            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.last[j]);
+            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.before[j]);
       }
       return !converging;
     }
@@ -757,7 +758,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         this->template judge<true>(size, Real(each.count), iterations, uneven, each);
     if (this->still) hear(each.moved, each.count);
     if (verdict == Verdict::go_on)
-      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
+      for (int j = 0; j < each.count; ++j) before[j] = magnitude(each.moved[j]);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -777,8 +778,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_0BF96854_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_32AFDBA9_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_32AFDBA9_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -801,8 +802,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_0BF96854_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_32AFDBA9_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_32AFDBA9_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not close to their end.
 struct Distance {
@@ -881,8 +882,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_0BF96854_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_32AFDBA9_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_32AFDBA9_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -970,8 +971,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_REFINEMENT
-#define HAMGEN_0BF96854_FLOAT64_REFINEMENT
+#ifndef HAMGEN_32AFDBA9_FLOAT64_REFINEMENT
+#define HAMGEN_32AFDBA9_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1105,8 +1106,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_HISTORY
-#define HAMGEN_0BF96854_FLOAT64_HISTORY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_HISTORY
+#define HAMGEN_32AFDBA9_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1176,12 +1177,18 @@ struct History {
   // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
   // known, and 0 if none is: summed over `count` unknowns.
   Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    return error_in(degree, solution, first, count, [](int) { return Real(1); });
-  }
-  // The same with each in a unit of its own, one over so much.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count,
-             const Real* unit) const {
-    return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
+    Real sum_of_errors = 0;
+    int i = first;
+    if constexpr (many) {
+      // In parts that do not wait for each other.
+      Real parts[8] = {};
+      for (; i + 8 <= first + count; i += 8) {
+        for (int k = 0; k < 8; ++k) parts[k] += difference(degree, solution, i + k);
+      }
+      for (const Real part : parts) sum_of_errors += part;
+    }
+    for (; i < first + count; ++i) sum_of_errors += difference(degree, solution, i);
+    return sum_of_errors;
   }
   // The same of one unknown.
   template <class Solution>
@@ -1189,37 +1196,14 @@ struct History {
     if (known == 0) return 0;
     return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
   }
-  template <class Weight>
-  Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
-                const Weight& weight) const {
-    if (known == 0) return 0;
-    if (degree >= known) degree = known - 1;
-    Real sum_of_errors = 0;
-    int i = first;
-    if constexpr (many) {
-      // In parts that do not wait for each other.
-      Real parts[8] = {};
-      for (; i + 8 <= first + count; i += 8) {
-        for (int k = 0; k < 8; ++k) {
-          const Real gap = magnitude(solution[i + k] - predicted[degree][i + k]);
-          parts[k] += gap * weight(i + k - first);
-        }
-      }
-      for (const Real part : parts) sum_of_errors += part;
-    }
-    for (; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]) * weight(i - first);
-    }
-    return sum_of_errors;
-  }
   void extrapolate(Real (&solution)[Unknowns]) const {
     for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
   }
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_FORGET
-#define HAMGEN_0BF96854_FLOAT64_FORGET
+#ifndef HAMGEN_32AFDBA9_FLOAT64_FORGET
+#define HAMGEN_32AFDBA9_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1229,17 +1213,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_0bf96854::float64
+}  // namespace hamgen_32afdba9::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xdd0a4be9
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x6c854099
 namespace fput::implicit_midpoint {
-inline namespace emitted_dd0a4be9 {
+inline namespace emitted_6c854099 {
 
-namespace numerics = ::hamgen_0bf96854::float64;
+namespace numerics = ::hamgen_32afdba9::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1575,9 +1559,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_dd0a4be9
+}  // namespace emitted_6c854099
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xdd0a4be9
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x6c854099
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -97,11 +97,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_0bf96854::float64 {
+namespace hamgen_32afdba9::float64 {
 using Real = double;
 
-#ifndef HAMGEN_0BF96854_FLOAT64_STEP_REPORT
-#define HAMGEN_0BF96854_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_32AFDBA9_FLOAT64_STEP_REPORT
+#define HAMGEN_32AFDBA9_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -111,15 +111,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_VOCABULARY
-#define HAMGEN_0BF96854_FLOAT64_VOCABULARY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_VOCABULARY
+#define HAMGEN_32AFDBA9_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_TWO_SUM
-#define HAMGEN_0BF96854_FLOAT64_TWO_SUM
+#ifndef HAMGEN_32AFDBA9_FLOAT64_TWO_SUM
+#define HAMGEN_32AFDBA9_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -129,8 +129,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
-#define HAMGEN_0BF96854_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_32AFDBA9_FLOAT64_SUM_WITH_REST
+#define HAMGEN_32AFDBA9_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -142,14 +142,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_VERDICT
-#define HAMGEN_0BF96854_FLOAT64_VERDICT
+#ifndef HAMGEN_32AFDBA9_FLOAT64_VERDICT
+#define HAMGEN_32AFDBA9_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
-#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE
+#define HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -318,8 +318,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_0BF96854_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_32AFDBA9_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -338,7 +338,7 @@ struct NewtonRule {
 // itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
-// last)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
+// before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
 // coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
 // is a 1e13th of its neighbour by 1e17.
 //
@@ -365,7 +365,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real unit[Unknowns] = {};   // one over the size of each, see Note [units]; 0: not known yet
   Real moves[Unknowns] = {};  // the motion of each, as it is written
   Real bends[Unknowns] = {};
-  Real last[Unknowns] = {};  // by how much each moved in the iteration before
+  Real before[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -426,6 +426,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real shown = bends[j] * unit[j];
       const Real bend = shown > part ? shown : part;
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
       if (bend * part * part * 16 > round_off * move * move) return false;
     }
@@ -439,7 +440,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (!(moved > One::tiny)) return 0;
     if (this->previous <= 0) return moved / felt(length, way);
     if (moved * unit[j] <= 64 * epsilon) return 0;
-    const Real ratio = moved / last[j];
+    const Real ratio = moved / before[j];
     return moved / felt(length, way) * ratio * ratio;
   }
   // Of its length and its way in the step.
@@ -533,7 +534,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       for (int j = 0; j < count; ++j) {
         const Real by = magnitude(moved[j]);
         converging =
-            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.last[j]);
+            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.before[j]);
       }
       return !converging;
     }
@@ -543,7 +544,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         this->template judge<true>(size, Real(each.count), iterations, uneven, each);
     if (this->still) hear(each.moved, each.count);
     if (verdict == Verdict::go_on)
-      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
+      for (int j = 0; j < each.count; ++j) before[j] = magnitude(each.moved[j]);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
@@ -563,8 +564,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_HISTORY
-#define HAMGEN_0BF96854_FLOAT64_HISTORY
+#ifndef HAMGEN_32AFDBA9_FLOAT64_HISTORY
+#define HAMGEN_32AFDBA9_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -634,12 +635,18 @@ struct History {
   // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
   // known, and 0 if none is: summed over `count` unknowns.
   Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    return error_in(degree, solution, first, count, [](int) { return Real(1); });
-  }
-  // The same with each in a unit of its own, one over so much.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count,
-             const Real* unit) const {
-    return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
+    Real sum_of_errors = 0;
+    int i = first;
+    if constexpr (many) {
+      // In parts that do not wait for each other.
+      Real parts[8] = {};
+      for (; i + 8 <= first + count; i += 8) {
+        for (int k = 0; k < 8; ++k) parts[k] += difference(degree, solution, i + k);
+      }
+      for (const Real part : parts) sum_of_errors += part;
+    }
+    for (; i < first + count; ++i) sum_of_errors += difference(degree, solution, i);
+    return sum_of_errors;
   }
   // The same of one unknown.
   template <class Solution>
@@ -647,37 +654,14 @@ struct History {
     if (known == 0) return 0;
     return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
   }
-  template <class Weight>
-  Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
-                const Weight& weight) const {
-    if (known == 0) return 0;
-    if (degree >= known) degree = known - 1;
-    Real sum_of_errors = 0;
-    int i = first;
-    if constexpr (many) {
-      // In parts that do not wait for each other.
-      Real parts[8] = {};
-      for (; i + 8 <= first + count; i += 8) {
-        for (int k = 0; k < 8; ++k) {
-          const Real gap = magnitude(solution[i + k] - predicted[degree][i + k]);
-          parts[k] += gap * weight(i + k - first);
-        }
-      }
-      for (const Real part : parts) sum_of_errors += part;
-    }
-    for (; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]) * weight(i - first);
-    }
-    return sum_of_errors;
-  }
   void extrapolate(Real (&solution)[Unknowns]) const {
     for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
   }
 };
 #endif
 
-#ifndef HAMGEN_0BF96854_FLOAT64_FORGET
-#define HAMGEN_0BF96854_FLOAT64_FORGET
+#ifndef HAMGEN_32AFDBA9_FLOAT64_FORGET
+#define HAMGEN_32AFDBA9_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -687,17 +671,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_0bf96854::float64
+}  // namespace hamgen_32afdba9::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x30ae5a0b
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0xc14418d8
 namespace kepler::implicit_midpoint {
-inline namespace emitted_30ae5a0b {
+inline namespace emitted_c14418d8 {
 
-namespace numerics = ::hamgen_0bf96854::float64;
+namespace numerics = ::hamgen_32afdba9::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -904,9 +888,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_30ae5a0b
+}  // namespace emitted_c14418d8
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x30ae5a0b
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xc14418d8
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -50,11 +50,9 @@ class HistoryOf final : public AnyHistory<Real> {
     NumericsOf<Real>::look_twice(history_, all.padded);
     std::copy_n(all.padded, solution.size(), solution.begin());
   }
-  [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first, int count,
-                           const Real* unit) const override {
-    const Padded<Real, Size> all(solution);
-    return unit == nullptr ? history_.error(degree, all.padded, first, count)
-                           : history_.error(degree, all.padded, first, count, unit);
+  [[nodiscard]] Real error(int degree, std::span<const Real> solution, int first,
+                           int count) const override {
+    return history_.error(degree, Padded<Real, Size>(solution).padded, first, count);
   }
   [[nodiscard]] Real difference(int degree, std::span<const Real> solution, int i) const override {
     return history_.difference(degree, solution, i);

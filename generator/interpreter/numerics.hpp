@@ -58,9 +58,8 @@ struct AnyHistory {
   virtual void record(std::span<const Real> solution) = 0;
   virtual void extrapolate(std::span<Real> solution) const = 0;
   virtual void extrapolate_twice(std::span<Real> solution) const = 0;
-  // With one over the size of each, or where sizes do not count.
-  [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first, int count,
-                                   const Real* unit = nullptr) const = 0;
+  [[nodiscard]] virtual Real error(int degree, std::span<const Real> solution, int first,
+                                   int count) const = 0;
   [[nodiscard]] virtual Real difference(int degree, std::span<const Real> solution,
                                         int i) const = 0;
 };

@@ -67,41 +67,24 @@ struct History {
   // The difference of order degree + 1 at the solution that came, of lower order if fewer steps are
   // known, and 0 if none is: summed over `count` unknowns.
   Real error(int degree, const Real (&solution)[Unknowns], int first, int count) const {
-    return error_in(degree, solution, first, count, [](int) { return Real(1); });
-  }
-  // The same with each in a unit of its own, one over so much.
-  Real error(int degree, const Real (&solution)[Unknowns], int first, int count,
-             const Real* unit) const {
-    return error_in(degree, solution, first, count, [unit](int i) { return unit[i]; });
-  }
-  // The same of one unknown.
-  template <class Solution>
-  Real difference(int degree, const Solution& solution, int i) const {
-    if (known == 0) return 0;
-    return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
-  }
-  template <class Weight>
-  Real error_in(int degree, const Real (&solution)[Unknowns], int first, int count,
-                const Weight& weight) const {
-    if (known == 0) return 0;
-    if (degree >= known) degree = known - 1;
     Real sum_of_errors = 0;
     int i = first;
     if constexpr (many) {
       // In parts that do not wait for each other.
       Real parts[8] = {};
       for (; i + 8 <= first + count; i += 8) {
-        for (int k = 0; k < 8; ++k) {
-          const Real gap = magnitude(solution[i + k] - predicted[degree][i + k]);
-          parts[k] += gap * weight(i + k - first);
-        }
+        for (int k = 0; k < 8; ++k) parts[k] += difference(degree, solution, i + k);
       }
       for (const Real part : parts) sum_of_errors += part;
     }
-    for (; i < first + count; ++i) {
-      sum_of_errors += magnitude(solution[i] - predicted[degree][i]) * weight(i - first);
-    }
+    for (; i < first + count; ++i) sum_of_errors += difference(degree, solution, i);
     return sum_of_errors;
+  }
+  // The same of one unknown.
+  template <class Solution>
+  Real difference(int degree, const Solution& solution, int i) const {
+    if (known == 0) return 0;
+    return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
   }
   void extrapolate(Real (&solution)[Unknowns]) const {
     for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];

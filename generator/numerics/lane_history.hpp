@@ -58,8 +58,7 @@ struct History {
     }
   }
   // The difference of order Degree + 1 at the solution that came, of lower order if fewer steps are
-  // known, and 0 if none is: of one unknown, or summed over `count` of them, each in a unit of its
-  // own.
+  // known, and 0 if none is: of one unknown, or summed over `count` of them.
   template <int Degree>
   Real difference(const Real (&solution)[Unknowns], int i) const {
     if (known <= Degree) {
@@ -75,13 +74,9 @@ struct History {
     return magnitude(all);
   }
   template <int Degree>
-  Real error(const Real (&solution)[Unknowns], int first, int count,
-             const Real* unit = nullptr) const {
+  Real error(const Real (&solution)[Unknowns], int first, int count) const {
     Real total = 0;
-    for (int i = first; i < first + count; ++i) {
-      const Real each = difference<Degree>(solution, i);
-      total += unit == nullptr ? each : each * unit[i - first];
-    }
+    for (int i = first; i < first + count; ++i) total += difference<Degree>(solution, i);
     return total;
   }
   void extrapolate(Real (&solution)[Unknowns]) const {

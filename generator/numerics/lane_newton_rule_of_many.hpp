@@ -6,7 +6,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real unit[Unknowns] = {};  // one over the size of each; 0: not known yet
   Real moves[Unknowns] = {};
   Real bends[Unknowns] = {};
-  Real last[Unknowns] = {};
+  Real before[Unknowns] = {};
   int age = 0;
 
   static constexpr double smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -28,38 +28,43 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   __attribute__((noinline)) void begin_with(const Real* length, const Real* moved, int count) {
     Real total = 0;
     for (int j = 0; j < count; ++j) total += size_of(length[j], moved[j]);
-    const Mask unknown = (!(unit[0] > 0)) & (total > 0) & (total <= largest);
+    const Mask unknown = this->begun & (!(unit[0] > 0)) & (total > 0) & (total <= largest);
     for (int j = 0; j < count; ++j) {
       const Real size = size_of(length[j], moved[j]) + total / 1099511627776;
       unit[j] = select(unknown, 1 / (size + smallest), unit[j]);
     }
   }
-  __attribute__((noinline)) void follow(const Real* value, int count) {
-    age = 0;
+  __attribute__((noinline)) void follow(const Real* value, int count, const Mask& lanes) {
     Real least = unit[0];
     for (int j = 1; j < count; ++j) least = select(unit[j] < least, unit[j], least);
     for (int j = 0; j < count; ++j) {
       const Real part = magnitude(value[j]) * unit[j];
       const Mask falls = (part > 0) & (1024 * part < 1) & (unit[j] < 1099511627776 * least);
-      const Mask changes = falls | (part > 2);
+      const Mask changes = lanes & (falls | (part > 2));
       unit[j] = select(changes, select(falls, 32 * unit[j], 1 / magnitude(value[j])), unit[j]);
       this->unmeasured = this->unmeasured | changes;
     }
   }
-  // The solution of a step, from the unknown `first` on, before the history records it.
+  // The solution of a step, from the unknown `first` on, before the history records it: in lanes
+  // that have come to it so.  Whatever the others do, sizes are looked at in every 16th step.
   template <class Past, int All>
-  void watch(const Past& past, const Real (&solution)[All], int first, int count) {
-    if (++age >= 16) follow(solution + first, count);
+  void watch(const Past& past, const Real (&solution)[All], int first, int count,
+             const Mask& lanes = true) {
+    age = (age + 1) % 16;
     Real move = 0;
     Real bend = 0;
-    for (int j = 0; j < count; ++j) {
-      moves[j] = past.template difference<0>(solution, first + j);
-      bends[j] = past.template difference<Power + 1>(solution, first + j);
-      move += moves[j] * unit[j];
-      bend += bends[j] * unit[j];
+    if (any(lanes)) {
+      if (age == 0) follow(solution + first, count, lanes);
+      for (int j = 0; j < count; ++j) {
+        moves[j] = select(lanes, past.template difference<0>(solution, first + j), moves[j]);
+        bends[j] =
+            select(lanes, past.template difference<Power + 1>(solution, first + j), bends[j]);
+        move += moves[j] * unit[j];
+        bend += bends[j] * unit[j];
+      }
     }
-    this->motion.move = move;
-    this->motion.bend = bend;
+    this->motion.move = select(lanes, move, Real(0));
+    this->motion.bend = select(lanes, bend, Real(0));
   }
   Mask is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     Mask within = true;
@@ -80,7 +85,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (Power == 1) return select(moved > 8 * epsilon * length + One::tiny, moved, Real(0));
     const Real part = moved / felt(length, way);
     if (this->begins) return select(moved > One::tiny, part, Real(0));
-    const Real ratio = moved / last[j];
+    const Real ratio = moved / before[j];
     const Mask counts = (moved > One::tiny) & (moved * unit[j] > 64 * epsilon);
     return select(counts, part * ratio * ratio, Real(0));
   }
@@ -144,7 +149,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       for (int j = 0; j < count; ++j) {
         const Real by = magnitude(moved[j]);
         converging =
-            converging | ((by > 8 * epsilon * magnitude(length[j])) & (2 * by <= rule.last[j]));
+            converging | ((by > 8 * epsilon * magnitude(length[j])) & (2 * by <= rule.before[j]));
       }
       return !converging;
     }
@@ -154,7 +159,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         this->template judge<true>(size, Real(each.count), iterations, uneven, each);
     if (any(this->still)) hear(each.moved, each.count);
     if (any(moving))
-      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
+      for (int j = 0; j < each.count; ++j) before[j] = magnitude(each.moved[j]);
     return moving;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.

@@ -11,9 +11,7 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
   }
   template <class Past, int All>
   void watch(const Past& past, const Real (&solution)[All], int first, int count) {
-    if (any(used)) Watched::watch(past, solution, first, count);
-    this->motion.move = select(used, this->motion.move, Real(0));
-    this->motion.bend = select(used, this->motion.bend, Real(0));
+    Watched::watch(past, solution, first, count, used);
     used = false;
   }
 };

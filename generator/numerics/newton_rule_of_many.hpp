@@ -16,7 +16,7 @@
 // itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
-// last)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
+// before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
 // coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
 // is a 1e13th of its neighbour by 1e17.
 //
@@ -43,7 +43,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real unit[Unknowns] = {};   // one over the size of each, see Note [units]; 0: not known yet
   Real moves[Unknowns] = {};  // the motion of each, as it is written
   Real bends[Unknowns] = {};
-  Real last[Unknowns] = {};  // by how much each moved in the iteration before
+  Real before[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -104,6 +104,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real shown = bends[j] * unit[j];
       const Real bend = shown > part ? shown : part;
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
+      // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
       if (bend * part * part * 16 > round_off * move * move) return false;
     }
@@ -117,7 +118,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (!(moved > One::tiny)) return 0;
     if (this->previous <= 0) return moved / felt(length, way);
     if (moved * unit[j] <= 64 * epsilon) return 0;
-    const Real ratio = moved / last[j];
+    const Real ratio = moved / before[j];
     return moved / felt(length, way) * ratio * ratio;
   }
   // Of its length and its way in the step.
@@ -211,7 +212,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       for (int j = 0; j < count; ++j) {
         const Real by = magnitude(moved[j]);
         converging =
-            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.last[j]);
+            converging || (by > 8 * epsilon * magnitude(length[j]) && 2 * by <= rule.before[j]);
       }
       return !converging;
     }
@@ -221,7 +222,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
         this->template judge<true>(size, Real(each.count), iterations, uneven, each);
     if (this->still) hear(each.moved, each.count);
     if (verdict == Verdict::go_on)
-      for (int j = 0; j < each.count; ++j) last[j] = magnitude(each.moved[j]);
+      for (int j = 0; j < each.count; ++j) before[j] = magnitude(each.moved[j]);
     return verdict;
   }
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.

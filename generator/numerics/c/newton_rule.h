@@ -18,7 +18,7 @@ typedef struct {
   Real unit[3];   // one over the size of each unknown, of which there are at most three; 0: unknown
   Real moves[3];  // the motion of each, as it is written
   Real bends[3];
-  Real last[3];  // by how much each moved in the iteration before
+  Real before[3];  // by how much each moved in the iteration before
   int age;
   bool still;
 } NewtonRule;
@@ -74,7 +74,7 @@ static inline bool NewtonRule_is_still(const NewtonRule* rule, const Real* moved
   bool converging = false;
   for (int j = 0; j < count; ++j)
     converging = converging ||
-                 (moved[j] > 8 * epsilon * magnitude(length[j]) && 2 * moved[j] <= rule->last[j]);
+                 (moved[j] > 8 * epsilon * magnitude(length[j]) && 2 * moved[j] <= rule->before[j]);
   return !converging;
 }
 // size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
@@ -143,7 +143,7 @@ static inline Real NewtonRule_relative(const NewtonRule* rule, int j, Real moved
   if (!(moved > tiny)) return 0;
   if (rule->previous <= 0) return moved / NewtonRule_felt(rule, length, way);
   if (moved * rule->unit[j] <= 64 * epsilon) return 0;
-  const Real ratio = moved / rule->last[j];
+  const Real ratio = moved / rule->before[j];
   return moved / NewtonRule_felt(rule, length, way) * ratio * ratio;
 }
 // Is even what all unknowns together move by lost in the rounding of one?
@@ -222,7 +222,7 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
   for (int j = 0; rule->still && j < count; ++j) {
     if (moved[j] * rule->unit[j] > 64 * epsilon) rule->unit[j] = 64 * epsilon / moved[j];
   }
-  for (int j = 0; verdict == go_on && j < count; ++j) rule->last[j] = moved[j];
+  for (int j = 0; verdict == go_on && j < count; ++j) rule->before[j] = moved[j];
   return verdict;
 }
 // Of a single unknown.
