@@ -48,6 +48,7 @@ struct MachineState {
   Frame<Real> frame;
   MachineReport<Real> report;
   long long iteration = 0;  // of the iteration that is going on
+  AnyNewtonRule<Real>* newton = nullptr;
   std::vector<std::string> arguments;
   struct Kept {  // an object that is a field of the run's memory
     std::size_t index = 0;

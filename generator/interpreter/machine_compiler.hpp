@@ -206,7 +206,8 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     };
   }
   Step operator()(const Factorise& factorise) {
-    return [this, matrix = matrix_at(factorise.matrix)] {
+    return [this, matrix = matrix_at(factorise.matrix), count = factorise.compared] {
+      if (count > 0) m_.newton->compare(matrix(), count);
       if (matrix().factorise()) return true;
       m_.report.iterations += m_.iteration;
       m_.report.increment = HUGE_VAL;

@@ -28,6 +28,7 @@ class MachineIterations : public MachineAddresses<Real> {
   template <class Judge, class Correct>
   bool run_newton(AnyNewtonRule<Real>& rule, bool predicted, const Steps& body, const Judge& judge,
                   const Correct& correct) const {
+    m_.newton = &rule;
     rule.begin(predicted);
     for (m_.iteration = 1;; ++m_.iteration) {
       if (!run_all(body)) return false;

@@ -63,7 +63,7 @@ class HistoryOf final : public AnyHistory<Real> {
 };
 
 // Of a single unknown where Size is 0.
-template <class Real, int Power, int Size>
+template <class Real, int Power, int Size, bool Compares = false>
 class NewtonRuleOf final : public AnyNewtonRule<Real> {
  public:
   using Sums = typename AnyNewtonRule<Real>::Sums;
@@ -80,6 +80,9 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
       rule_.motion = {};
     }
     used_ = false;
+  }
+  void compare(const AnyMatrix<Real>& matrix, int count) override {
+    if constexpr (Compares) rule_.compare(matrix, count);
   }
   Answer of_sums(std::span<const Real> values, std::span<const Real> increments, const Sums& sums,
                  int iteration) override {
@@ -115,8 +118,10 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
 
  private:
   using One = typename NumericsOf<Real>::template Newton<Power>;
-  using Many = typename NumericsOf<Real>::template NewtonOfMany<Power, (Size > 0 ? Size : 1)>;
-  std::conditional_t<(Size > 0), Many, One> rule_;
+  static constexpr int most = Size > 0 ? Size : 1;
+  using Many = typename NumericsOf<Real>::template NewtonOfMany<Power, most>;
+  using Comparing = typename NumericsOf<Real>::template NewtonWithMatrix<Compares ? most : 1>;
+  std::conditional_t<Compares, Comparing, std::conditional_t<(Size > 0), Many, One>> rule_;
   bool waits_;  // as WaitingNewtonRule
   bool used_ = false;
 };
@@ -228,6 +233,13 @@ class MatrixOf final : public AnyMatrix<Real> {
   void put(int row, int column, Real value) override {
     matrix_.put(place_[index(row)], place_[index(column)], value);
   }
+  [[nodiscard]] Real at(int row, int column) const override {
+    if constexpr (requires { matrix_.at(row, column); }) {
+      return matrix_.at(place_[index(row)], place_[index(column)]);
+    } else {
+      internal_error("a band is not looked at");
+    }
+  }
   [[nodiscard]] bool factorise() override { return matrix_.factorise(); }
   void solve(std::span<Real> vector) const override {
     Padded<Real, Size> all({});
@@ -278,6 +290,13 @@ std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, int un
     constexpr int most = decltype(n)::value;
     if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1, most>>(waits);
     return std::make_unique<NewtonRuleOf<Real, 2, most>>(waits);
+  });
+}
+
+template <class Real>
+std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule_with_matrix(int unknowns) {
+  return at_least<32>(unknowns, [](auto n) -> std::unique_ptr<AnyNewtonRule<Real>> {
+    return std::make_unique<NewtonRuleOf<Real, 2, decltype(n)::value, true>>(false);
   });
 }
 

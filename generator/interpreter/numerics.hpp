@@ -64,11 +64,23 @@ struct AnyHistory {
                                         int i) const = 0;
 };
 template <class Real>
+struct AnyMatrix {
+  virtual ~AnyMatrix() = default;
+  virtual void clear() = 0;
+  virtual void put(int row, int column, Real value) = 0;
+  // Before it is factorised.
+  [[nodiscard]] virtual Real at(int row, int column) const = 0;
+  [[nodiscard]] virtual bool factorise() = 0;
+  virtual void solve(std::span<Real> vector) const = 0;
+};
+template <class Real>
 struct AnyNewtonRule {
   virtual ~AnyNewtonRule() = default;
   virtual void begin(bool predicted) = 0;
   virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
+  // Of a rule that looks at the matrix of so many unknowns.
+  virtual void compare(const AnyMatrix<Real>& /*matrix*/, int /*count*/) {}
   // Over the unknowns of arrays: of increments as parts of sizes, of what is relative of each, of
   // increments and of lengths.
   struct Sums {
@@ -124,14 +136,6 @@ struct AnyRefinement {
   virtual void get_change(std::span<Real> change) const = 0;
   virtual void get_slope(std::span<Real> slope) const = 0;
 };
-template <class Real>
-struct AnyMatrix {
-  virtual ~AnyMatrix() = default;
-  virtual void clear() = 0;
-  virtual void put(int row, int column, Real value) = 0;
-  [[nodiscard]] virtual bool factorise() = 0;
-  virtual void solve(std::span<Real> vector) const = 0;
-};
 
 // New ones.  UsageError for what is too large.
 template <class Real>
@@ -139,6 +143,8 @@ struct Blocks {
   [[nodiscard]] static std::unique_ptr<AnyHistory<Real>> history(int size);  // up to 4096 unknowns
   [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule(int power, int unknowns,
                                                                         bool waits);
+  // NewtonRuleWithMatrix, of up to 32 unknowns.
+  [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> newton_rule_with_matrix(int unknowns);
   [[nodiscard]] static std::unique_ptr<AnyNewtonRule<Real>> linear_rule();
   [[nodiscard]] static std::unique_ptr<AnySimplifiedNewtonRule<Real>> simplified_newton_rule();
   // Of this type; null if there is none.

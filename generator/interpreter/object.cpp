@@ -38,6 +38,8 @@ void add_block(Object<Real>& object, const Field& field, const Program& code) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), 0, false);
   } else if (field.type.starts_with("NewtonRuleOfMany")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), sizes.at(1), false);
+  } else if (field.type.starts_with("NewtonRuleWithMatrix")) {
+    object.rules[field.name] = Blocks<Real>::newton_rule_with_matrix(sizes.at(0));
   } else if (field.type.starts_with("WaitingNewtonRule")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), sizes.at(1), true);
   } else if (field.type == "LinearRule") {

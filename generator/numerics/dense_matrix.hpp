@@ -9,6 +9,7 @@ class DenseMatrix {
     }
   }
   void put(int row, int column, Real value) { entry_[row][column] += value; }
+  Real at(int row, int column) const { return entry_[row][column]; }
   // False if the matrix is singular or not finite.
   bool factorise() {
     for (int c = 0; c < size; ++c) {

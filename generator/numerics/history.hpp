@@ -47,7 +47,8 @@ struct History {
       }
     }
   }
-  void choose(const Real (&solution)[Unknowns]) {
+  // Seldom done, and no part of a step's code.
+  __attribute__((noinline)) void choose(const Real (&solution)[Unknowns]) {
     age = 0;
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {

@@ -10,6 +10,7 @@ class DenseMatrix {
     }
   }
   void put(int row, int column, const Real& value) { entry_[row][column] += value; }
+  const Real& at(int row, int column) const { return entry_[row][column]; }
   // False in lanes whose matrix is singular or not finite.
   Mask factorise() {
     Mask regular = true;

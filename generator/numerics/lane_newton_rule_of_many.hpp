@@ -13,7 +13,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 
   void forget(const Mask& lanes) {
     One::forget(lanes);
-    for (Real& each : unit) each = select(lanes, Real(0), each);
+    for (int j = 0; j < Unknowns; ++j) {
+      unit[j] = select(lanes, Real(0), unit[j]);
+      moves[j] = select(lanes, Real(0), moves[j]);
+      bends[j] = select(lanes, Real(0), bends[j]);
+    }
   }
   static Real size_of(const Real& length, const Real& moved) {
     const Real value = magnitude(length);

@@ -135,6 +135,7 @@ struct Alternate {
 // the report of an iteration says that its increment is not finite.
 struct Factorise {
   Place matrix;
+  int compared = 0;  // of so many unknowns, by the rule of the iteration with the step before
 };
 // The solution of matrix x = vector with the factors, left in the array `vector`.
 struct SolveFactorised {

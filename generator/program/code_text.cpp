@@ -132,7 +132,8 @@ class Printer {
     inside({{alternate.second}});
   }
   void operator()(const Factorise& factorise) {
-    line(fmt::format("factorise {}", to_text(factorise.matrix)));
+    line(fmt::format("{}factorise {}", factorise.compared > 0 ? "compare, " : "",
+                     to_text(factorise.matrix)));
   }
   void operator()(const SolveFactorised& solve) {
     line(fmt::format("solve {} x = {}", to_text(solve.matrix), to_text(solve.vector)));

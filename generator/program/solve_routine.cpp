@@ -190,7 +190,7 @@ class SolveRoutine {
     if (solve.constant_matrix) {
       multiply(body, s, size);
     } else {
-      body.push_back({Factorise{{"matrix"}}});
+      body.push_back({Factorise{{"matrix"}, is_compared(solve) ? size : 0}});
       body.push_back({SolveFactorised{{"matrix"}, {"vector"}}});
     }
     for (std::size_t j = 0; j < solve.corrections.size(); ++j) {

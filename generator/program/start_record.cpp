@@ -2,12 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/coefficients.hpp"
+
 namespace hamgen {
+
+// Its matrix is at hand whole, and the exact one.
+bool is_compared(const Solve& solve) {
+  return solve.linear_solver == LinearSolver::elimination && !solve.simplified &&
+         !solve.constant_matrix && form_of(solve) == MatrixForm::symmetric;
+}
 
 namespace {
 
-std::string type_of_newton(int power, std::size_t unknowns) {
+std::string type_of_newton(const Solve& solve) {
+  const int power = solve.simplified ? 1 : 2;
+  const std::size_t unknowns = solve.variables.size();
   if (unknowns == 1) return fmt::format("NewtonRule<{}>", power);
+  if (is_compared(solve)) return fmt::format("NewtonRuleWithMatrix<{}>", unknowns);
   return fmt::format("NewtonRuleOfMany<{}, {}>", power, unknowns);
 }
 
@@ -25,9 +36,7 @@ Record start_record(const std::vector<const Solve*>& solves, int unknowns) {
           "Start values of the implicit equations and what is remembered of their solution."}};
   for (std::size_t s = 0; s < solves.size(); ++s) {
     if (solves[s] == nullptr || solves[s]->kind != BlockKind::newton) continue;
-    start.fields.push_back(
-        {.name = fmt::format("rule_{}", s),
-         .type = type_of_newton(solves[s]->simplified ? 1 : 2, solves[s]->variables.size())});
+    start.fields.push_back({.name = fmt::format("rule_{}", s), .type = type_of_newton(*solves[s])});
   }
   return start;
 }

@@ -52,7 +52,7 @@ class Edited {
 // But for the two that its examples make.
 TEST(ExtendingPage, NamesFilesThatAreThere) {
   const std::set<std::string> made = {"generator/formats/meson_package.cpp",
-                                      "generator/numerics/stagnation_rule.hpp"};
+                                      "generator/numerics/ends/stagnation_rule.hpp"};
   const std::string page = read(tree + "/docs/extending.md");
   const std::regex name("`((generator|app|tests|runtime)/[^` ]*)`");
   int names = 0;
@@ -85,26 +85,27 @@ TEST(ExtendingPage, AFunctionIsARow) {
   EXPECT_TRUE(contains(table, block_of(".name = \"expm1\"")));
 }
 
-TEST(ExtendingPage, ARuleOfFixedPointsIsABlockAndItsRows) {
+// Its block in a folder of headers, from which the lists are made as the build makes them.
+TEST(ExtendingPage, ARuleOfFixedPointsIsABlockAndARow) {
   Edited("generator/solvers/all_solvers.cpp")
       .before("    NamedSolver{\"sweeps:K\"", block_of("NamedSolver{\"stagnation\""))
       .compiles();
-  Edited("generator/base/fixed_blocks.cpp")
-      .before("    {\"simplified_newton_rule\"", block_of("{\"stagnation_rule\""))
-      .compiles();
-  const Scratch headers;
-  const std::filesystem::path folder = std::filesystem::path(headers.path("")) / "generator";
-  std::filesystem::create_directories(folder / "numerics");
-  std::filesystem::create_directories(folder / "interpreter");
-  headers.write("generator/numerics/stagnation_rule.hpp",
+  const Scratch scratch;
+  const std::filesystem::path made = scratch.path("");
+  const std::filesystem::path ends = made / "generator/numerics/ends";
+  std::filesystem::create_directories(ends);
+  std::filesystem::copy(tree + "/generator/numerics/ends", ends);
+  scratch.write("generator/numerics/ends/stagnation_rule.hpp",
                 block_of("// When to stop a fixed point"));
-  headers.write("generator/interpreter/numerics.inc",
-                Edited("generator/interpreter/numerics.inc")
-                    .before("#include \"generator/numerics/impatient_rule.hpp\"",
-                            "#include \"generator/numerics/stagnation_rule.hpp\"\n")
-                    .before("    use(\"ImpatientRule\"", block_of("use(\"StagnationRule\""))
-                    .text());
-  Edited("generator/interpreter/numerics.cpp").compiles_with(headers);
+  const Result lists =
+      shell("cmake -Dheaders='" + ends.string() + "' -Dfolder=generator/base -P '" + tree +
+                "/generator/base/fixed_point_ends.cmake'",
+            made);
+  EXPECT_EQ(lists.status, 0) << lists.err;
+  EXPECT_TRUE(contains(read(made / "generator/base/fixed_point_blocks.inc"),
+                       "{\"stagnation_rule\", \"StagnationRule\"},"));
+  for (const char* file : {"generator/base/fixed_blocks.cpp", "generator/interpreter/numerics.cpp"})
+    Edited(file).compiles_with(scratch);
 }
 
 }  // namespace

@@ -81,8 +81,6 @@ const std::map<std::string, std::string> looked_at_elsewhere = {
     {"extending.md:     NamedSolver{\"stagnation\", \"iterates until increments no longer fall; no "
      "Hessian\",",
      "app/extending_page_test.cpp"},
-    {"extending.md:     {\"stagnation_rule\", \"StagnationRule\"},", "app/extending_page_test.cpp"},
-    {"extending.md:     use(\"StagnationRule\", StagnationRule());", "app/extending_page_test.cpp"},
     // Of days, of many machines, of a run that is interrupted: with other numbers there.
     {"command.md: hamgen run hamiltonians/pendulum.ham --steps 1e11 --every 1e6 -o pendulum.csv "
      "--checkpoint pendulum.checkpoint",

@@ -1,0 +1,27 @@
+# The rules by which fixed points end, as lists: generator/numerics/ends has a header for each, and
+# one beside it, lane_*.hpp, for trajectories in lanes.  From `headers` four files in `folder`:
+# what is included, the rows of the fixed blocks, those of lanes, and what the interpreter knows.
+#   cmake -Dheaders=generator/numerics/ends -Dfolder=OUT -P generator/base/fixed_point_ends.cmake
+file(GLOB ends ${headers}/*.hpp)
+set(includes "")
+set(blocks "")
+set(lane_blocks "")
+set(rules "")
+foreach(header IN LISTS ends)
+  get_filename_component(name ${header} NAME_WE)
+  file(READ ${header} text)
+  if(NOT text MATCHES "\nstruct ([A-Za-z0-9]+)")
+    message(FATAL_ERROR "${header}: no struct")
+  endif()
+  set(type ${CMAKE_MATCH_1})
+  if(name MATCHES "^lane_")
+    string(APPEND lane_blocks "{\"${name}\", \"${type}\"},\n")
+  else()
+    string(APPEND includes "#include \"generator/numerics/ends/${name}.hpp\"\n")
+    string(APPEND blocks "{\"${name}\", \"${type}\"},\n")
+    string(APPEND rules "use(\"${type}\", ${type}());\n")
+  endif()
+endforeach()
+foreach(list IN ITEMS includes blocks lane_blocks rules)
+  file(CONFIGURE OUTPUT ${folder}/fixed_point_${list}.inc CONTENT "${${list}}" @ONLY)
+endforeach()

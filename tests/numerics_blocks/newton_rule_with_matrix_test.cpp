@@ -1,0 +1,140 @@
+// The rule that looks at the matrix of its equations: in every scalar, and in lanes as alone.
+#include "tests/numerics_blocks/lane_rules.hpp"
+#include "tests/numerics_blocks/rules_of_many.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+// Of which the lower half is there, as it is put.
+template <class Number>
+struct LowerHalf {
+  Number entry[2][2] = {};
+  Number at(int row, int column) const {
+    EXPECT_GE(row, column);
+    return entry[row][column];
+  }
+};
+
+template <class Blocks>
+class NewtonRuleWithMatrix : public RulesOfMany<Blocks> {};
+TYPED_TEST_SUITE(NewtonRuleWithMatrix, EveryScalar);
+
+// What an entry has turned by, times the move of the one unknown, bends the equation of the other.
+TYPED_TEST(NewtonRuleWithMatrix, EachBendsByWhatTheMatrixHasTurned) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template NewtonWithMatrix<2> rule;
+  rule.unit[0] = 1;
+  rule.unit[1] = 4;
+  LowerHalf<Real> matrix{{{1, 0}, {Real(0.25), 2}}};
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  rule.moves[0] = Real(0.5);
+  rule.moves[1] = Real(0.125);
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.bends[0], 0);
+  EXPECT_EQ(rule.bends[1], 0);
+  EXPECT_EQ(rule.motion.bend, 0);
+  matrix.entry[0][0] += 2;
+  matrix.entry[1][0] -= 1;
+  matrix.entry[1][1] += Real(0.5);
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.bends[0], Real(2 * 0.5 + 1 * 0.125));
+  EXPECT_EQ(rule.bends[1], Real(1 * 0.5 + 0.5 * 0.125));
+  EXPECT_EQ(rule.motion.bend, rule.bends[0] + 4 * rule.bends[1]);
+  // Later iterations are no other step.
+  const Real moved[2] = {Real(0.25), Real(0.25)};
+  const Real length[2] = {1, 1};
+  EXPECT_EQ(rule.of_each(moved, length, length, 2, 1), TypeParam::Answer::go_on);
+  const Real before = rule.bends[0];
+  matrix.entry[0][0] += 5;
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.bends[0], before);
+  EXPECT_EQ(rule.slopes[0][0], 3);
+}
+
+// A fast linear oscillation leaves nothing: one increment is enough, as often as its force is the
+// same, where differences of its solutions ask for another one.
+TYPED_TEST(NewtonRuleWithMatrix, AnOscillationIsStraightAsLongAsItsMatrixStands) {
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const auto after = [&](auto rule, Real turns) {
+    for (Real& unit : rule.unit) unit = 1;
+    rule.contraction = TypeParam::unit;
+    rule.unchecked = 0;
+    typename TypeParam::template Past<2> past;
+    LowerHalf<Real> matrix{{{1, 0}, {0, 1}}};
+    // Half a radian a step: x, y turn by 3/5, 4/5 on a circle of a 16th.
+    Real x = Real(1) / 16, y = 0;
+    for (int k = 0; k < 6; ++k) {
+      const Real turned = (4 * x - 3 * y) / 5;
+      y = (3 * x + 4 * y) / 5;
+      x = turned;
+      const Real solution[2] = {1 + x, 1 + y};
+      rule.begin(k > 0);
+      if constexpr (requires { rule.slopes; }) rule.compare(matrix, 2);
+      rule.watch(past, solution, 0, 2);
+      past.record(solution);
+    }
+    matrix.entry[0][0] += turns;
+    rule.begin(true);
+    if constexpr (requires { rule.slopes; }) rule.compare(matrix, 2);
+    const Real small = TypeParam::two_to(-(TypeParam::bits + 9) / 2);
+    const Real moved[2] = {small, small};
+    const Real length[2] = {1, 1};
+    return rule.of_each(moved, length, length, 2, 1);
+  };
+  EXPECT_EQ(after(typename TypeParam::template NewtonOfMany<2, 2>(), 0), Verdict::go_on);
+  EXPECT_EQ(after(typename TypeParam::template NewtonWithMatrix<2>(), 0), Verdict::done);
+  EXPECT_EQ(after(typename TypeParam::template NewtonWithMatrix<2>(), 4), Verdict::go_on);
+}
+
+// In lanes that are in their turn one half after the other, each as its own rule does.
+TEST(LaneRuleWithMatrix, EachLaneComparesAsAlone) {
+  lanes::NewtonRuleWithMatrix<2> rule;
+  of_double::NewtonRuleWithMatrix<2> alone[kCount];
+  lanes::History<2> history;
+  of_double::History<2> histories[kCount];
+  for (lanes::Real& unit : rule.unit) unit = 1;
+  for (auto& one : alone) one.unit[0] = one.unit[1] = 1;
+  int turned = 0;
+  for (int step = 0; step < 40; ++step) {
+    LowerHalf<lanes::Real> matrix;
+    lanes::Real solution[2];
+    for (int lane = 0; lane < kCount; ++lane) {
+      LowerHalf<double> own{{{1 + 0.01 * lane * step, 0}, {0.3 * lane, 2 - 0.003 * step * step}}};
+      for (int r = 0; r < 2; ++r)
+        for (int c = 0; c <= r; ++c) matrix.entry[r][c].set(lane, own.entry[r][c]);
+      const double values[2] = {1 + 0.1 * lane + 0.02 * step, 2 - 0.01 * step * lane};
+      for (int j = 0; j < 2; ++j) solution[j].set(lane, values[j]);
+      of_double::NewtonRuleWithMatrix<2>& one = alone[lane];
+      one.begin(true);
+      one.compare(own, 2);
+      one.watch(histories[lane], values, 0, 2);
+      histories[lane].record(values);
+    }
+    lanes::Real half = 0;
+    for (int lane = 0; lane < kCount; lane += 1 + step % 3) half.set(lane, 1);
+    for (const lanes::Mask in_turn : {half > 0, !(half > 0)}) {
+      lanes::Turn turn;
+      turn.begin(in_turn);
+      rule.begin(true, turn);
+      rule.compare(matrix, 2);
+    }
+    for (int lane = 0; lane < kCount; ++lane) {
+      for (int j = 0; j < 2; ++j) {
+        EXPECT_EQ(rule.bends[j][lane], alone[lane].bends[j]) << step << " " << lane;
+        if (rule.bends[j][lane] > 0) ++turned;
+      }
+    }
+    rule.watch(history, solution, 0, 2);
+    history.record(solution);
+    for (int lane = 0; lane < kCount; ++lane)
+      EXPECT_EQ(rule.moves[0][lane], alone[lane].moves[0]) << step << " " << lane;
+  }
+  EXPECT_GT(turned, 100);
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
