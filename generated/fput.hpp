@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_28e0698b::float64 {
+namespace hamgen_b59888d5::float64 {
 using Real = double;
 
-#ifndef HAMGEN_28E0698B_FLOAT64_STEP_REPORT
-#define HAMGEN_28E0698B_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_B59888D5_FLOAT64_STEP_REPORT
+#define HAMGEN_B59888D5_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_VOCABULARY
-#define HAMGEN_28E0698B_FLOAT64_VOCABULARY
+#ifndef HAMGEN_B59888D5_FLOAT64_VOCABULARY
+#define HAMGEN_B59888D5_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_TWO_SUM
-#define HAMGEN_28E0698B_FLOAT64_TWO_SUM
+#ifndef HAMGEN_B59888D5_FLOAT64_TWO_SUM
+#define HAMGEN_B59888D5_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_SUM_WITH_REST
-#define HAMGEN_28E0698B_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_B59888D5_FLOAT64_SUM_WITH_REST
+#define HAMGEN_B59888D5_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +182,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_SUMS
-#define HAMGEN_28E0698B_FLOAT64_SUMS
+#ifndef HAMGEN_B59888D5_FLOAT64_SUMS
+#define HAMGEN_B59888D5_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -224,8 +224,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_BAND_MATRIX
-#define HAMGEN_28E0698B_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_B59888D5_FLOAT64_BAND_MATRIX
+#define HAMGEN_B59888D5_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +290,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_28E0698B_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_B59888D5_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_B59888D5_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +356,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_VERDICT
-#define HAMGEN_28E0698B_FLOAT64_VERDICT
+#ifndef HAMGEN_B59888D5_FLOAT64_VERDICT
+#define HAMGEN_B59888D5_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_NEWTON_RULE
-#define HAMGEN_28E0698B_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_B59888D5_FLOAT64_NEWTON_RULE
+#define HAMGEN_B59888D5_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -532,8 +532,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_28E0698B_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_B59888D5_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_B59888D5_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -778,8 +778,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_28E0698B_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_B59888D5_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_B59888D5_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -802,13 +802,13 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_28E0698B_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_B59888D5_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_B59888D5_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
-// rounded with, and of the increments of those that are not close to their end.
+// rounded with, and of the increments of those that are not near their end.
 struct Distance {
-  // What is left below that is solved for by Refinement.
-  static constexpr Real units = 64;
+  // Over so many units of rounding what is not linear is far below them, and Refinement goes on.
+  static constexpr Real units = 16384;
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
@@ -823,8 +823,8 @@ struct Distance {
   static Real far_of(Real moved, Real length) {
     return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
-  bool close() const { return far <= lost * scale; }
-  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
+  bool near() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * (scale + 64 * tiny); }
 
   void add(Real moved, Real length) {
     size += moved;
@@ -838,7 +838,7 @@ struct Distance {
         sum_of(count, [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); });
     size += all_moved;
     scale += all_lengths;
-    // Not each is close where all of them together are not.
+    // Not each is near where all of them together are not.
     Real all_far = far_of(all_moved, 2 * all_lengths);
     if (all_far <= 0) {
       all_far = sum_of(count, [&](int j) {
@@ -848,31 +848,57 @@ struct Distance {
     far += all_far;
   }
 };
-// When to stop an iteration that has no other end than rounding: where all unknowns are close to
-// it, or at stagnation, when twice in a row it has not moved less than ever before.  Every Cycle-th
-// iteration is compared: 2 for a fixed point, where q hangs on p and p on q alone, so that even and
-// odd iterations are two sequences, and one may be far ahead of the other; 1 for Newton's
-// iteration. The larger the last increment, the longer it must stand still: 64, 512, 4096 units of
-// rounding after 2, 3, 4 times.
+// When to stop an iteration that has no other end than rounding: where all unknowns are near it and
+// the next increment is lost in it, or at stagnation, when twice in a row it has not moved less
+// than ever before.  Every Cycle-th iteration is compared: 2 for a fixed point, where q hangs on p
+// and p on q alone, so that even and odd iterations are two sequences, and one may be far ahead of
+// the other; 1 for Newton's iteration. The larger the last increment, the longer it must stand
+// still: 64, 512, 4096 units of rounding after 2, 3, 4 times.
+//
+// Note [what is lost in rounding]
+// Refinement begins with what rounding leaves of the unknowns, and takes as many rounds for that as
+// for 64 units more.  So the next increment may be as large: it is the last one times the
+// contraction, which this and the one before it show.  A first increment is judged by the
+// contraction of the step before, four times over, but for every 32nd.
 template <int Cycle>
 struct FixedPointRule {
   Real least[Cycle] = {};  // 0 before the first increment
   Real size = 0;           // of the last increment
+  Real before = 0;         // and of the one before it in this step, if there is one
+  Real contraction = 1;    // of these two, in the step before
+  int unchecked = 32;      // steps since it was measured
   int stuck = 0;
 
   void begin() {
     for (Real& smallest : least) smallest = 0;
     stuck = 0;
+    if (before > 0) {
+      contraction = size < before ? size / before : Real(1);
+      unchecked = 0;
+    }
+    size = 0;
   }
   Verdict operator()(const Distance& moved, int iterations) {
+    const Verdict verdict = judge(moved, iterations);
+    return verdict == Verdict::go_on && comes_near(moved) ? Verdict::done : verdict;
+  }
+  // Of an iteration that has been judged: see Note [what is lost in rounding].
+  bool comes_near(const Distance& moved) {
+    const Real most = 64 * moved.round_off();
+    if (before > 0) return size * size <= most * before && size < before && moved.near();
+    return ++unchecked <= 32 && 4 * contraction * size <= most && moved.near();
+  }
+  // By the last increment alone.
+  Verdict judge(const Distance& moved, int iterations) {
+    before = size;
     size = moved.size;
     if (!(size <= largest)) return Verdict::failed;
-    if (moved.close()) return Verdict::done;
+    const Real round_off = moved.round_off();
+    if (moved.near() && size <= 64 * round_off) return Verdict::done;
     Real& smallest = least[iterations % Cycle];
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
     stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = moved.round_off();
     if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
     if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
     if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;
@@ -882,8 +908,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_28E0698B_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_B59888D5_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_B59888D5_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -918,7 +944,7 @@ struct ContractionRule {
   }
   Verdict operator()(const Distance& moved, int iterations) {
     const Real before = size;
-    Verdict verdict = rule(moved, iterations);
+    Verdict verdict = rule.judge(moved, iterations);
     size = rule.size;
     round_off = moved.round_off();
     if (verdict == Verdict::failed) return give_up();
@@ -971,8 +997,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_REFINEMENT
-#define HAMGEN_28E0698B_FLOAT64_REFINEMENT
+#ifndef HAMGEN_B59888D5_FLOAT64_REFINEMENT
+#define HAMGEN_B59888D5_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -980,6 +1006,13 @@ struct ContractionRule {
 // small, and known without an error.  Over that distance they are linear, and their change along it
 // is found by a difference over one `amplifier` times as long: what is not linear, and what a
 // difference loses, are both far below a unit of rounding.
+//
+// Note [what a round leaves]
+// The last round's increment is seen by nobody: the slopes are those before it.  By it they, and
+// the step, are off as much as the next round would move, the contraction times that, and what is
+// cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
+// of the one before, four times over; no increment of more than a 32nd of a unit is left.
+//
 template <int Size, int Components>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
@@ -1000,6 +1033,7 @@ struct Refinement {
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
+  Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
   bool found = true;  // was the solution at the end, or does the map not contract?
@@ -1052,18 +1086,27 @@ struct Refinement {
       error[j] = missing[j] + (lack[j] - missing[j]) / amplifier;
       moved[j] += error[j];
     }
-    last = lengths_of(error);
-    // What is cut off is a bias: a 2^-13th of a unit.
+    // See Note [what a round leaves].
+    const Real counts = times_counted();
     const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
-      return magnitude(error[j]) * 8192 > unit ? magnitude(error[j]) : Real(0);
+      return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
+    learn_of(lengths_of(error));
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
     const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
 
+  Real times_counted() const {
+    const Real left = 32768 * contraction;
+    return left > 32 ? (left < 8192 ? left : Real(8192)) : Real(32);
+  }
+  void learn_of(Real length) {
+    if (rounds > 0) contraction = length < last ? length / last : Real(1);
+    last = length;
+  }
   void begin(const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = point[j];
@@ -1106,8 +1149,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_HISTORY
-#define HAMGEN_28E0698B_FLOAT64_HISTORY
+#ifndef HAMGEN_B59888D5_FLOAT64_HISTORY
+#define HAMGEN_B59888D5_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1203,8 +1246,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_28E0698B_FLOAT64_FORGET
-#define HAMGEN_28E0698B_FLOAT64_FORGET
+#ifndef HAMGEN_B59888D5_FLOAT64_FORGET
+#define HAMGEN_B59888D5_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1214,17 +1257,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_28e0698b::float64
+}  // namespace hamgen_b59888d5::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x91e72f2d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xcb13cf6f
 namespace fput::implicit_midpoint {
-inline namespace emitted_91e72f2d {
+inline namespace emitted_cb13cf6f {
 
-namespace numerics = ::hamgen_28e0698b::float64;
+namespace numerics = ::hamgen_b59888d5::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1560,9 +1603,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_91e72f2d
+}  // namespace emitted_cb13cf6f
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x91e72f2d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xcb13cf6f
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

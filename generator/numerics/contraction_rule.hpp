@@ -32,7 +32,7 @@ struct ContractionRule {
   }
   Verdict operator()(const Distance& moved, int iterations) {
     const Real before = size;
-    Verdict verdict = rule(moved, iterations);
+    Verdict verdict = rule.judge(moved, iterations);
     size = rule.size;
     round_off = moved.round_off();
     if (verdict == Verdict::failed) return give_up();

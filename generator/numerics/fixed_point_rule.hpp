@@ -1,8 +1,8 @@
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
-// rounded with, and of the increments of those that are not close to their end.
+// rounded with, and of the increments of those that are not near their end.
 struct Distance {
-  // What is left below that is solved for by Refinement.
-  static constexpr Real units = 64;
+  // Over so many units of rounding what is not linear is far below them, and Refinement goes on.
+  static constexpr Real units = 16384;
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
@@ -17,8 +17,8 @@ struct Distance {
   static Real far_of(Real moved, Real length) {
     return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
-  bool close() const { return far <= lost * scale; }
-  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
+  bool near() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * (scale + 64 * tiny); }
 
   void add(Real moved, Real length) {
     size += moved;
@@ -32,7 +32,7 @@ struct Distance {
         sum_of(count, [&](int j) { return magnitude(value[j]) + magnitude(beside[j]); });
     size += all_moved;
     scale += all_lengths;
-    // Not each is close where all of them together are not.
+    // Not each is near where all of them together are not.
     Real all_far = far_of(all_moved, 2 * all_lengths);
     if (all_far <= 0) {
       all_far = sum_of(count, [&](int j) {
@@ -42,31 +42,57 @@ struct Distance {
     far += all_far;
   }
 };
-// When to stop an iteration that has no other end than rounding: where all unknowns are close to
-// it, or at stagnation, when twice in a row it has not moved less than ever before.  Every Cycle-th
-// iteration is compared: 2 for a fixed point, where q hangs on p and p on q alone, so that even and
-// odd iterations are two sequences, and one may be far ahead of the other; 1 for Newton's
-// iteration. The larger the last increment, the longer it must stand still: 64, 512, 4096 units of
-// rounding after 2, 3, 4 times.
+// When to stop an iteration that has no other end than rounding: where all unknowns are near it and
+// the next increment is lost in it, or at stagnation, when twice in a row it has not moved less
+// than ever before.  Every Cycle-th iteration is compared: 2 for a fixed point, where q hangs on p
+// and p on q alone, so that even and odd iterations are two sequences, and one may be far ahead of
+// the other; 1 for Newton's iteration. The larger the last increment, the longer it must stand
+// still: 64, 512, 4096 units of rounding after 2, 3, 4 times.
+//
+// Note [what is lost in rounding]
+// Refinement begins with what rounding leaves of the unknowns, and takes as many rounds for that as
+// for 64 units more.  So the next increment may be as large: it is the last one times the
+// contraction, which this and the one before it show.  A first increment is judged by the
+// contraction of the step before, four times over, but for every 32nd.
 template <int Cycle>
 struct FixedPointRule {
   Real least[Cycle] = {};  // 0 before the first increment
   Real size = 0;           // of the last increment
+  Real before = 0;         // and of the one before it in this step, if there is one
+  Real contraction = 1;    // of these two, in the step before
+  int unchecked = 32;      // steps since it was measured
   int stuck = 0;
 
   void begin() {
     for (Real& smallest : least) smallest = 0;
     stuck = 0;
+    if (before > 0) {
+      contraction = size < before ? size / before : Real(1);
+      unchecked = 0;
+    }
+    size = 0;
   }
   Verdict operator()(const Distance& moved, int iterations) {
+    const Verdict verdict = judge(moved, iterations);
+    return verdict == Verdict::go_on && comes_near(moved) ? Verdict::done : verdict;
+  }
+  // Of an iteration that has been judged: see Note [what is lost in rounding].
+  bool comes_near(const Distance& moved) {
+    const Real most = 64 * moved.round_off();
+    if (before > 0) return size * size <= most * before && size < before && moved.near();
+    return ++unchecked <= 32 && 4 * contraction * size <= most && moved.near();
+  }
+  // By the last increment alone.
+  Verdict judge(const Distance& moved, int iterations) {
+    before = size;
     size = moved.size;
     if (!(size <= largest)) return Verdict::failed;
-    if (moved.close()) return Verdict::done;
+    const Real round_off = moved.round_off();
+    if (moved.near() && size <= 64 * round_off) return Verdict::done;
     Real& smallest = least[iterations % Cycle];
     const bool decreased = smallest <= 0 || size < smallest;
     if (decreased) smallest = size;
     stuck = decreased ? 0 : stuck + 1;
-    const Real round_off = moved.round_off();
     if (stuck >= 2 && size <= 64 * round_off) return Verdict::done;
     if (stuck >= 3 && size <= 512 * round_off) return Verdict::done;
     if (stuck >= 4 && size <= 4096 * round_off) return Verdict::done;

@@ -16,7 +16,6 @@ struct ContractionRule : FixedPointRule<2> {
     settled = false;
   }
   Mask operator()(const Distance& moved, int iterations) {
-    const Real before = size;
     Judgement judgement = judge(moved, iterations);
     round_off = select(open, moved.round_off(), round_off);
     const Mask second = before > 0;

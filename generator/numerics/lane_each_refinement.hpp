@@ -19,6 +19,7 @@ struct Refinement {
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
+  Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
@@ -94,15 +95,19 @@ struct Refinement {
     if (!any(open)) return;
     const Mask lanes = open;
     Real lacking = 0;
-    last = sum_of(Size, [&](int j) {
+    const Real part = 32768 * contraction;
+    const Real counts = select(part > 32, select(part < 8192, part, Real(8192)), Real(32));
+    const Real size = sum_of(Size, [&](int j) {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;
       moved[j] = way;
-      // What is cut off is a bias: a 2^-13th of a unit.
       const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
-      lacking += select(magnitude(error) * 8192 > unit, magnitude(error), Real(0));
+      lacking += select(magnitude(error) * counts > unit, magnitude(error), Real(0));
       return magnitude(error);
     });
+    const Real seen = select(size < last, size / last, Real(1));
+    contraction = select(lanes & Mask(rounds > 0), seen, contraction);
+    last = size;
     for (int k = 0; k < Components; ++k)
       change[k] = select(lanes, (gradient[k] - slope[k]) / amplifier, change[k]);
     // A slow contraction takes its time; what the rounding of the map leaves does not decrease.

@@ -1,7 +1,7 @@
 // How far an iteration has moved in each lane, as for one trajectory (fixed_point_rule.hpp).
 struct Distance {
-  // What is left below that is solved for by Refinement.
-  static constexpr double units = 64;
+  // Over so many units of rounding what is not linear is far below them.
+  static constexpr double units = 16384;
   // What is less than this of the whole is not waited for.
   static constexpr double lost = epsilon * epsilon * epsilon;
   // What is rounded like this.
@@ -13,8 +13,8 @@ struct Distance {
   static Real far_of(const Real& moved, const Real& length) {
     return select(moved <= units * epsilon * (length + tiny), Real(0), moved);
   }
-  Mask close() const { return far <= lost * scale; }
-  Real round_off() const { return epsilon * scale + units * epsilon * tiny; }
+  Mask near() const { return far <= lost * scale; }
+  Real round_off() const { return epsilon * (scale + 64 * tiny); }
 
   void add(const Real& moved, const Real& length) {
     size += moved;
@@ -42,16 +42,26 @@ template <int Cycle>
 struct FixedPointRule : Iteration {
   Real least[Cycle] = {};  // 0 before the first increment
   Real size = 0;           // of the last increment
+  Real before = 0;         // and of the one before it in this step, if there is one
+  Real contraction = 1;    // of these two, in the step before
+  Mask known = false;      // has it been measured?
+  bool checks = false;
   Real stuck = 0;
 
   void begin(const Turn& turn) {
     Iteration::begin(turn);
+    checks = turn.is_check();
     for (Real& smallest : least) smallest = 0;
     stuck = 0;
+    const Mask measured = turn.lanes & (before > 0);
+    contraction = select(measured, select(size < before, size / before, Real(1)), contraction);
+    known = known | measured;
+    size = select(turn.lanes, Real(0), size);
   }
   Judgement judge(const Distance& moved, int iterations) {
     taken = select(open, Real(iterations), taken);
-    size = moved.size;
+    before = select(open, size, before);
+    size = select(open, moved.size, size);
     const Mask finite = size <= largest;
     Real& smallest = least[iterations % Cycle];
     const Mask decreased = (smallest <= 0) | (size < smallest);
@@ -61,7 +71,7 @@ struct FixedPointRule : Iteration {
     const Mask rests = ((stuck >= 2) & (size <= 64 * round_off)) |
                        ((stuck >= 3) & (size <= 512 * round_off)) |
                        ((stuck >= 4) & (size <= 4096 * round_off));
-    const Mask done = finite & (moved.close() | rests);
+    const Mask done = finite & ((moved.near() & (size <= 64 * round_off)) | rests);
     // What still decreases then does so by a few hundredths at a time: much more is missing.
     return {done, !finite | (Mask(iterations >= 500) & !done)};
   }
@@ -71,5 +81,17 @@ struct FixedPointRule : Iteration {
     open = open & !judgement.done;
     return open;
   }
-  Mask operator()(const Distance& moved, int iterations) { return end(judge(moved, iterations)); }
+  Mask operator()(const Distance& moved, int iterations) {
+    Judgement judgement = judge(moved, iterations);
+    judgement.done = judgement.done | (comes_near(moved) & !judgement.failed);
+    return end(judgement);
+  }
+  // Of an iteration that has been judged: see Note [what is lost in rounding] of the rule of
+  // one trajectory.
+  Mask comes_near(const Distance& moved) {
+    const Real most = 64 * moved.round_off();
+    const Mask measured = (size * size <= most * before) & (size < before);
+    const Mask told = Mask(!checks) & known & (4 * contraction * size <= most);
+    return moved.near() & ((measured & (before > 0)) | (told & !(before > 0)));
+  }
 };

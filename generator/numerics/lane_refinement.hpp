@@ -1,4 +1,5 @@
-// A Refinement whose arrays are looked at in lanes, with the same bits.
+// A Refinement whose arrays are looked at in lanes, with the same bits.  The point of another round
+// is there before it is known whether one is wanted: all of it hangs on that point.
 template <class Lanes, class Refinement>
 struct RefinementInLanes : Refinement {
   static constexpr int width = sizeof(Lanes) / sizeof(double);
@@ -10,6 +11,7 @@ struct RefinementInLanes : Refinement {
     Lanes moves[8 / width];
     Lanes open[8 / width];
     for (int k = 0; k < 8 / width; ++k) moves[k] = open[k] = zero;
+    const Lanes counts = this->times_counted();
     for (int j = 0; j < size; j += 8) {
       for (int k = 0; k < 8 / width && j + width * k < size; ++k) {
         const int first = j + width * k;
@@ -17,20 +19,14 @@ struct RefinementInLanes : Refinement {
         const Lanes error = before + (Lanes::at(lack + first) - before) * part;
         const Lanes way = Lanes::at(this->moved + first) + error;
         Lanes::put(this->moved + first, way);
+        Lanes::put(point + first, Lanes::at(this->at + first) + Refinement::amplifier * way);
         moves[k] += lane_abs(error);
         const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + first)) + lane_abs(way) * 0x1p-7;
-        open[k] += select(lane_abs(error) * 8192 > unit, lane_abs(error), zero);
+        open[k] += select(lane_abs(error) * counts > unit, lane_abs(error), zero);
       }
     }
-    this->last = total_of<width>(moves);
-    const bool more = this->goes_on(total_of<width>(open), lack);
-    if (more) {
-      for (int first = 0; first < size; first += width) {
-        const Lanes ahead = Refinement::amplifier * Lanes::at(this->moved + first);
-        Lanes::put(point + first, Lanes::at(this->at + first) + ahead);
-      }
-      return true;
-    }
+    this->learn_of(total_of<width>(moves));
+    if (this->goes_on(total_of<width>(open), lack)) return true;
     for (int first = 0; first < size; first += width)
       Lanes::put(point + first, Lanes::at(this->at + first));
     for (int first = 0; first < Refinement::components; first += width) {

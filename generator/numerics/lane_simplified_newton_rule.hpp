@@ -11,11 +11,12 @@ struct SimplifiedNewtonRule : FixedPointRule<1> {
   // residual: the sum of what the equations lacked before the increment.  Clears the flag where the
   // next iteration wants a matrix of its own.
   Mask operator()(const Distance& moved, const Real& residual, Mask& factorised, int iterations) {
-    const Real before = size;
     Judgement judgement = judge(moved, iterations);
     // Where the Hessian is huge the increments are small, far from any solution.
-    judgement.failed = judgement.failed | (judgement.done & !(16 * residual <= moved.scale));
-    judgement.done = judgement.done & !judgement.failed;
+    const Mask solves = 16 * residual <= moved.scale;
+    const Mask ends = comes_near(moved) & solves & !judgement.done;
+    judgement.failed = judgement.failed | (judgement.done & !solves);
+    judgement.done = (judgement.done | ends) & !judgement.failed;
     const Mask visible = size > 4096 * epsilon * moved.scale;
     const Mask served = (before > 0) & visible & (4 * size > before) & (age > 1);
     factorised = factorised & !(open & (judgement.failed | (served & !judgement.done)));

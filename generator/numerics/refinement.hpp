@@ -5,6 +5,13 @@
 // small, and known without an error.  Over that distance they are linear, and their change along it
 // is found by a difference over one `amplifier` times as long: what is not linear, and what a
 // difference loses, are both far below a unit of rounding.
+//
+// Note [what a round leaves]
+// The last round's increment is seen by nobody: the slopes are those before it.  By it they, and
+// the step, are off as much as the next round would move, the contraction times that, and what is
+// cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
+// of the one before, four times over; no increment of more than a 32nd of a unit is left.
+//
 template <int Size, int Components>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
@@ -25,6 +32,7 @@ struct Refinement {
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
   Real least = 0;                // of these
+  Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
   bool found = true;  // was the solution at the end, or does the map not contract?
@@ -77,18 +85,27 @@ struct Refinement {
       error[j] = missing[j] + (lack[j] - missing[j]) / amplifier;
       moved[j] += error[j];
     }
-    last = lengths_of(error);
-    // What is cut off is a bias: a 2^-13th of a unit.
+    // See Note [what a round leaves].
+    const Real counts = times_counted();
     const Real open = sum_of<Size>([&](int j) {
       const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
-      return magnitude(error[j]) * 8192 > unit ? magnitude(error[j]) : Real(0);
+      return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
+    learn_of(lengths_of(error));
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
     const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
 
+  Real times_counted() const {
+    const Real left = 32768 * contraction;
+    return left > 32 ? (left < 8192 ? left : Real(8192)) : Real(32);
+  }
+  void learn_of(Real length) {
+    if (rounds > 0) contraction = length < last ? length / last : Real(1);
+    last = length;
+  }
   void begin(const Real* point, const Real* lack, const Real* gradient) {
     for (int j = 0; j < Size; ++j) {
       at[j] = point[j];

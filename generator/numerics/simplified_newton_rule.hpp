@@ -13,11 +13,13 @@ struct SimplifiedNewtonRule {
   // residual: the sum of what the equations lacked before the increment.  Clears the flag where the
   // next iteration wants a matrix of its own.
   Verdict operator()(const Distance& moved, Real residual, bool& factorised, int iterations) {
-    const Verdict verdict = rule(moved, iterations);
+    const Verdict verdict = rule.judge(moved, iterations);
+    const bool comes_near = verdict == Verdict::go_on && rule.comes_near(moved);
     const Real before = size;
     size = rule.size;
     // Where the Hessian is huge the increments are small, far from any solution.
-    if (verdict == Verdict::done && 16 * residual <= moved.scale) return Verdict::done;
+    const bool ends = verdict == Verdict::done || comes_near;
+    if (ends && 16 * residual <= moved.scale) return Verdict::done;
     if (verdict != Verdict::go_on) {
       factorised = false;
       return Verdict::failed;

@@ -78,13 +78,54 @@ TYPED_TEST(FixedPointRule, EvenAndOddIterationsAreTwoSequences) {
   EXPECT_GT(this->template stop<2>(two), 16);
 }
 
-// What is left from there on is solved for otherwise, but of every unknown measured by itself.
-TYPED_TEST(FixedPointRule, WhatIsCloseToItsEndIsThere) {
+// What is left from there on is solved for otherwise, if no unknown moves by more than 2^14 units
+// of its own rounding.
+TYPED_TEST(FixedPointRule, WhatIsNearItsEndIsThere) {
   const auto constant = [](double units) { return [units](int) { return units; }; };
   using Verdict = typename TypeParam::Answer;
   EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 1), 1);
-  EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 0.5), 4);
+  EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 60.0 / 16000), 1);
+  EXPECT_EQ(this->template stop<2>(constant(60), Verdict::done, 60.0 / 17000), 4);
   EXPECT_EQ(this->template stop<2>(constant(200), Verdict::done, 1), 5);
+}
+
+// What would follow, by the last two: 1024 units are an end if the ones before were 64 times as
+// much, and a bit more is none.
+TYPED_TEST(FixedPointRule, WhatWouldMoveByNoMoreThanThatIsThere) {
+  using Verdict = typename TypeParam::Answer;
+  const auto to = [](double units) {
+    return [units](int i) { return i == 1 ? 16384.0 : i == 2 ? units : i == 3 ? 100.0 : 1.0; };
+  };
+  EXPECT_EQ(this->template stop<2>(to(1024), Verdict::done, 0.25), 2);
+  EXPECT_EQ(this->template stop<2>(to(1300), Verdict::done, 0.25), 3);
+  // Of an unknown of its own that is far more.
+  EXPECT_EQ(this->template stop<2>(to(1024), Verdict::done, 0.03), 3);
+  // One that grows has no end.
+  const auto grows = [](int i) { return i == 1 ? 200.0 : i == 2 ? 300.0 : 1.0; };
+  EXPECT_EQ(this->template stop<2>(grows, Verdict::done, 0.25), 3);
+}
+
+// The first increment of a step, by a 128th as the contraction of the step before; each 32nd time
+// it is measured anew.
+TYPED_TEST(FixedPointRule, AFirstIncrementIsToldByTheStepBefore) {
+  using Verdict = typename TypeParam::Answer;
+  typename TypeParam::template FixedPoint<2> rule;
+  const auto moved = [](double units) {
+    typename TypeParam::Moved distance;
+    distance.add(typename TestFixture::Number(units) * TypeParam::unit, 1);
+    return distance;
+  };
+  const auto taken = [&](double first) {
+    rule.begin();
+    if (rule(moved(first), 1) == Verdict::done) return 1;
+    EXPECT_EQ(rule(moved(first / 128), 2), Verdict::done);
+    return 2;
+  };
+  EXPECT_EQ(taken(2000), 2);  // nothing is known
+  for (int step = 0; step < 32; ++step) EXPECT_EQ(taken(2000), 1) << step;
+  EXPECT_EQ(taken(2000), 2);
+  EXPECT_EQ(taken(2000), 1);
+  EXPECT_EQ(taken(2100), 2);
 }
 
 // Ahead of a wave an unknown moves by more than all it was, and by nothing beside the others.
@@ -121,9 +162,9 @@ TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
 }
 
-// x -> r x + (1 - r) from 0 in the scalar itself.  The last increment is 64 units or less, and r of
-// it is what the next one would be; r/(1 - r) is the sum of all that would follow.  Rounding adds a
-// unit or two of x and of the product, over the 1/(1 - |r|) iterations that remember it.
+// x -> r x + (1 - r) from 0 in the scalar itself.  The next increment would be 64 units or less,
+// and 1/(1 - r) times it is the sum of all that would follow.  Rounding adds a unit or two of x and
+// of the product, over the 1/(1 - |r|) iterations that remember it.
 TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToWhereTheRestIsSolvedFor) {
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
@@ -141,7 +182,7 @@ TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToWhereTheRestIsSolvedFor
     EXPECT_EQ(verdict, Verdict::done) << ratio;
     const Real error = TypeParam::absolute(x - 1) / TypeParam::unit;
     const double r = ratio < 0 ? -ratio : ratio;
-    EXPECT_LE(static_cast<double>(error), (64 * r + 2) / (1 - r)) << ratio;
+    EXPECT_LE(static_cast<double>(error), (64 + 2) / (1 - r)) << ratio;
   }
 }
 

@@ -227,9 +227,9 @@ TEST(LaneRefinement, WhatIsLostIsNotWaitedForInEachLaneAsAlone) {
     of_double::Distance alone;
     alone.add(sizes[lane], 0);
     alone.add(0, 1);
-    EXPECT_EQ(together.close()[lane], alone.close()) << lane;
-    EXPECT_EQ(of_array.close()[lane], alone.close()) << lane;
-    EXPECT_EQ(alone.close(), sizes[lane] <= 0x1p-156) << lane;
+    EXPECT_EQ(together.near()[lane], alone.near()) << lane;
+    EXPECT_EQ(of_array.near()[lane], alone.near()) << lane;
+    EXPECT_EQ(alone.near(), sizes[lane] <= 0x1p-156) << lane;
     of_double::Refinement<2, 2> other;
     double y[2] = {1, 0};
     refine(y, sizes[lane],

@@ -42,8 +42,8 @@ void expect_the_distance() {
     stage_packs::add_lanes(Lanes<W>(0), all, moved, value, beside, Count);
     EXPECT_EQ(one.size, all.size) << W << " of " << Count;
     EXPECT_EQ(one.scale, all.scale);
-    EXPECT_EQ(one.close(), all.close());
-    if (all.close()) ends += k % 8 == 0 ? 1 : 2;
+    EXPECT_EQ(one.near(), all.near());
+    if (all.near()) ends += k % 8 == 0 ? 1 : 2;
   }
   EXPECT_EQ(ends % 2, 1);
 }

@@ -12,12 +12,14 @@ struct ImpatientRule {
     slow = 0;
   }
   Verdict operator()(const Distance& moved, int iterations) {
-    const Verdict verdict = rule(moved, iterations);
+    const Verdict verdict = rule.judge(moved, iterations);
+    const bool comes_near = verdict == Verdict::go_on && rule.comes_near(moved);
     const bool visible = rule.size > 4096 * epsilon * moved.scale;
     slow = iterations > 1 && visible && 2 * rule.size > size ? slow + 1 : 0;
     size = rule.size;
-    const bool near = moved.close() || rule.size <= 64 * epsilon * moved.scale;
+    const bool near = rule.size <= 64 * moved.round_off();
     const bool gives_up = verdict == Verdict::done ? !near : slow >= 3;
-    return gives_up ? Verdict::failed : verdict;
+    if (gives_up) return Verdict::failed;
+    return comes_near ? Verdict::done : verdict;
   }
 };

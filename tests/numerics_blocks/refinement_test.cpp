@@ -1,0 +1,80 @@
+// The end of a fixed point below the last place of its unknowns: how far it goes, and in how many
+// rounds.
+#include "tests/numerics_blocks/every_scalar.hpp"
+
+namespace hamgen::numerics_blocks_test {
+namespace {
+
+template <class Blocks>
+class Refinement : public ::testing::Test {
+ protected:
+  using Number = typename Blocks::Scalar;
+  using Refined = typename Blocks::template Refined<1, 1>;
+
+  // Of x -> s + ratio (x - s) from the rounded 1, s a 3rd of a unit above: the rounds it takes;
+  // what the gradient x - 1 is off by at the end, in units, is left in `error`.
+  static int rounds(Refined& refinement, Number ratio, Number& error) {
+    const Number third = Blocks::unit / 3;
+    Number point[1] = {1};
+    int count = 0;
+    for (bool more = true; more; ++count) {
+      const Number by = point[0] - 1;
+      const Number lack[1] = {(1 - ratio) * (third - by)};
+      const Number slope[1] = {by};
+      more = refinement(point, lack, slope);
+    }
+    EXPECT_EQ(point[0], Number(1));
+    EXPECT_TRUE(refinement.found);
+    EXPECT_EQ(refinement.slope[0], Number(0));
+    error = Blocks::absolute(refinement.change[0] - third) / Blocks::unit;
+    return count;
+  }
+};
+// Of float a difference over so short a way knows no more than a 100th of a unit.
+using Finer = ::testing::Types<of_double::Blocks, of_long_double::Blocks, of_quad::Blocks>;
+TYPED_TEST_SUITE(Refinement, Finer);
+
+// What the last round leaves, the contraction times its increment, is a 2^-13th of a unit at most.
+TYPED_TEST(Refinement, WhatIsLeftIsATinyPartOfAUnit) {
+  using Real = typename TestFixture::Number;
+  for (int bits = 1; bits <= 10; ++bits) {
+    const Real ratio = TypeParam::two_to(-bits);
+    typename TestFixture::Refined refinement;
+    for (int use = 0; use < 3; ++use) {
+      Real error = 0;
+      (void)this->rounds(refinement, ratio, error);
+      EXPECT_LE(static_cast<double>(ratio * error), 0x1p-13) << bits << " " << use;
+    }
+  }
+}
+
+// A round fewer where the contraction is known from the step before, or shown by two rounds.
+TYPED_TEST(Refinement, TheContractionSparesARound) {
+  using Real = typename TestFixture::Number;
+  const auto taken = [&](auto& refinement, int bits) {
+    Real error = 0;
+    return this->rounds(refinement, TypeParam::two_to(-bits), error);
+  };
+  // From a third of a unit a factor of 2^-8 a round: 2^-1.6, 2^-9.6; and 2^-17.6, if nothing is
+  // known.
+  typename TestFixture::Refined fast;
+  EXPECT_EQ(taken(fast, 8), 3);
+  EXPECT_EQ(taken(fast, 8), 2);
+  // Of 2^-4 two rounds have shown as much before the last but one.
+  typename TestFixture::Refined slow;
+  EXPECT_EQ(taken(slow, 4), 4);
+  EXPECT_EQ(taken(slow, 4), 4);
+}
+
+// However fast it has been: what a slower round shows counts at once.
+TYPED_TEST(Refinement, ASlowerContractionIsSeenAtOnce) {
+  using Real = typename TestFixture::Number;
+  typename TestFixture::Refined refinement;
+  Real error = 0;
+  for (int use = 0; use < 3; ++use) (void)this->rounds(refinement, TypeParam::two_to(-30), error);
+  EXPECT_GT(this->rounds(refinement, Real(0.5), error), 10);
+  EXPECT_LE(static_cast<double>(error), 0x1p-12);  // 2^-13 and half of it and half of that
+}
+
+}  // namespace
+}  // namespace hamgen::numerics_blocks_test
