@@ -57,6 +57,9 @@ class HistoryOf final : public AnyHistory<Real> {
   [[nodiscard]] Real difference(int degree, std::span<const Real> solution, int i) const override {
     return history_.difference(degree, solution, i);
   }
+  [[nodiscard]] Real way(std::span<const Real> solution, int i) const override {
+    return history_.way(solution, i);
+  }
 
  private:
   typename NumericsOf<Real>::template Past<Size> history_;

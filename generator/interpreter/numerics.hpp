@@ -62,6 +62,7 @@ struct AnyHistory {
                                    int count) const = 0;
   [[nodiscard]] virtual Real difference(int degree, std::span<const Real> solution,
                                         int i) const = 0;
+  [[nodiscard]] virtual Real way(std::span<const Real> solution, int i) const = 0;
 };
 template <class Real>
 struct AnyMatrix {

@@ -87,6 +87,11 @@ struct History {
     if (known == 0) return 0;
     return magnitude(solution[i] - predicted[degree < known ? degree : known - 1][i]);
   }
+  // The way of one unknown since the last step.
+  template <class Solution>
+  Real way(const Solution& solution, int i) const {
+    return known == 0 ? Real(0) : solution[i] - predicted[0][i];
+  }
   void extrapolate(Real (&solution)[Unknowns]) const {
     for (int i = 0; i < Unknowns; ++i) solution[i] = predicted[best][i];
   }

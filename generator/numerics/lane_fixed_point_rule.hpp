@@ -89,7 +89,7 @@ struct FixedPointRule : Iteration {
   // Of an iteration that has been judged: see Note [what is lost in rounding] of the rule of
   // one trajectory.
   Mask comes_near(const Distance& moved) {
-    const Real most = 64 * moved.round_off();
+    const Real most = 8 * moved.round_off();
     const Mask measured = (size * size <= most * before) & (size < before);
     const Mask told = Mask(!checks) & known & (4 * contraction * size <= most);
     return moved.near() & ((measured & (before > 0)) | (told & !(before > 0)));

@@ -73,6 +73,10 @@ struct History {
     }
     return magnitude(all);
   }
+  // The way of one unknown since the last step.
+  Real way(const Real (&solution)[Unknowns], int i) const {
+    return known == 0 ? Real(0) : solution[i] - past[newest][i];
+  }
   template <int Degree>
   Real error(const Real (&solution)[Unknowns], int first, int count) const {
     Real total = 0;

@@ -2,42 +2,55 @@
 // (newton_rule_with_matrix.hpp has the reasons).
 template <int Unknowns>
 struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
+  using Many = NewtonRuleOfMany<2, Unknowns>;
   Real slopes[Unknowns][Unknowns] = {};
+  Real ways[Unknowns] = {};
+  Real turned[Unknowns] = {};
 
+  void forget(const Mask& lanes) {
+    Many::forget(lanes);
+    for (int j = 0; j < Unknowns; ++j) {
+      ways[j] = select(lanes, Real(0), ways[j]);
+      turned[j] = select(lanes, Real(0), turned[j]);
+    }
+  }
   template <class Past, int All>
   void watch(const Past& past, const Real (&solution)[All], int first, int count,
              const Mask& lanes = true) {
     this->age = (this->age + 1) % 16;
-    Real move = 0;
     if (any(lanes)) {
       if (this->age == 0) this->follow(solution + first, count, lanes);
-      for (int j = 0; j < count; ++j) {
-        Real& moves = this->moves[j];
-        moves = select(lanes, past.template difference<0>(solution, first + j), moves);
-        move += moves * this->unit[j];
-      }
+      for (int j = 0; j < count; ++j)
+        ways[j] = select(lanes, past.way(solution, first + j), ways[j]);
     }
-    this->motion.move = select(lanes, move, Real(0));
-    this->motion.bend = 0;
+    this->motion = {};
   }
   template <class Matrix>
   void compare(const Matrix& matrix, int count) {
     if (!this->begins) return;
     const Mask& lanes = this->begun;
-    Real turned[Unknowns] = {};
-    for (int r = 0; r < count; ++r) {
-      for (int c = 0; c <= r; ++c) {
-        const Real turn = magnitude(matrix.at(r, c) - slopes[r][c]);
-        turned[c] += turn * this->moves[r];
-        if (c < r) turned[r] += turn * this->moves[c];
-        slopes[r][c] = select(lanes, matrix.at(r, c), slopes[r][c]);
+    Real turns[Unknowns] = {};
+    Real sum[Unknowns] = {};
+    for (int k = 0; k < count; ++k) {
+      for (int j = 0; j < count; ++j) {
+        const Real turn = (matrix.at(k, j) - slopes[k][j]) * ways[k];
+        turns[j] += magnitude(turn);
+        sum[j] += turn;
+        slopes[k][j] = select(lanes, matrix.at(k, j), slopes[k][j]);
       }
     }
+    Real move = 0;
     Real bend = 0;
     for (int j = 0; j < count; ++j) {
-      this->bends[j] = select(lanes, turned[j], this->bends[j]);
-      bend += turned[j] * this->unit[j];
+      const Real part = select(turns[j] > 0, magnitude(sum[j]) / turns[j], Real(1));
+      const Real larger = select(turns[j] > turned[j], turns[j], turned[j]);
+      this->moves[j] = select(lanes, magnitude(ways[j]) * part, this->moves[j]);
+      this->bends[j] = select(lanes, larger, this->bends[j]);
+      turned[j] = select(lanes, turns[j], turned[j]);
+      move += this->moves[j] * this->unit[j];
+      bend += this->bends[j] * this->unit[j];
     }
+    this->motion.move = select(lanes, move, this->motion.move);
     this->motion.bend = select(lanes, bend, this->motion.bend);
   }
 };

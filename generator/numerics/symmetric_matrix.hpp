@@ -4,14 +4,14 @@ template <int Size>
 class SymmetricMatrix : public DenseMatrix<Size> {
  public:
   static constexpr int size = Size;
+  void put(int row, int column, Real value) {
+    this->entry_[row][column] += value;
+    this->entry_[column][row] = this->entry_[row][column];
+  }
   // False if the matrix is singular or not finite.
   bool factorise() {
     is_definite_ = decompose();
-    if (is_definite_) return true;
-    for (int r = 0; r < size; ++r) {
-      for (int j = 0; j < r; ++j) this->entry_[j][r] = this->entry_[r][j];
-    }
-    return DenseMatrix<Size>::factorise();
+    return is_definite_ || DenseMatrix<Size>::factorise();
   }
   void solve(Real (&vector)[size]) const {
     if (!is_definite_) return DenseMatrix<Size>::solve(vector);

@@ -89,17 +89,17 @@ TYPED_TEST(FixedPointRule, WhatIsNearItsEndIsThere) {
   EXPECT_EQ(this->template stop<2>(constant(200), Verdict::done, 1), 5);
 }
 
-// What would follow, by the last two: 1024 units are an end if the ones before were 64 times as
-// much, and a bit more is none.
+// What would follow, by the last two: 400 units are an end if those before were 41 times as much,
+// for 400 / 41 are less than 8 units of both, and a bit more is none.
 TYPED_TEST(FixedPointRule, WhatWouldMoveByNoMoreThanThatIsThere) {
   using Verdict = typename TypeParam::Answer;
   const auto to = [](double units) {
-    return [units](int i) { return i == 1 ? 16384.0 : i == 2 ? units : i == 3 ? 100.0 : 1.0; };
+    return [units](int i) { return i == 1 ? 16384.0 : i == 2 ? units : i == 3 ? 60.0 : 1.0; };
   };
-  EXPECT_EQ(this->template stop<2>(to(1024), Verdict::done, 0.25), 2);
-  EXPECT_EQ(this->template stop<2>(to(1300), Verdict::done, 0.25), 3);
+  EXPECT_EQ(this->template stop<2>(to(400), Verdict::done, 0.25), 2);
+  EXPECT_EQ(this->template stop<2>(to(410), Verdict::done, 0.25), 3);
   // Of an unknown of its own that is far more.
-  EXPECT_EQ(this->template stop<2>(to(1024), Verdict::done, 0.03), 3);
+  EXPECT_EQ(this->template stop<2>(to(400), Verdict::done, 0.02), 3);
   // One that grows has no end.
   const auto grows = [](int i) { return i == 1 ? 200.0 : i == 2 ? 300.0 : 1.0; };
   EXPECT_EQ(this->template stop<2>(grows, Verdict::done, 0.25), 3);
@@ -121,11 +121,11 @@ TYPED_TEST(FixedPointRule, AFirstIncrementIsToldByTheStepBefore) {
     EXPECT_EQ(rule(moved(first / 128), 2), Verdict::done);
     return 2;
   };
-  EXPECT_EQ(taken(2000), 2);  // nothing is known
-  for (int step = 0; step < 32; ++step) EXPECT_EQ(taken(2000), 1) << step;
-  EXPECT_EQ(taken(2000), 2);
-  EXPECT_EQ(taken(2000), 1);
-  EXPECT_EQ(taken(2100), 2);
+  EXPECT_EQ(taken(250), 2);  // nothing is known
+  for (int step = 0; step < 32; ++step) EXPECT_EQ(taken(250), 1) << step;
+  EXPECT_EQ(taken(250), 2);
+  EXPECT_EQ(taken(250), 1);
+  EXPECT_EQ(taken(260), 2);
 }
 
 // Ahead of a wave an unknown moves by more than all it was, and by nothing beside the others.
@@ -162,9 +162,9 @@ TYPED_TEST(FixedPointRule, NoIncrementIsTheEndAndAnInfiniteOneAFailure) {
   EXPECT_EQ(this->template stop<2>([&](int) { return infinite - infinite; }, Verdict::failed), 1);
 }
 
-// x -> r x + (1 - r) from 0 in the scalar itself.  The next increment would be 64 units or less,
-// and 1/(1 - r) times it is the sum of all that would follow.  Rounding adds a unit or two of x and
-// of the product, over the 1/(1 - |r|) iterations that remember it.
+// x -> r x + (1 - r) from 0 in the scalar itself.  The last increment is 64 units or less, or the
+// next one 16, and r/(1 - r) of it is the sum of all that would follow.  Rounding adds a unit or
+// two of x and of the product, over the 1/(1 - |r|) iterations that remember it.
 TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToWhereTheRestIsSolvedFor) {
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
@@ -182,7 +182,7 @@ TYPED_TEST(FixedPointRule, ALinearContractionIsFollowedToWhereTheRestIsSolvedFor
     EXPECT_EQ(verdict, Verdict::done) << ratio;
     const Real error = TypeParam::absolute(x - 1) / TypeParam::unit;
     const double r = ratio < 0 ? -ratio : ratio;
-    EXPECT_LE(static_cast<double>(error), (64 + 2) / (1 - r)) << ratio;
+    EXPECT_LE(static_cast<double>(error), (64 * r + 2) / (1 - r)) << ratio;
   }
 }
 

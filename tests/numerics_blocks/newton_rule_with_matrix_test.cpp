@@ -5,38 +5,38 @@
 namespace hamgen::numerics_blocks_test {
 namespace {
 
-// Of which the lower half is there, as it is put.
 template <class Number>
-struct LowerHalf {
+struct Whole {
   Number entry[2][2] = {};
-  Number at(int row, int column) const {
-    EXPECT_GE(row, column);
-    return entry[row][column];
-  }
+  const Number& at(int row, int column) const { return entry[row][column]; }
 };
 
 template <class Blocks>
 class NewtonRuleWithMatrix : public RulesOfMany<Blocks> {};
 TYPED_TEST_SUITE(NewtonRuleWithMatrix, EveryScalar);
 
-// What an entry has turned by, times the move of the one unknown, bends the equation of the other.
+// What an entry has turned by, times the way of the one unknown, bends the equation of the other:
+// in this step or in the last one.
 TYPED_TEST(NewtonRuleWithMatrix, EachBendsByWhatTheMatrixHasTurned) {
   using Real = typename TypeParam::Scalar;
   typename TypeParam::template NewtonWithMatrix<2> rule;
   rule.unit[0] = 1;
   rule.unit[1] = 4;
-  LowerHalf<Real> matrix{{{1, 0}, {Real(0.25), 2}}};
-  rule.begin(true);
-  rule.compare(matrix, 2);
-  rule.moves[0] = Real(0.5);
-  rule.moves[1] = Real(0.125);
+  Whole<Real> matrix{{{1, Real(0.25)}, {Real(0.25), 2}}};
   rule.begin(true);
   rule.compare(matrix, 2);
   EXPECT_EQ(rule.bends[0], 0);
+  rule.ways[0] = Real(0.5);
+  rule.ways[1] = Real(0.125);
+  rule.begin(true);
+  rule.compare(matrix, 2);
   EXPECT_EQ(rule.bends[1], 0);
   EXPECT_EQ(rule.motion.bend, 0);
+  EXPECT_EQ(rule.moves[1], Real(0.125));
+  EXPECT_EQ(rule.motion.move, Real(0.5) + Real(4 * 0.125));
+  EXPECT_EQ(rule.motion.least, Real(0.5));
   matrix.entry[0][0] += 2;
-  matrix.entry[1][0] -= 1;
+  matrix.entry[1][0] = matrix.entry[0][1] += 1;
   matrix.entry[1][1] += Real(0.5);
   rule.begin(true);
   rule.compare(matrix, 2);
@@ -52,6 +52,38 @@ TYPED_TEST(NewtonRuleWithMatrix, EachBendsByWhatTheMatrixHasTurned) {
   rule.compare(matrix, 2);
   EXPECT_EQ(rule.bends[0], before);
   EXPECT_EQ(rule.slopes[0][0], 3);
+  // What has turned back has been bent.
+  matrix.entry[0][0] -= 5;
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.bends[0], before);
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.bends[0], 0);
+}
+
+// Of two that go together, and are held by a spring that has hardened, the distance counts.
+TYPED_TEST(NewtonRuleWithMatrix, WhatMovesTogetherHasNotMoved) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template NewtonWithMatrix<2> rule;
+  rule.unit[0] = rule.unit[1] = 1;
+  Whole<Real> matrix{{{2, -1}, {-1, 2}}};
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  const Real apart = TypeParam::two_to(-10);
+  rule.ways[0] = 1;
+  rule.ways[1] = 1 + apart;
+  const Real harder = TypeParam::two_to(-3);
+  matrix = {{{2 + harder, -1 - harder}, {-1 - harder, 2 + harder}}};
+  rule.begin(true);
+  rule.compare(matrix, 2);
+  EXPECT_EQ(rule.moves[0], harder * apart / (harder * (2 + apart)));
+  EXPECT_EQ(rule.motion.least, rule.moves[0]);
+  EXPECT_EQ(rule.bends[0], harder * (2 + apart));
+  // An increment of a 2^-24th: it leaves bend (increment / move)^2, 2^-30 of their size.
+  const Real moved[2] = {TypeParam::two_to(-24), TypeParam::two_to(-24)};
+  const Real length[2] = {1, 1};
+  EXPECT_EQ(rule.is_in_reach(moved, length, length, 2), TypeParam::bits == 24);
 }
 
 // A fast linear oscillation leaves nothing: one increment is enough, as often as its force is the
@@ -64,7 +96,7 @@ TYPED_TEST(NewtonRuleWithMatrix, AnOscillationIsStraightAsLongAsItsMatrixStands)
     rule.contraction = TypeParam::unit;
     rule.unchecked = 0;
     typename TypeParam::template Past<2> past;
-    LowerHalf<Real> matrix{{{1, 0}, {0, 1}}};
+    Whole<Real> matrix{{{1, 0}, {0, 1}}};
     // Half a radian a step: x, y turn by 3/5, 4/5 on a circle of a 16th.
     Real x = Real(1) / 16, y = 0;
     for (int k = 0; k < 6; ++k) {
@@ -100,12 +132,13 @@ TEST(LaneRuleWithMatrix, EachLaneComparesAsAlone) {
   for (auto& one : alone) one.unit[0] = one.unit[1] = 1;
   int turned = 0;
   for (int step = 0; step < 40; ++step) {
-    LowerHalf<lanes::Real> matrix;
+    Whole<lanes::Real> matrix;
     lanes::Real solution[2];
     for (int lane = 0; lane < kCount; ++lane) {
-      LowerHalf<double> own{{{1 + 0.01 * lane * step, 0}, {0.3 * lane, 2 - 0.003 * step * step}}};
+      const double beside = 0.3 * lane + 0.001 * step * step;
+      Whole<double> own{{{1 + 0.01 * lane * step, beside}, {beside, 2 - 0.003 * step * step}}};
       for (int r = 0; r < 2; ++r)
-        for (int c = 0; c <= r; ++c) matrix.entry[r][c].set(lane, own.entry[r][c]);
+        for (int c = 0; c < 2; ++c) matrix.entry[r][c].set(lane, own.entry[r][c]);
       const double values[2] = {1 + 0.1 * lane + 0.02 * step, 2 - 0.01 * step * lane};
       for (int j = 0; j < 2; ++j) solution[j].set(lane, values[j]);
       of_double::NewtonRuleWithMatrix<2>& one = alone[lane];
