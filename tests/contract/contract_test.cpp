@@ -167,6 +167,7 @@ TEST(ContractIsBroken, WhereNoUnknownIsAskedByItself) {
       {case_of("free_wall", "harder", {}, 400),
        {{"bend * part * part * 16 > round_off * move * move", "part < 0"}}},
       {case_of("saddle", "fall", {}, 40), {{"* ratio * ratio", "* ratio * 0"}}},
+      {case_of("together", "fast", {}, 60), {{"magnitude(sum[j]) / turns[j]", "Real(1)"}}},
       {case_of("beside_huge", "away", {}, 60), {{"return !converging;", "return true;"}}}};
   for (const Hole& hole : holes) {
     EXPECT_LE(Interpretable(hole.c.model).measure(hole.c).worst, kAllowed) << hole.c.name;

@@ -188,6 +188,24 @@ H = (u^2 + v^2)/2 + A*cos(K*y) + 1e-12*y*cos(x)
 scene beside { x = 1; u = 1; y = 300; v = 1; h = 0.1; steps = 3000 }
 scene loud { x = 1; u = 1000; y = 0.1; v = 1; h = 0.1; steps = 3000 }
 )"},
+    // Two in a trap whose distance is at rest at a saddle, and grows from 1e-10 to 1.
+    SteepModel{"together", R"(coordinate x, y, z, w
+momentum u, v, b, g
+parameter c = 18
+parameter l = 1
+H = (u^2 + v^2 + b^2 + g^2)/2 + 8*(x + y)^2 - c^2*(y - x)^2/4 + c^2*(y - x)^3/(6*l) + c^2*(y - x)^4/(8*l^2) + 1e-12*(z*w^2 + x*w^2 + x*z^2)
+scene slow { x = -0.3; y = -0.3 + 1e-10; u = 0.26; v = 0.26; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 60 }
+scene fast { c = 19; x = -0.17; y = -0.17 + 1e-10; u = 1.6; v = 1.6; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 60 }
+scene short { c = 7; l = 1e-3; x = -0.45; y = -0.45 + 1e-10; u = -0.06; v = -0.06; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 110 }
+)"},
+    // A pair that goes a 10th of a step further each time than it is apart.
+    SteepModel{"bound", R"(coordinate x, y
+momentum u, v
+parameter l = 1e-5
+parameter D = 2e-8
+H = (u^2 + v^2)/2 + D*(1 - exp(-(y - x - l)/l))^2
+scene flight { x = 0; u = 20; y = l*1.01; v = 20; h = 0.05; steps = 100 }
+)"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
     SteepModel{"next_to_rounding", R"(coordinate x, y
