@@ -88,11 +88,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_422a29e3::float64 {
+namespace hamgen_d23dc21f::float64 {
 using Real = double;
 
-#ifndef HAMGEN_422A29E3_FLOAT64_STEP_REPORT
-#define HAMGEN_422A29E3_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_D23DC21F_FLOAT64_STEP_REPORT
+#define HAMGEN_D23DC21F_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -102,15 +102,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_VOCABULARY
-#define HAMGEN_422A29E3_FLOAT64_VOCABULARY
+#ifndef HAMGEN_D23DC21F_FLOAT64_VOCABULARY
+#define HAMGEN_D23DC21F_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_TWO_SUM
-#define HAMGEN_422A29E3_FLOAT64_TWO_SUM
+#ifndef HAMGEN_D23DC21F_FLOAT64_TWO_SUM
+#define HAMGEN_D23DC21F_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -120,8 +120,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_SUM_WITH_REST
-#define HAMGEN_422A29E3_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_D23DC21F_FLOAT64_SUM_WITH_REST
+#define HAMGEN_D23DC21F_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -133,14 +133,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_VERDICT
-#define HAMGEN_422A29E3_FLOAT64_VERDICT
+#ifndef HAMGEN_D23DC21F_FLOAT64_VERDICT
+#define HAMGEN_D23DC21F_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_NEWTON_RULE
-#define HAMGEN_422A29E3_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_D23DC21F_FLOAT64_NEWTON_RULE
+#define HAMGEN_D23DC21F_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -309,8 +309,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_422A29E3_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_D23DC21F_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_D23DC21F_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -332,6 +332,10 @@ struct NewtonRule {
 // before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
 // coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
 // is a 1e13th of its neighbour by 1e17.
+//
+// In the first four steps, of which no motion is known, the first increment is that of the motion,
+// and tells nothing of what moves together: of pairs in free flight the next one was told to be
+// lost, and their distance was off by up to 1e6.  There an increment must be lost itself.
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -358,6 +362,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real bends[Unknowns] = {};
   Real before[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
+  int fresh = 4;  // steps until the motion is known
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
 
@@ -396,6 +401,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
     if (++age >= 16) follow(&solution[first], count);
+    if (fresh > 0) --fresh;
     Real move = 0;
     Real bend = 0;
     Real slowest = largest;
@@ -431,6 +437,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (!(moved > One::tiny)) return 0;
     if (this->previous <= 0) return moved / felt(length, way);
     if (moved * unit[j] <= 64 * epsilon) return 0;
+    if (fresh > 0) return moved / felt(length, way);
     const Real ratio = moved / before[j];
     return moved / felt(length, way) * ratio * ratio;
   }
@@ -555,8 +562,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_HISTORY
-#define HAMGEN_422A29E3_FLOAT64_HISTORY
+#ifndef HAMGEN_D23DC21F_FLOAT64_HISTORY
+#define HAMGEN_D23DC21F_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -657,8 +664,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_422A29E3_FLOAT64_FORGET
-#define HAMGEN_422A29E3_FLOAT64_FORGET
+#ifndef HAMGEN_D23DC21F_FLOAT64_FORGET
+#define HAMGEN_D23DC21F_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -668,17 +675,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_422a29e3::float64
+}  // namespace hamgen_d23dc21f::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x7fdd3321
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x9d6b7b8f
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_7fdd3321 {
+inline namespace emitted_9d6b7b8f {
 
-namespace numerics = ::hamgen_422a29e3::float64;
+namespace numerics = ::hamgen_d23dc21f::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -866,9 +873,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_7fdd3321
+}  // namespace emitted_9d6b7b8f
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x7fdd3321
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x9d6b7b8f
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -7,6 +7,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real moves[Unknowns] = {};
   Real bends[Unknowns] = {};
   Real before[Unknowns] = {};
+  Real fresh = 4;  // steps until the motion is known
   int age = 0;
 
   static constexpr double smallest = 1 / largest / (epsilon * epsilon * epsilon);
@@ -18,6 +19,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       moves[j] = select(lanes, Real(0), moves[j]);
       bends[j] = select(lanes, Real(0), bends[j]);
     }
+    fresh = select(lanes, Real(4), fresh);
   }
   static Real size_of(const Real& length, const Real& moved) {
     const Real value = magnitude(length);
@@ -55,6 +57,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   void watch(const Past& past, const Real (&solution)[All], int first, int count,
              const Mask& lanes = true) {
     age = (age + 1) % 16;
+    fresh = select(lanes & (fresh > 0), fresh - 1, fresh);
     Real move = 0;
     Real bend = 0;
     if (any(lanes)) {
@@ -91,7 +94,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (this->begins) return select(moved > One::tiny, part, Real(0));
     const Real ratio = moved / before[j];
     const Mask counts = (moved > One::tiny) & (moved * unit[j] > 64 * epsilon);
-    return select(counts, part * ratio * ratio, Real(0));
+    return select(counts, select(fresh > 0, part, part * ratio * ratio), Real(0));
   }
   static Real felt(const Real& length, const Real& way) {
     const Real least = 16 * way + epsilon * length;

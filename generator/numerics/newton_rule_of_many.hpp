@@ -20,6 +20,10 @@
 // coordinate were off by 8000 roundings, an x that falls by 1e4 times within its size by 290, what
 // is a 1e13th of its neighbour by 1e17.
 //
+// In the first four steps, of which no motion is known, the first increment is that of the motion,
+// and tells nothing of what moves together: of pairs in free flight the next one was told to be
+// lost, and their distance was off by up to 1e6.  There an increment must be lost itself.
+//
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
 // second order stays where it is: a bead at rest whose neighbour is hit was off by 57 roundings. Of
@@ -45,6 +49,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Real bends[Unknowns] = {};
   Real before[Unknowns] = {};  // by how much each moved in the iteration before
   int age = 0;
+  int fresh = 4;  // steps until the motion is known
 
   static constexpr Real smallest = 1 / largest / (epsilon * epsilon * epsilon);
 
@@ -83,6 +88,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
     if (++age >= 16) follow(&solution[first], count);
+    if (fresh > 0) --fresh;
     Real move = 0;
     Real bend = 0;
     Real slowest = largest;
@@ -118,6 +124,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (!(moved > One::tiny)) return 0;
     if (this->previous <= 0) return moved / felt(length, way);
     if (moved * unit[j] <= 64 * epsilon) return 0;
+    if (fresh > 0) return moved / felt(length, way);
     const Real ratio = moved / before[j];
     return moved / felt(length, way) * ratio * ratio;
   }

@@ -26,6 +26,7 @@ struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
     if (++this->age >= 16) this->follow(&solution[first], count);
+    if (this->fresh > 0) --this->fresh;
     for (int j = 0; j < count; ++j) ways[j] = past.way(solution, first + j);
     this->motion = {};
   }

@@ -91,6 +91,30 @@ TYPED_TEST(QuietUnknowns, EachIsAskedWhatItsOwnIncrementsHaveBecome) {
   EXPECT_EQ(rule.relative(1, 128 * TypeParam::unit, Real(1), Real(1)), 2048 * TypeParam::unit);
 }
 
+// In the first four steps the first increment is the motion, and promises nothing.
+TYPED_TEST(QuietUnknowns, AFreshRuleIsToldNothingByItsFirstIncrement) {
+  if (TypeParam::bits == 24) return;  // so small an increment is noise then
+  using Real = typename TypeParam::Scalar;
+  using Verdict = typename TypeParam::Answer;
+  const Real length[2] = {1, 1};
+  auto rule = this->template taught<2, 2>(TypeParam::unit);
+  rule.fresh = 4;
+  typename TypeParam::template Past<2> past;
+  const Real small = TypeParam::two_to(-TypeParam::bits / 2);
+  for (int step = 0; step < 6; ++step) {
+    rule.begin(false);
+    const Real first[2] = {TypeParam::two_to(-3), TypeParam::two_to(-3)};
+    EXPECT_EQ(rule.of_each(first, length, length, 2, 1), Verdict::go_on);
+    // The next one would be lost, were it told by the first.
+    const Real second[2] = {small * TypeParam::two_to(-4), small * TypeParam::two_to(-4)};
+    EXPECT_EQ(rule.of_each(second, length, length, 2, 2), step < 4 ? Verdict::go_on : Verdict::done)
+        << step;
+    const Real solution[2] = {Real(step), Real(step)};
+    rule.watch(past, solution, 0, 2);
+    past.record(solution);
+  }
+}
+
 // What does not become less beside what does: the step does not end with noise while one unknown
 // converges.
 TYPED_TEST(QuietUnknowns, NoiseEndsNothingWhileAnUnknownConverges) {

@@ -21,6 +21,7 @@ class RulesOfMany : public ::testing::Test {
   static Rule<Power, Unknowns> taught(Number contraction) {
     Rule<Power, Unknowns> rule;
     for (Number& unit : rule.unit) unit = 1;
+    rule.fresh = 0;
     const Number first = Blocks::two_to(-4);
     rule.begin(false);
     EXPECT_EQ(rule(first, Number(1), 1), Answer::go_on);

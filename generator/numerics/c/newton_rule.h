@@ -20,11 +20,12 @@ typedef struct {
   Real bends[3];
   Real before[3];  // by how much each moved in the iteration before
   int age;
+  int fresh;  // steps until the motion is known
   bool still;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest,   32,        0,         0,         false, 0,    0,
-                           0,     {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0,     false};
+  const NewtonRule rule = {power, largest,   32,        0,         0,         false, 0, 0,
+                           0,     {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0,     4, false};
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -143,6 +144,7 @@ static inline Real NewtonRule_relative(const NewtonRule* rule, int j, Real moved
   if (!(moved > tiny)) return 0;
   if (rule->previous <= 0) return moved / NewtonRule_felt(rule, length, way);
   if (moved * rule->unit[j] <= 64 * epsilon) return 0;
+  if (rule->fresh > 0) return moved / NewtonRule_felt(rule, length, way);
   const Real ratio = moved / rule->before[j];
   return moved / NewtonRule_felt(rule, length, way) * ratio * ratio;
 }
