@@ -72,7 +72,7 @@ void print(const Defects& d, Summary& summary) {
   fmt::print("{:<52} {:>9} {:>6.3f} {:>11.4g} {:>9} {:>10.4g} {:>7} {:>7}{}{}\n", d.name, d.steps,
              static_cast<double>(d.iterations) / static_cast<double>(std::max(d.solves, 1LL)),
              d.worst, d.worst_step, d.units, d.broken, d.unknown, d.failed ? "  stopped" : "",
-             d.reference > 1e-6 && has_reference(d.name) ? "  reference!" : "");
+             d.reference > hamgen::contract::kDoubt && has_reference(d.name) ? "  reference!" : "");
   std::fflush(stdout);
   ++summary.runs;
   summary.solves += d.solves;

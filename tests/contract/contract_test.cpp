@@ -84,7 +84,9 @@ TEST(StepsInLanes, KeepTheContractOfQuietUnknownsBesideLoudOnes) {
                         case_of("saddle", "fall", {.batch = 2}, 40),
                         case_of("beside_huge", "away", {.batch = 2}, 100),
                         case_of("heavy", "million", {.batch = 2}, 200),
-                        case_of("ripple", "beside", {.batch = 2}, 300)});
+                        case_of("ripple", "beside", {.batch = 2}, 300),
+                        case_of("together", "fast", {.batch = 2}, 60),
+                        case_of("in_flight", "far", {.batch = 2}, 20)});
 }
 
 // A step without the carry solves its equations as well: it rounds the state, and no more.
@@ -167,6 +169,7 @@ TEST(ContractIsBroken, WhereNoUnknownIsAskedByItself) {
       {case_of("free_wall", "harder", {}, 400),
        {{"bend * part * part * 16 > round_off * move * move", "part < 0"}}},
       {case_of("saddle", "fall", {}, 40), {{"* ratio * ratio", "* ratio * 0"}}},
+      {case_of("in_flight", "far", {}, 20), {{"if (fresh > 0) return", "if (fresh > 9) return"}}},
       {case_of("together", "fast", {}, 60), {{"magnitude(sum[j]) / turns[j]", "Real(1)"}}},
       {case_of("beside_huge", "away", {}, 60), {{"return !converging;", "return true;"}}}};
   for (const Hole& hole : holes) {

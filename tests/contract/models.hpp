@@ -198,13 +198,14 @@ scene slow { x = -0.3; y = -0.3 + 1e-10; u = 0.26; v = 0.26; z = 1; w = -0.3; b 
 scene fast { c = 19; x = -0.17; y = -0.17 + 1e-10; u = 1.6; v = 1.6; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 60 }
 scene short { c = 7; l = 1e-3; x = -0.45; y = -0.45 + 1e-10; u = -0.06; v = -0.06; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 110 }
 )"},
-    // A pair that goes a 10th of a step further each time than it is apart.
-    SteepModel{"bound", R"(coordinate x, y
+    // A pair that goes in a step as far as it is long, or ten times as far.
+    SteepModel{"in_flight", R"(coordinate x, y
 momentum u, v
-parameter l = 1e-5
-parameter D = 2e-8
+parameter l = 1
+parameter D = 200
 H = (u^2 + v^2)/2 + D*(1 - exp(-(y - x - l)/l))^2
-scene flight { x = 0; u = 20; y = l*1.01; v = 20; h = 0.05; steps = 100 }
+scene close { x = 0; u = 20; y = 1.001; v = 20; h = 0.05; steps = 100 }
+scene far { l = 0.1; D = 2; x = 0; u = 20; y = 0.1001; v = 20; h = 0.05; steps = 100 }
 )"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.

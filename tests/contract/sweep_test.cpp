@@ -23,7 +23,7 @@ void expect_kept(const Defects& d, const Case& c) {
   EXPECT_EQ(d.broken, 0) << d.name << ", of " << d.solves;
   EXPECT_EQ(d.unknown, 0) << d.name;
   if (!is_raised(c)) {
-    EXPECT_LE(d.reference, 1e-6) << d.name;
+    EXPECT_LE(d.reference, kDoubt) << d.name;
   }
 }
 

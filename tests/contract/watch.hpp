@@ -46,6 +46,10 @@
 namespace hamgen::contract {
 
 inline constexpr double kAllowed = 16;
+// Of that bound quad may leave open.  A component is allowed a 2^-40th of a rounding of the largest
+// at least, 2^-92 of it; in quad the stages that a fixed point ends at are up to 16 of its units
+// from the solution, 2^-108.
+inline constexpr double kDoubt = 0x1p-16;
 
 // What is worst along a run.
 struct Defects {
