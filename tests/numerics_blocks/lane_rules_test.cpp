@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hamgen::numerics_blocks_test {
 namespace {
@@ -68,6 +69,43 @@ TEST(LaneRules, AnImpatientOneEndsInEachLaneAsAlone) {
   of_double::ImpatientRule alone;
   alone.begin();
   expect_ends_as_alone(rule, alone);
+}
+
+// Step after step, each lane with a contraction of its own: some end with their first increment,
+// which is told by the step before, and wait for the others.
+TEST(LaneRules, AFixedPointIsToldInEachLaneByItsStepBefore) {
+  lanes::FixedPointRule<2> rule;
+  of_double::FixedPointRule<2> alone[kCount];
+  lanes::Turn turn;
+  int at_once = 0;
+  for (int step = 1; step <= 31; ++step) {
+    turn.begin(true);
+    ASSERT_FALSE(turn.is_check());
+    rule.begin(turn);
+    const auto size_in = [&](int lane, int iteration) {
+      const double first = 0x1p-52 * (40 + 40 * ((lane + step) % 8));
+      return first * std::pow(0x1p-2, (1 + lane % 4) * (iteration - 1));
+    };
+    for (int iteration = 1, open = 1; open != 0; ++iteration) {
+      lanes::Real size = 0;
+      for (int lane = 0; lane < kCount; ++lane) size.set(lane, size_in(lane, iteration));
+      open = any(rule(moved_by(size), iteration)) ? 1 : 0;
+    }
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::FixedPointRule<2>& one = alone[lane];
+      one.begin();
+      int taken = 0;
+      Verdict verdict = Verdict::go_on;
+      while (verdict == Verdict::go_on) {
+        ++taken;
+        verdict = one(moved_by(size_in(lane, taken)), taken);
+      }
+      EXPECT_EQ(rule.taken[lane], taken) << step << " " << lane;
+      EXPECT_EQ(rule.contraction[lane], one.contraction) << step << " " << lane;
+      at_once += taken == 1 && size_in(lane, 1) > 64 * 0x1p-52 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(at_once, 20);
 }
 
 TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
