@@ -91,7 +91,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
             },
             [&] { this->move_each(each); });
       }
-      const auto measure = [&] { return this->measure_each(each, are_whole, unknowns.size()); };
+      const auto measure = [&] {
+        return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
+      };
       if (rule == Rule::simplified_newton) {
         AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
         int& factorised = memory.flags.at(flag);

@@ -64,13 +64,15 @@ class MachineIterations : public MachineAddresses<Real> {
 
   // Of arrays in loops: whole ones are summed as Distance does it, in parts, others one by one.
   template <class Each>
-  Distance measure_each(const Each& each, bool are_whole, std::size_t arrays) const {
+  Distance measure_each(const Each& each, bool are_whole, std::size_t arrays,
+                        bool is_in_loops) const {
     struct Seen {
       std::vector<Real> moved, value, beside;
     };
     std::vector<Seen> seen(arrays);
     std::size_t next = 0;
     Distance distance;
+    if (is_in_loops) distance.units = kUnitsInLoops;
     each([&](const Array2& u) {
       const Real value = m_.frame.at(u.value);
       const Real increment = m_.frame.at(u.increment);

@@ -1,8 +1,9 @@
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
-  // Over so many units of rounding what is not linear is far below them, and Refinement goes on.
-  static constexpr Real units = 16384;
+  // Over so many units of rounding what is not linear is far below them, and Refinement goes on. In
+  // loops a round of that costs more than an iteration: there it is left less.
+  Real units = 16384;
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
@@ -14,7 +15,7 @@ struct Distance {
   Real scale = 0;
   Real far = 0;
 
-  static Real far_of(Real moved, Real length) {
+  Real far_of(Real moved, Real length) const {
     return moved <= units * epsilon * (length + tiny) ? Real(0) : moved;
   }
   bool near() const { return far <= lost * scale; }

@@ -19,7 +19,7 @@ inline void add_lanes(const Pack<W>& zero, Distance& distance, const double* mov
       const Pack<W> length = lane_abs(Pack<W>::at(value + at)) + lane_abs(Pack<W>::at(beside + at));
       size[k] += way;
       scale[k] += length;
-      const Pack<W> least = Distance::units * 0x1p-52 * (length + Distance::tiny);
+      const Pack<W> least = distance.units * 0x1p-52 * (length + Distance::tiny);
       far[k] += select(way <= least, zero, way);
     }
   }

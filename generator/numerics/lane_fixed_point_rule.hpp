@@ -1,7 +1,7 @@
 // How far an iteration has moved in each lane, as for one trajectory (fixed_point_rule.hpp).
 struct Distance {
   // Over so many units of rounding what is not linear is far below them.
-  static constexpr double units = 16384;
+  double units = 16384;
   // What is less than this of the whole is not waited for.
   static constexpr double lost = epsilon * epsilon * epsilon;
   // What is rounded like this.
@@ -10,7 +10,7 @@ struct Distance {
   Real scale = 0;
   Real far = 0;
 
-  static Real far_of(const Real& moved, const Real& length) {
+  Real far_of(const Real& moved, const Real& length) const {
     return select(moved <= units * epsilon * (length + tiny), Real(0), moved);
   }
   Mask near() const { return far <= lost * scale; }

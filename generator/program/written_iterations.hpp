@@ -252,6 +252,7 @@ class IterationWriter : public RuleWriter {
       if (form_.lanes && newton) set(lanes_in_turn(), at({"start", iterate.name + ".open"}));
       write(iterate.body);
       add(Declare{"Distance", {"distance "}});
+      if (iterate.work) set(at({"distance ", "units"}), integer(kUnitsInLoops));
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
       if (iterate.lanes > 0) write({{moved_in_lanes(iterate)}});
