@@ -95,6 +95,7 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
         EXPECT_EQ(together.slope[j][lane], lane == 6 ? 0 : alone.slope[j]) << lane;
         EXPECT_EQ(together.change[j][lane], lane == 6 ? 0 : alone.change[j]) << lane;
       }
+      EXPECT_EQ(together.contraction[lane], lane == 6 ? 1 : alone.contraction) << lane;
       if (lane != 6 && ruled) {
         EXPECT_EQ(rule.contraction[lane], other.contraction) << lane;
       }

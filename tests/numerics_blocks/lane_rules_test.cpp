@@ -106,6 +106,12 @@ TEST(LaneRules, AFixedPointIsToldInEachLaneByItsStepBefore) {
     }
   }
   EXPECT_GT(at_once, 20);
+  // The 32nd step measures it in all lanes.
+  turn.begin(true);
+  ASSERT_TRUE(turn.is_check());
+  rule.begin(turn);
+  (void)rule(moved_by(lanes::Real(100 * 0x1p-52)), 1);
+  EXPECT_TRUE(all(rule.open));
 }
 
 TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {

@@ -136,7 +136,8 @@ TEST(LaneRuleWithMatrix, EachLaneComparesAsAlone) {
     lanes::Real solution[2];
     for (int lane = 0; lane < kCount; ++lane) {
       const double beside = 0.3 * lane + 0.001 * step * step;
-      Whole<double> own{{{1 + 0.01 * lane * step, beside}, {beside, 2 - 0.003 * step * step}}};
+      Whole<double> own{
+          {{1 + 0.01 * lane * (step % 3), beside}, {beside, 2 - 0.003 * step * step}}};
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) matrix.entry[r][c].set(lane, own.entry[r][c]);
       const double values[2] = {1 + 0.1 * lane + 0.02 * step, 2 - 0.01 * step * lane};
@@ -163,8 +164,11 @@ TEST(LaneRuleWithMatrix, EachLaneComparesAsAlone) {
     }
     rule.watch(history, solution, 0, 2);
     history.record(solution);
-    for (int lane = 0; lane < kCount; ++lane)
+    for (int lane = 0; lane < kCount; ++lane) {
       EXPECT_EQ(rule.moves[0][lane], alone[lane].moves[0]) << step << " " << lane;
+      EXPECT_EQ(rule.fresh[lane], step < 4 ? 3 - step : 0);
+      EXPECT_EQ(alone[lane].fresh, step < 4 ? 3 - step : 0);
+    }
   }
   EXPECT_GT(turned, 100);
 }
