@@ -55,7 +55,7 @@ struct Distance {
 // for some 8 units more.  So the next increment may be as large: it is the last one times the
 // contraction, which this and the one before it show.  A first increment is judged by the
 // contraction of the step before, four times over, but for every 32nd.  (With 64 units, pairs whose
-// bond is a 1e7th of their coordinates were off by 51 roundings: over such a way, amplified, their
+// bond is a 1e6th of their coordinates were off by 51 roundings: over such a way, amplified, their
 // force is not linear.)
 template <int Cycle>
 struct FixedPointRule {

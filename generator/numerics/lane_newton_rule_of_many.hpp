@@ -51,17 +51,22 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       this->unmeasured = this->unmeasured | changes;
     }
   }
+  // A step more is known in these lanes, which has come to these values.  Whatever the others do,
+  // sizes are looked at in every 16th step.
+  void notice(const Real* value, int count, const Mask& lanes) {
+    age = (age + 1) % 16;
+    fresh = select(lanes & (fresh > 0), fresh - 1, fresh);
+    if (age == 0 && any(lanes)) follow(value, count, lanes);
+  }
   // The solution of a step, from the unknown `first` on, before the history records it: in lanes
-  // that have come to it so.  Whatever the others do, sizes are looked at in every 16th step.
+  // that have come to it so.
   template <class Past, int All>
   void watch(const Past& past, const Real (&solution)[All], int first, int count,
              const Mask& lanes = true) {
-    age = (age + 1) % 16;
-    fresh = select(lanes & (fresh > 0), fresh - 1, fresh);
+    notice(solution + first, count, lanes);
     Real move = 0;
     Real bend = 0;
     if (any(lanes)) {
-      if (age == 0) follow(solution + first, count, lanes);
       for (int j = 0; j < count; ++j) {
         moves[j] = select(lanes, past.template difference<0>(solution, first + j), moves[j]);
         bends[j] =

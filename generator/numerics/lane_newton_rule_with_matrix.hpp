@@ -17,13 +17,8 @@ struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
   template <class Past, int All>
   void watch(const Past& past, const Real (&solution)[All], int first, int count,
              const Mask& lanes = true) {
-    this->age = (this->age + 1) % 16;
-    this->fresh = select(lanes & (this->fresh > 0), this->fresh - 1, this->fresh);
-    if (any(lanes)) {
-      if (this->age == 0) this->follow(solution + first, count, lanes);
-      for (int j = 0; j < count; ++j)
-        ways[j] = select(lanes, past.way(solution, first + j), ways[j]);
-    }
+    this->notice(solution + first, count, lanes);
+    for (int j = 0; j < count; ++j) ways[j] = select(lanes, past.way(solution, first + j), ways[j]);
     this->motion = {};
   }
   template <class Matrix>

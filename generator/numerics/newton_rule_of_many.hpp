@@ -84,11 +84,15 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       this->unchecked = 32;
     }
   }
+  // A step more is known, which has come to these values.
+  void notice(const Real* value, int count) {
+    if (++age >= 16) follow(value, count);
+    if (fresh > 0) --fresh;
+  }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
-    if (++age >= 16) follow(&solution[first], count);
-    if (fresh > 0) --fresh;
+    notice(&solution[first], count);
     Real move = 0;
     Real bend = 0;
     Real slowest = largest;

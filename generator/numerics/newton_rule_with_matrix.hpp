@@ -17,16 +17,14 @@
 //
 template <int Unknowns>
 struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
-  Real slopes[Unknowns][Unknowns] =
-      {};                      // the lower half, in the first iteration of the step before
-  Real ways[Unknowns] = {};    // since the step before
-  Real turned[Unknowns] = {};  // the bends that the step before has shown
+  Real slopes[Unknowns][Unknowns] = {};  // the matrix at the beginning of the step before
+  Real ways[Unknowns] = {};              // since that step
+  Real turned[Unknowns] = {};            // the bends that it has shown
 
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
-    if (++this->age >= 16) this->follow(&solution[first], count);
-    if (this->fresh > 0) --this->fresh;
+    this->notice(&solution[first], count);
     for (int j = 0; j < count; ++j) ways[j] = past.way(solution, first + j);
     this->motion = {};
   }

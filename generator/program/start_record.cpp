@@ -6,7 +6,6 @@
 
 namespace hamgen {
 
-// Its matrix is at hand whole, and the exact one.
 bool is_compared(const Solve& solve) {
   return solve.linear_solver == LinearSolver::elimination && !solve.simplified &&
          !solve.constant_matrix && form_of(solve) == MatrixForm::symmetric;

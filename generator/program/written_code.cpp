@@ -143,8 +143,8 @@ class RoutineWriter : public RunWriter {
 
   void operator()(const Factorise& node) {
     if (node.compared > 0) {
-      add(Do{action("NewtonRule", rule_, "compare",
-                    {object(node.matrix), integer(node.compared)})});
+      add(Do{
+          action("NewtonRule", rule_, "compare", {object(node.matrix), integer(node.compared)})});
     }
     std::vector<Value> lanes;
     if (is_in_turn(node.matrix)) lanes.push_back(lanes_in_turn());

@@ -149,7 +149,7 @@ TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
 TEST(ContractIsBroken, WhereAllUnknownsHaveOneUnit) {
   const auto forget_units =
       with({{"1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest)", "1"},
-            {"if (++age >= 16) follow(&solution[first], count);", ""},
+            {"if (++age >= 16) follow(value, count);", ""},
             {"bend * part * part * 16 > round_off * move * move", "part < 0"},
             {"* ratio * ratio", "* ratio * 0"}});
   const Case c = case_of("unlike_units", "small", {}, 100);
