@@ -57,6 +57,27 @@ void require_c(const EmitContext& context) {
   }
 }
 
+// Is the statement of this line at its end, or the line a comment?
+bool ends_here(std::string_view line) {
+  const std::size_t last = line.substr(0, line.find("//")).find_last_not_of(' ');
+  return last == line.npos || std::string_view(";{}").find(line[last]) != std::string_view::npos;
+}
+
+// A block, each statement in a line: with other names it is broken elsewhere.
+std::string unbroken(const std::string& text) {
+  std::string result;
+  bool goes_on = false;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
+    result += goes_on ? " " + line.substr(line.find_first_not_of(' ')) : line;
+    goes_on = !ends_here(line);
+    if (!goes_on) result += '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
 // The text of a block with our names for its own.
 std::string block_text(std::string_view name, const CDialect& dialect, int unknowns = 0) {
   const auto renamed = [&](const std::string& word) -> std::string {
@@ -68,7 +89,7 @@ std::string block_text(std::string_view name, const CDialect& dialect, int unkno
   };
   std::string result;
   std::string word;
-  for (const char c : c_numerics(name, dialect.scalar, dialect.function("fabs"))) {
+  for (const char c : unbroken(c_numerics(name, dialect.scalar, dialect.function("fabs")))) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
       word += c;
       continue;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/formats/code_writer.hpp"
+#include "generator/base/code_writer.hpp"
 #include "generator/formats/emit_options.hpp"
 #include "generator/formats/print_code.hpp"
 #include "generator/formats/print_expression.hpp"

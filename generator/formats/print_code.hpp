@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "generator/formats/code_writer.hpp"
+#include "generator/base/code_writer.hpp"
 #include "generator/formats/dialect.hpp"
 #include "generator/program/code.hpp"
 

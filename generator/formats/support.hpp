@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "generator/algebra/scalar.hpp"
+#include "generator/base/code_writer.hpp"
 #include "generator/base/fixed_blocks.hpp"
-#include "generator/formats/code_writer.hpp"
 #include "generator/formats/output_files.hpp"
 
 namespace hamgen {

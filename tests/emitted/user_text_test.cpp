@@ -6,10 +6,10 @@
 #include <array>
 #include <functional>
 
+#include "generator/base/code_writer.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/quoted_text.hpp"
 #include "generator/base/source_text.hpp"
-#include "generator/formats/code_writer.hpp"
 #include "tests/emitted/compiled.hpp"
 
 namespace hamgen::emitted_test {

@@ -18,11 +18,13 @@ class CodeWriter {
   // A line of code; one that would pass column 100 is broken as clang-format would: at the
   // outermost operator or comma that fits, going on under what the operand began with.
   void line(const std::string& text = "") {
-    const std::size_t depth = static_cast<std::size_t>(2 * depth_);
     std::string_view rest = text;
+    const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
+    rest.remove_prefix(blanks);
+    const std::size_t depth = static_cast<std::size_t>(2 * depth_) + blanks;
     std::size_t indent = depth;
     std::vector<std::size_t> columns{
-        first_operand(text, depth)};  // where each bracket level goes on
+        first_operand(rest, depth)};  // where each bracket level goes on
     if (text.find("//") == std::string::npos && text.find('"') == std::string::npos) {
       std::size_t equals = rest.find(" = ");
       while (indent + rest.size() > kColumns) {
@@ -122,10 +124,10 @@ class CodeWriter {
   static constexpr std::size_t kColumns = 100;
 
   // Where the operands of a statement begin: after "return " or " = ".
-  static std::size_t first_operand(const std::string& text, std::size_t depth) {
+  static std::size_t first_operand(std::string_view text, std::size_t depth) {
     if (text.starts_with("return ")) return depth + 7;
     const std::size_t equals = text.find(" = ");
-    return equals == std::string::npos ? depth + 4 : depth + equals + 3;
+    return equals == std::string_view::npos ? depth + 4 : depth + equals + 3;
   }
 
   // The blank to break at: within the width, at the outermost bracket level that has one, after
@@ -140,7 +142,7 @@ class CodeWriter {
       if (before == '(' || before == '{' || before == '[') ++level;
       if ((before == ')' || before == '}' || before == ']') && level > 0) --level;
       if (text[i] != ' ' || (start != std::string::npos && i <= start + 2)) continue;
-      const bool weak = before == '+' || before == '-' || before == ',' || before == '?';
+      const bool weak = std::string_view("+-,?&|").find(before) != std::string_view::npos;
       // Not the star of a pointer.
       const bool strong = (before == '*' || before == '/') && i >= 2 && text[i - 2] == ' ';
       if (!weak && !strong) continue;
