@@ -35,6 +35,7 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
+  bool changes = false;
   bool found = true;  // was the solution at the end, or does the map not contract?
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
@@ -58,10 +59,8 @@ struct Refinement {
       if (ends) {
         ++rule.unchecked;
         found = true;
-        for (int k = 0; k < Components; ++k) {
-          slope[k] = gradient[k];
-          change[k] = 0;
-        }
+        take_slopes(gradient);
+        if (changes) forget_changes();
         return false;
       }
     }
@@ -93,11 +92,16 @@ struct Refinement {
     });
     learn_of(lengths_of(error));
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
+    changes = true;
     const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
 
+  void forget_changes() {
+    changes = false;
+    for (Real& value : change) value = 0;
+  }
   Real times_counted() const {
     const Real left = 32768 * contraction;
     return left > 32 ? (left < 8192 ? left : Real(8192)) : Real(32);
@@ -112,6 +116,9 @@ struct Refinement {
       missing[j] = lack[j];
       moved[j] = 0;
     }
+    take_slopes(gradient);
+  }
+  void take_slopes(const Real* gradient) {
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
   // Of unknowns that lack more than so many units of their own rounding.

@@ -3,8 +3,18 @@ template <class Term>
 inline Real sum_of(int count, const Term& term) {
   Real parts[8] = {};
   int j = 0;
-  for (; j + 8 <= count; j += 8) {
-    for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+  if constexpr (sizeof(Real) <= 8) {
+    for (; j + 8 <= count; j += 8) {
+#if defined __AVX__ && \
+    !defined __clang__  // else g++ takes them apart, and adds one after the other
+#pragma GCC unroll 1
+#endif
+      for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+    }
+  } else {
+    for (; j + 8 <= count; j += 8) {
+      for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+    }
   }
   for (int k = 0; j + k < count; ++k) parts[k] += term(j + k);
   return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
