@@ -92,7 +92,11 @@ struct NewtonRule : Iteration {
       lost = lost & !(iterations > 1 ? leaves & (previous > round_off) : leaves);
     }
     done = done | lost;
-    if (iterations > 1) done = done | (is_next_lost(size, round_off) & served);
+    if (iterations > 1) {
+      const Mask reaches =
+          Many && Power == 2 ? size * size * size <= epsilon * round_off : Mask(true);
+      done = done | (is_next_lost(size, round_off) & served & reaches);
+    }
     open = open & !done;
     if (iterations > 1) end_with(open & predicted & (2 * size > previous) & !noise, size);
     if (iterations >= 60) {

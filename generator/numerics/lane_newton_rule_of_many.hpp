@@ -55,7 +55,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // sizes are looked at in every 16th step.
   void notice(const Real* value, int count, const Mask& lanes) {
     age = (age + 1) % 16;
-    fresh = select(lanes & (fresh > 0), fresh - 1, fresh);
+    const Mask unknown = lanes & (fresh > 0);
+    const Mask too_small = unknown & (1024 * this->contraction < 1);
+    this->unmeasured = this->unmeasured | unknown;
+    this->contraction = select(too_small, Real(1.0 / 1024), this->contraction);
+    fresh = select(unknown, fresh - 1, fresh);
     if (age == 0 && any(lanes)) follow(value, count, lanes);
   }
   // The solution of a step, from the unknown `first` on, before the history records it: in lanes

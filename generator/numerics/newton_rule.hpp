@@ -117,7 +117,8 @@ struct NewtonRule {
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     const Real shown = Many ? 8 * round_off : seen_in(scale);
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
-    if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
+    const bool reaches = !Many || first || Power == 1 || size * size * size <= epsilon * round_off;
+    if (looked && serves && reaches && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.

@@ -22,7 +22,11 @@
 //
 // In the first four steps, of which no motion is known, the first increment is that of the motion,
 // and tells nothing of what moves together: of pairs in free flight the next one was told to be
-// lost, and their distance was off by up to 1e6.  There an increment must be lost itself.
+// lost, and their distance was off by up to 1e6.  There an increment must be lost itself, and none
+// ends a step as the first.  Nor may the contraction that is seen there be believed: a pair that
+// moves as a whole shows none, 1e-9, and swings it did not know of were off by 6e7 roundings, until
+// they were measured: it is a 2^-10th at least.  Nor does what follows a first increment tell the
+// contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -87,7 +91,10 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // A step more is known, which has come to these values.
   void notice(const Real* value, int count) {
     if (++age >= 16) follow(value, count);
-    if (fresh > 0) --fresh;
+    if (fresh <= 0) return;
+    --fresh;
+    this->unchecked += 32;
+    if (1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>

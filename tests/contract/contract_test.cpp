@@ -86,6 +86,8 @@ TEST(StepsInLanes, KeepTheContractOfQuietUnknownsBesideLoudOnes) {
                         case_of("heavy", "million", {.batch = 2}, 200),
                         case_of("ripple", "beside", {.batch = 2}, 300),
                         case_of("together", "fast", {.batch = 2}, 60),
+                        case_of("together", "stiff", {.batch = 2}, 80),
+                        case_of("in_flight", "quiet", {.batch = 2}, 60),
                         case_of("in_flight", "far", {.batch = 2}, 20)});
 }
 
@@ -140,7 +142,9 @@ TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
   const auto forget_each =
       with({{"uneven <= 0 || is_even(", "uneven >= 0 || is_even("},
             {"bend * part * part * 16 > round_off * move * move", "part < 0"},
-            {"64 * epsilon * seen.shortest", "64 * round_off + 0 * seen.shortest"}});
+            {"64 * epsilon * seen.shortest", "64 * round_off + 0 * seen.shortest"},
+            {"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"},
+            {"size * size * size <= epsilon * round_off", "size >= 0"}});
   const Case beads = case_of("row", "two", {.scheme = "sofroniou-spaletta-10"}, 200);
   EXPECT_LE(Interpretable(beads.model).measure(beads).worst, kAllowed);
   EXPECT_GE(measure({beads}, forget_each).at(0).broken, 1);
@@ -168,9 +172,21 @@ TEST(ContractIsBroken, WhereNoUnknownIsAskedByItself) {
   const Hole holes[] = {
       {case_of("free_wall", "harder", {}, 400),
        {{"bend * part * part * 16 > round_off * move * move", "part < 0"}}},
-      {case_of("saddle", "fall", {}, 40), {{"* ratio * ratio", "* ratio * 0"}}},
-      {case_of("in_flight", "far", {}, 20), {{"if (fresh > 0) return", "if (fresh > 9) return"}}},
-      {case_of("together", "fast", {}, 60), {{"magnitude(sum[j]) / turns[j]", "Real(1)"}}},
+      {case_of("saddle", "fall", {}, 40),
+       {{"* ratio * ratio", "* ratio * 0"},
+        {"size * size * size <= epsilon * round_off", "size >= 0"}}},
+      {case_of("in_flight", "far", {}, 20),
+       {{"if (fresh > 0) return", "if (fresh > 9) return"},
+        {"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"},
+        {"size * size * size <= epsilon * round_off", "size >= 0"}}},
+      {case_of("in_flight", "quiet", {}, 60),
+       {{"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"}}},
+      {case_of("together", "stiff", {}, 80),
+       {{"size * size * size <= epsilon * round_off", "size >= 0"}}},
+      {case_of("together", "fast", {}, 60),
+       {{"magnitude(sum[j]) / turns[j]", "Real(1)"},
+        {"if (1024 * this->contraction < 1)", "if (this->contraction < 0)"},
+        {"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("beside_huge", "away", {}, 60), {{"return !converging;", "return true;"}}}};
   for (const Hole& hole : holes) {
     EXPECT_LE(Interpretable(hole.c.model).measure(hole.c).worst, kAllowed) << hole.c.name;

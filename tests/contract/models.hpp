@@ -193,12 +193,15 @@ scene loud { x = 1; u = 1000; y = 0.1; v = 1; h = 0.1; steps = 3000 }
 momentum u, v, b, g
 parameter c = 18
 parameter l = 1
-H = (u^2 + v^2 + b^2 + g^2)/2 + 8*(x + y)^2 - c^2*(y - x)^2/4 + c^2*(y - x)^3/(6*l) + c^2*(y - x)^4/(8*l^2) + 1e-12*(z*w^2 + x*w^2 + x*z^2)
+parameter k = 8
+H = (u^2 + v^2 + b^2 + g^2)/2 + k*(x + y)^2 - c^2*(y - x)^2/4 + c^2*(y - x)^3/(6*l) + c^2*(y - x)^4/(8*l^2) + 1e-12*(z*w^2 + x*w^2 + x*z^2)
 scene slow { x = -0.3; y = -0.3 + 1e-10; u = 0.26; v = 0.26; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 60 }
 scene fast { c = 19; x = -0.17; y = -0.17 + 1e-10; u = 1.6; v = 1.6; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 60 }
 scene short { c = 7; l = 1e-3; x = -0.45; y = -0.45 + 1e-10; u = -0.06; v = -0.06; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 110 }
+scene stiff { k = 200; c = 10; l = 0.01; x = -0.5; y = -0.5 + 1e-10; u = 5; v = 5; z = 1; w = -0.3; b = 1; g = 3; h = 0.05; steps = 80 }
 )"},
-    // A pair that goes in a step as far as it is long, or ten times as far.
+    // A pair that goes in a step as far as it is long, or up to fifty times as far, and swings
+    // widely or hardly at all.
     SteepModel{"in_flight", R"(coordinate x, y
 momentum u, v
 parameter l = 1
@@ -206,6 +209,8 @@ parameter D = 200
 H = (u^2 + v^2)/2 + D*(1 - exp(-(y - x - l)/l))^2
 scene close { x = 0; u = 20; y = 1.001; v = 20; h = 0.05; steps = 100 }
 scene far { l = 0.1; D = 2; x = 0; u = 20; y = 0.1001; v = 20; h = 0.05; steps = 100 }
+scene quiet { l = 0.2; D = 1; x = 5; u = 20; y = 5.20003; v = 20; h = 0.05; steps = 60 }
+scene short { l = 0.02; D = 0.02; x = -30; u = 20; y = 0.02003 - 30; v = 20; h = 0.05; steps = 60 }
 )"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.

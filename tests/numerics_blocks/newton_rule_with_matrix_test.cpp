@@ -97,6 +97,7 @@ TYPED_TEST(NewtonRuleWithMatrix, AnOscillationIsStraightAsLongAsItsMatrixStands)
     rule.unchecked = 0;
     typename TypeParam::template Past<2> past;
     Whole<Real> matrix{{{1, 0}, {0, 1}}};
+    rule.fresh = 0;
     // Half a radian a step: x, y turn by 3/5, 4/5 on a circle of a 16th.
     Real x = Real(1) / 16, y = 0;
     for (int k = 0; k < 6; ++k) {

@@ -106,7 +106,8 @@ TYPED_TEST(QuietUnknowns, AFreshRuleIsToldNothingByItsFirstIncrement) {
     const Real first[2] = {TypeParam::two_to(-3), TypeParam::two_to(-3)};
     EXPECT_EQ(rule.of_each(first, length, length, 2, 1), Verdict::go_on);
     // The next one would be lost, were it told by the first.
-    const Real second[2] = {small * TypeParam::two_to(-4), small * TypeParam::two_to(-4)};
+    const Real told = small * TypeParam::two_to(TypeParam::bits > 100 ? -24 : -16);
+    const Real second[2] = {told, told};
     EXPECT_EQ(rule.of_each(second, length, length, 2, 2), step < 4 ? Verdict::go_on : Verdict::done)
         << step;
     const Real solution[2] = {Real(step), Real(step)};

@@ -65,7 +65,11 @@ static inline void History_watch(const History* history, NewtonRule* rule, const
                                  int first, int count) {
   const Real* unit = count > 1 ? rule->unit : 0;
   if (unit) NewtonRule_follow(rule, solution + first, count);
-  if (unit && rule->fresh > 0) --rule->fresh;
+  if (unit && rule->fresh > 0) {
+    --rule->fresh;
+    rule->unchecked += 32;
+    if (1024 * rule->contraction < 1) rule->contraction = (Real)1 / 1024;
+  }
   rule->move = History_error(history, 0, solution, first, count, unit);
   rule->bend = History_error(history, rule->power + 1, solution, first, count, unit);
   for (int j = 0; unit && j < count; ++j) {

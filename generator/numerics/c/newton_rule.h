@@ -15,7 +15,7 @@ typedef struct {
   bool predicted;
   Real move, bend;
   Real far;
-  Real unit[3];   // one over the size of each unknown, of which there are at most three; 0: unknown
+  Real unit[3];   // one over the size of each of at most three unknowns; 0: not known yet
   Real moves[3];  // the motion of each, as it is written
   Real bends[3];
   Real before[3];  // by how much each moved in the iteration before
@@ -24,8 +24,11 @@ typedef struct {
   bool still;
 } NewtonRule;
 static inline NewtonRule NewtonRule_of_power(int power) {
-  const NewtonRule rule = {power, largest,   32,        0,         0,         false, 0, 0,
-                           0,     {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0,     4, false};
+  NewtonRule rule = {0};
+  rule.power = power;
+  rule.contraction = largest;
+  rule.unchecked = 32;
+  rule.fresh = 4;
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -73,9 +76,10 @@ static inline bool NewtonRule_is_in_reach(const NewtonRule* rule, const Real* mo
 static inline bool NewtonRule_is_still(const NewtonRule* rule, const Real* moved,
                                        const Real* length, int count) {
   bool converging = false;
-  for (int j = 0; j < count; ++j)
-    converging = converging ||
-                 (moved[j] > 8 * epsilon * magnitude(length[j]) && 2 * moved[j] <= rule->before[j]);
+  for (int j = 0; j < count; ++j) {
+    const bool moves = moved[j] > 8 * epsilon * magnitude(length[j]);
+    converging = converging || (moves && 2 * moved[j] <= rule->before[j]);
+  }
   return !converging;
 }
 // size, scale: of the increment and of the value, or sums over the unknowns; uneven: of what is
@@ -125,7 +129,9 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
   const Real shown = many ? 8 * round_off : epsilon * (near < scale ? near : scale);
   const bool straight =
       bend * NewtonRule_power(rule, size) * 1024 <= shown * NewtonRule_power(rule, rule->move);
-  if ((rule->previous > 0 || straight) && serves && rule->unchecked < 32 &&
+  const bool reaches =
+      !many || rule->previous <= 0 || rule->power == 1 || size * size * size <= epsilon * round_off;
+  if ((rule->previous > 0 || straight) && serves && reaches && rule->unchecked < 32 &&
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;
   }
@@ -222,7 +228,9 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
                                            scale, moved, length, way, count);
   // Noise of rounding is no more than 64 roundings of a size: what an iteration has ended with.
   for (int j = 0; rule->still && j < count; ++j) {
-    if (moved[j] * rule->unit[j] > 64 * epsilon) rule->unit[j] = 64 * epsilon / moved[j];
+    if (moved[j] * rule->unit[j] > 64 * epsilon) {
+      rule->unit[j] = 64 * epsilon / moved[j];
+    }
   }
   for (int j = 0; verdict == go_on && j < count; ++j) rule->before[j] = moved[j];
   return verdict;
